@@ -3,6 +3,7 @@
 Fenced blocks are run from the top of a page to its end, in a copy of the project: `console`
 (commands after `$`, with what they print), `pycon` (a Python session), `python` (a program),
 `output` (what the last program printed) and `diff`, which is applied to the file that it names.
+Where a page uses git, the copy is a repository in which all is committed.
 A command is a process of its own once a page has changed what it is made of, and runs in this one
 until then, as its entry point does: for most pages, starting it would be most of the work.
 Whatever port a command or a program opens, a virtual board is there.
@@ -63,20 +64,37 @@ TIMEOUT_OPTIONS = {
 GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
 
 # What examples read, and what follows from it, for those that change it.
-_READ = ("spec", "docs", "tests/captures")
+_READ = ("spec", "docs", "tests/captures", ".gitignore")
 _CHANGED = (
     *("generated", "codegen", "simulator"),
     *("tests/witnesses.yaml", "tests/cases.py", "tests/oracle.py", "tests/test_client_contract.py"),
 )
-_COMMANDS = {
+_COMMANDS: dict[str, Callable[[Sequence[str]], object]] = {
     "busservo": busservo._cli.main,
     "framegen": framegen.cli.main,
     "lxservo": lxservo._cli.main,
+}
+_GIT_PROGRAM = shutil.which("git") or "git"
+# Whoever commits, and when, the same is printed.
+_GIT = {
+    **{
+        f"GIT_{who}_{what}": word
+        for who in ("AUTHOR", "COMMITTER")
+        for what, word in (
+            ("NAME", "Reader"),
+            ("EMAIL", "reader@example.org"),
+            ("DATE", "2026-01-01T00:00:00Z"),
+        )
+    },
+    "GIT_CONFIG_GLOBAL": os.devnull,
+    "GIT_CONFIG_SYSTEM": os.devnull,
+    "GIT_PAGER": "cat",
 }
 # What each of them is made of, by the folder at the top.
 _GENERATED = {"spec", "codegen", "generated"}
 _MADE_OF = {"busservo": _GENERATED, "framegen": {"codegen"}, "lxservo": _GENERATED}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_TIMED = re.compile(r"(?:^.*\(\d+\.\d+ s\)\n)+", re.MULTILINE)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
 
@@ -95,7 +113,28 @@ def copy_project(folder: Path, page: str) -> Path:
             shutil.copytree(ROOT / name, folder / name, ignore=litter)
         else:
             shutil.copy(ROOT / name, folder / name)
+    if "$ git " in page:
+        committed(folder)
     return folder
+
+
+def committed(folder: Path) -> None:
+    """Make a repository of a folder, with all that is there in its first commit."""
+    for words in (("init", "-q", "-b", "main"), ("add", "--all"), ("commit", "-q", "-m", "Begin")):
+        _git(folder, words)
+
+
+def _git(folder: Path, words: Sequence[str]) -> str:
+    """Return what git prints."""
+    return subprocess.run(
+        [_GIT_PROGRAM, *words],
+        cwd=folder,
+        env=os.environ | _GIT | {"COLUMNS": "80"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        check=True,
+    ).stdout
 
 
 class _Player:
@@ -174,6 +213,9 @@ class _Player:
         output = ""
         for command in line.split(" | "):
             name, *arguments = shlex.split(command)
+            if name == "git":
+                output = _git(self._folder, arguments)
+                continue
             assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
             run = self._start if self._changed & _MADE_OF[name] else self._call
             with self._connected(arguments) as (words, shown_as):
@@ -264,7 +306,8 @@ def _agreed(expected: str, actual: str) -> str:
     """Return the expected text if it agrees with the real one, omissions aside; else the latter."""
     pieces = re.split(r"^\.\.\.\n", expected, flags=re.MULTILINE)
     pattern = r"(?:.*\n)*".join(map(re.escape, pieces))
-    return expected if re.fullmatch(pattern, actual) else actual
+    # What takes a time takes another the next time.
+    return expected if re.fullmatch(pattern, actual) else _TIMED.sub("...\n", actual)
 
 
 class StaleDiffError(Exception):

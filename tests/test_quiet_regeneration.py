@@ -316,7 +316,9 @@ def test_a_new_named_value_changes_what_shows_it() -> None:
 
 def test_a_new_version_changes_what_states_it() -> None:
     text = text_of("busservo")
-    later = text.replace("version: 1.0.0", "version: 1.0.1").replace('"1.0.0"', '"1.0.1"')
+    version = data_of(BUSSERVO)["protocol"]["version"]
+    later = text.replace(f"version: {version}", "version: 99.0.0")
+    later = later.replace(f'"{version}"', '"99.0.0"')
     assert changed(files(text), files(later)) == {
         "docs/reference/busservo/README.md",
         "docs/reference/busservo/changelog.md",

@@ -61,7 +61,7 @@ def test_json_holds_all_of_a_run() -> None:
     steps = report.pop("steps")
     assert report == {
         "protocol": "busservo",
-        "version": "1.0.0",
+        "version": MODEL.spec.protocol.version,
         "device": "controller",
         "port": "a line",
         "baud": 9600,
