@@ -54,15 +54,18 @@ def outcome_of(table: Table, play: Play) -> tuple[str, str]:
     if (play.kind, play.ending) in _OTHERWISE:
         outcome, text = _OTHERWISE[play.kind, play.ending]
         return outcome, text.format(answer)
-    if play.kind != "reply" and not answer:
-        said = "is refused" if play.kind == "refusal" else "fails"
-        return "no error", f"{said}, of which nothing is said: {_unsaid(play)}"
     if play.kind != "reply":
-        said = (
-            f"is refused by {answer}, which" if play.kind == "refusal" else f"fails, and {answer}"
-        )
-        return "no error", f"{said} {_unheard(play)}"
+        return "no error", _unnoticed(play, answer)
     return _lost(table, play, answer)
+
+
+def _unnoticed(play: Play, answer: str) -> str:
+    """Return why a refusal or a failure is not noticed."""
+    if not answer:
+        said = "is refused" if play.kind == "refusal" else "fails"
+        return f"{said}, of which nothing is said: {_unsaid(play)}"
+    said = f"is refused by {answer}, which" if play.kind == "refusal" else f"fails, and {answer}"
+    return f"{said} {_unheard(play)}"
 
 
 def _lost(table: Table, play: Play, answer: str) -> tuple[str, str]:
