@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from functools import lru_cache
 from typing import Any
 
 from framegen.checks import check_model, check_structure
@@ -56,7 +57,13 @@ def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) ->
     Its text is not read again, so that nothing in it has a place. Of one that is not checked,
     nobody knows what is wrong with it.
     """
-    values = json.loads(json.dumps(data))
+    return _edition(json.dumps(data), label)
+
+
+# The specs that are edited are asked for again and again.
+@lru_cache(maxsize=32)
+def _edition(text: str, label: str) -> Edition:
+    values = json.loads(text)
     spec = Spec.model_validate(values)
     model, tree = derive(spec), Tree(values)
     tolerated = (check_structure(spec, tree) or check_model(model, tree)) if checked else ()
