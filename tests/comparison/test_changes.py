@@ -52,6 +52,13 @@ def test_a_rule_says_what_it_is_for(rule: ChangeRule) -> None:
     assert getattr(rules, rule.id.replace("-", "_")).RULE is rule
 
 
+@BY_ID
+def test_what_a_rule_says_is_not_about_its_example(rule: ChangeRule) -> None:
+    assert not re.search(
+        r"lamp|level|colour|signed_|_controller", f"{rule.why} {rule.do}", re.IGNORECASE
+    )
+
+
 def test_no_two_rules_share_an_id_and_none_has_that_of_a_rule_of_check() -> None:
     from framegen.checks import RULES  # noqa: PLC0415
 

@@ -133,8 +133,8 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
         ["value: `ServoMove.COMMAND` is 3; it was 4"],
     ),
     "unit": (
-        ["meaning: `ServoMove`: time_ms = 1 ms is read as 1 s"],
-        ["meaning: `ServoMove`: time_ms = 1 s is read as 1 ms"],
+        ["meaning: `ServoMove`: time_ms = 1 ms means 1 s"],
+        ["meaning: `ServoMove`: time_ms = 1 s means 1 ms"],
     ),
     "name of a message": (
         [
@@ -202,11 +202,11 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
     "number of a named value": (
         [
             "value: `VentsOpen.RAMP_S_AT_ONCE` is 1; it was 0",
-            "meaning: `VentsOpen`: ramp_s = 1 is read as at_once",
+            "meaning: `VentsOpen`: ramp_s = 1 means at_once",
         ],
         [
             "value: `VentsOpen.RAMP_S_AT_ONCE` is 0; it was 1",
-            "meaning: `VentsOpen`: ramp_s = at_once is read as 1",
+            "meaning: `VentsOpen`: ramp_s = at_once means 1",
         ],
     ),
     "limits narrowed": (

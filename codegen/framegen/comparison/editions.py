@@ -163,7 +163,7 @@ def _or_a_file(word: str, error: Unusable) -> Unusable:
     if Path(word).is_dir():
         return Unusable(f"{shown} is a folder, and not a spec", hint=_NAME_TWO)
     if word.endswith(_A_FILE):
-        return Unusable(f"{shown} does not exist", hint=near)
+        return Unusable(f"{shown} does not exist", hint=near if names else _NAME_TWO)
     return Unusable(f"`{shown}` is no file and no released edition, and {error}", hint=near)
 
 

@@ -24,10 +24,8 @@ _PREFIXES = {
     "G": Fraction(10**9),
 }
 # Units that take prefixes, to which all others that are known come down.
-_PREFIXED = frozenset(
-    ("s", "m", "g", "V", "A", "W", "Hz", "Pa", "N", "Nm", "Ah", "Wh", "K", "J", "bar", "gauss")
-    + ("rad", "°", "°C", "°F", "%", "Ω", "T", "F")
-)
+_BASES = ("s", "m", "g", "V", "A", "W", "Hz", "Pa", "N", "Nm", "Ah", "Wh", "K", "J", "Ω", "T", "F")
+_PREFIXED = frozenset((*_BASES, "rad", "°", "°C", "°F", "%", "bar", "gauss"))
 _SPELLINGS = {
     "sec": "s",
     "second": "s",

@@ -292,6 +292,11 @@ class Both:
         """Return what the new edition calls a message."""
         return None if name is None else self.pair.messages.to_new.get(name, name)
 
+    def certain_message(self, name: str) -> str:
+        """Return what the new edition calls a message, or its old name where that is a guess."""
+        pairing = self.pair.messages
+        return name if name in pairing.guessed else pairing.to_new.get(name, name)
+
     def source(self, name: str) -> str:
         """Return what the new edition calls a source."""
         found = (each.new_path[1] for each in self.sources.twins if each.old_path[1] == name)
