@@ -63,12 +63,11 @@ def described(field: Thing[AnyField]) -> str:
 
 def reservation(reserved: Reserved) -> str:
     """Return what is reserved: `id 30 (lamp -> host), name LampDim`."""
-    said = [] if reserved.id is None else [f"id {reserved.id}"]
-    if reserved.direction is not None:
-        said.append(f"({reserved.direction})")
+    way = "" if reserved.direction is None else f" ({reserved.direction})"
+    said = [] if reserved.id is None else [f"id {reserved.id}{way}"]
     if reserved.name:
         said.append(f"name {reserved.name}")
-    return " ".join(said)
+    return ", ".join(said)
 
 
 def concern(concerned: Concern) -> str:
