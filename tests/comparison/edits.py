@@ -107,7 +107,7 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "length counts itself": (HOUSE, with_(HOUSE, "frame", "size", "counts", ["size", "payload"])),
     "name of a constant part": (HOUSE, renamed(HOUSE, "preamble", "start")),
     "name of the library": (SERVO, with_(SERVO, "protocol", "name", "servobus")),
-    "version": (SERVO, with_(SERVO, "protocol", "version", "2.0.0")),
+    "version": (HOUSE, with_(HOUSE, "protocol", "version", "9.0.0")),
     "name of an end": (HOUSE, renamed(HOUSE, "display", "screen")),
     "client and device exchanged": (
         SERVO,
