@@ -32,7 +32,7 @@ def workflow_commands(view: View) -> Iterator[str]:
             yield _annotation(view, effect)
     if view.version_finding:
         at = _place(view, ("protocol", "version"))
-        yield f"::warning {at},title=version::{_message(view.version_finding)}"
+        yield f"::warning {at},title=version::{workflow_message(view.version_finding)}"
 
 
 def _annotation(view: View, effect: Effect) -> str:
@@ -46,20 +46,22 @@ def _annotation(view: View, effect: Effect) -> str:
     # What is gone is shown where it would stand.
     at = _place(view, effect.new or (effect.old or ())[:1])
     level = _LEVELS[standing(effect)]
-    return f"::{level} {at},title={_property(title)}::{_message(text)}"
+    return f"::{level} {at},title={workflow_property(title)}::{workflow_message(text)}"
 
 
 def _place(view: View, path: tuple[str | int, ...]) -> str:
     at = view.new.compiled.tree.key_at(path)
     # The file at a revision is the same file.
     file = view.new.label.rpartition(":")[2]
-    return f"file={_property(file)},line={at.line},col={at.column}"
+    return f"file={workflow_property(file)},line={at.line},col={at.column}"
 
 
-def _message(text: str) -> str:
+def workflow_message(text: str) -> str:
+    """Escape the message of a workflow command."""
     lines = "\n".join(visible(line) for line in text.split("\n"))
     return lines.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 
-def _property(text: str) -> str:
-    return _message(visible(text)).replace(":", "%3A").replace(",", "%2C")
+def workflow_property(text: str) -> str:
+    """Escape a property of a workflow command."""
+    return workflow_message(visible(text)).replace(":", "%3A").replace(",", "%2C")
