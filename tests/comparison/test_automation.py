@@ -19,6 +19,7 @@ from tests.timeouts import GENEROUS
 ACTION = ROOT / ".github" / "actions" / "framegen-diff" / "action.yml"
 WORKFLOW = ROOT / ".github" / "workflows" / "ci.yml"
 HOOKS = ROOT / ".pre-commit-hooks.yaml"
+GUIDE = ROOT / "docs" / "changing-the-protocol.md"
 BASH = shutil.which("bash")
 GIT = shutil.which("git")
 MILLISECONDS = ("type: u16\n        unit: s\n", "type: u16\n        unit: ms\n")
@@ -183,13 +184,10 @@ def test_a_spec_is_named_as_on_the_command_line(runner: Runner) -> None:
     code, printed = runner.compare(SPEC="greenhouse", GITHUB_BASE_REF="main")
     assert code == 1, printed
     assert "VentsOpen" in runner.report.read_text(encoding="utf-8")
-    # Without a base, it is compared with the last commit, from which it differs.
-    code, printed = runner.compare(SPEC="greenhouse", GITHUB_BASE_REF="")
-    assert code == 1, printed
 
 
 @needs_bash
-@pytest.mark.parametrize("spec", ["", "kiln"])
+@pytest.mark.parametrize("spec", ["", pytest.param("kiln", marks=pytest.mark.slow)])
 def test_a_renamed_spec_is_compared_with_what_it_was(runner: Runner, spec: str) -> None:
     change(runner.checkout)
     git(runner.checkout, "mv", "spec/greenhouse.yaml", "spec/kiln.yaml")
@@ -218,17 +216,28 @@ def test_a_new_spec_among_others_has_nothing_to_be_compared_with(runner: Runner)
 
 @needs_bash
 def test_a_push_without_a_release_says_that_nothing_was_compared(runner: Runner) -> None:
-    for spec in ("", "greenhouse"):
-        code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="")
-        assert code == 0, printed
-        assert "::notice title=framegen diff::Nothing was compared" in printed
-        assert not runner.report.exists()
+    code, printed = runner.compare(GITHUB_BASE_REF="")
+    assert code == 0, printed
+    assert "::notice title=framegen diff::Nothing was compared" in printed
+    assert not runner.report.exists()
+    assert not runner.summary.exists()
+
+
+@needs_bash
+@pytest.mark.slow
+@pytest.mark.parametrize("spec", ["", "greenhouse", "spec/greenhouse.yaml"])
+def test_a_push_is_compared_with_what_was_released(runner: Runner, spec: str) -> None:
     released = runner.checkout / "spec" / "released" / "greenhouse-1.0.0.yaml"
     released.parent.mkdir()
     shutil.copy(runner.checkout / "spec" / "greenhouse.yaml", released)
-    code, printed = runner.compare(SPEC="greenhouse", GITHUB_BASE_REF="")
+    code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="")
     assert (code, "::notice" in printed) == (0, False), printed
     assert runner.report.exists()
+    released.unlink()
+    # A spec that differs from the last commit is compared with that.
+    change(runner.checkout)
+    code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="")
+    assert (code, "::notice" in printed) == (1, False), printed
 
 
 @needs_bash
@@ -345,6 +354,30 @@ def test_each_hook_is_a_verb_that_does_its_work(
     change(checkout)
     assert main(["diff"]) == 1
     assert "VentsOpen" in capsys.readouterr().out
+
+
+def snippets() -> list[Any]:
+    """Return what the guide gives to copy."""
+    _, _, section = GUIDE.read_text(encoding="utf-8").partition("\n## Before others see it\n")
+    texts = re.findall(
+        r"^```yaml\n(.*?)^```$", section.partition("\n## ")[0], re.MULTILINE | re.DOTALL
+    )
+    return [yaml.safe_load(text) for text in texts]
+
+
+def test_the_guide_names_inputs_and_hooks_that_there_are() -> None:
+    job, hooks = snippets()
+    checkout, action = job["jobs"]["diff"]["steps"]
+    assert checkout["uses"].startswith("actions/checkout@")
+    place = action["uses"].partition("@")[0].partition("/.github/")[2]
+    assert ROOT / ".github" / place == ACTION.parent
+    assert action["with"].keys() <= read(ACTION)["inputs"].keys()
+    assert action["with"]["comment"] == "true"
+    ours = read(WORKFLOW)["jobs"]["diff"]
+    assert job["jobs"]["diff"]["permissions"] == ours["permissions"]
+    (repository,) = hooks["repos"]
+    assert repository.keys() == {"repo", "rev", "hooks"}
+    assert [each["id"] for each in repository["hooks"]] == [each["id"] for each in read(HOOKS)]
 
 
 def test_the_hook_that_compares_runs_where_a_spec_was_deleted() -> None:
