@@ -34,10 +34,10 @@ def sentences(comparison: Comparison, *, examples: bool = True) -> list[str]:
         told = warns(change) or (near and change.rule not in _DOCUMENTS)
         follows = not examples and change.rule == _EXAMPLE
         (noticed if told else following if follows else words).append(sentence(change.text))
-    if not noticed and not words:
-        words = following
     if not noticed:
         noticed = [sentence(effect.text) for effect in effects]
+    if not noticed and not words:
+        words = following
     noticed, words = [*dict.fromkeys(noticed)], [*dict.fromkeys(words)]
     if len(words) > _MOST_WORDS:
         words = [f"{pluralize(len(words), 'change')} of words, sources or examples."]
