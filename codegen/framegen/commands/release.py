@@ -42,7 +42,7 @@ def run(arguments: Namespace) -> int:
     """Write the spec and its released edition. 1 for findings. Raises Unusable."""
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.comparison.comparison import Comparison  # noqa: PLC0415
-    from framegen.comparison.editions import RELEASED, edition_of, released  # noqa: PLC0415
+    from framegen.comparison.listing import RELEASED, edition_of, released  # noqa: PLC0415
     from framegen.comparison.release import release  # noqa: PLC0415
     from framegen.language.load import read_source  # noqa: PLC0415
     from framegen.project import default_spec, named_spec, project_root  # noqa: PLC0415

@@ -174,8 +174,8 @@ class View:
 
     @property
     def sentences(self) -> list[str]:
-        """The changes as the history of the spec tells them."""
-        return sentences(self.comparison)
+        """The changes as the history of the spec tells them; its examples follow them."""
+        return sentences(self.comparison, examples=False)
 
     def places(self, change: Change) -> str:
         """Return where a change is, in both editions: `old.yaml:9:5 -> spec/new.yaml:9:5`."""
