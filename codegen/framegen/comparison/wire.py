@@ -180,8 +180,9 @@ class Trial:
         """Return what becomes of a frame with these values, and whether that breaks anything."""
         data = encode(self.message, values)
 
-        def witness(outcome: Outcome, reading: str) -> Witness:
-            return Witness(self.sender, data, self.message.name, values, outcome, reading)
+        def witness(outcome: Outcome, reading: str, *read_as: str) -> Witness:
+            name = self.message.name
+            return Witness(self.sender, data, name, values, outcome, reading, read_as)
 
         if self.way is None:
             return witness("refused", "there is no such end"), self._was_understood(values)
@@ -191,13 +192,14 @@ class Trial:
         if verdict.message is None:
             inside = self._read_inside(self.way, data)
             if inside:
-                return witness("misread", f"is read as {inside}"), True
+                return witness("misread", f"is read as {', '.join(inside)}", *inside), True
             return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
                 values
             )
         read = values_of(verdict.message, data)
         if self.other is None or verdict.message is not self.other:
-            return witness("misread", f"is read as {verdict.message.name}"), True
+            other = verdict.message.name
+            return witness("misread", f"is read as {other}", other), True
         outcome, reading, breaks = self._compared(self.other, values, read)
         return witness(outcome, reading), breaks
 
@@ -239,11 +241,11 @@ class Trial:
             return False
         return True
 
-    def _read_inside(self, way: Direction, data: bytes) -> str:
+    def _read_inside(self, way: Direction, data: bytes) -> list[str]:
         """Return the messages that the other end finds in a frame that it refuses as a whole."""
         events = ReferenceDecoder(self.theirs, [way]).decode(data)
         found = [each.message.name for each in events if each.message is not None]
-        return ", ".join(dict.fromkeys(found))
+        return [*dict.fromkeys(found)]
 
     def _fields(self, other: MessageLayout) -> Any:
         if self.sender == "old":
