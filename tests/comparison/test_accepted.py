@@ -5,7 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from framegen.comparison.accepted import accepted_breaks, ignored_breaks
 from framegen.comparison.comparison import Comparison
+from framegen.comparison.report import FORMATS
+from framegen.comparison.report.view import View
 
 from tests.comparison.edits import edition
 from tests.factories import DEMO, data_of
@@ -89,6 +92,70 @@ def test_that_a_message_is_gone_covers_that_its_frames_are_refused() -> None:
     found = effects(house({"DoorOpened": DOOR}), new)
     assert {each.outcome for each in found} == {"refused"}
     assert {each.accepted for each in found} == {REASON}
+
+
+@pytest.mark.parametrize(
+    ("path", "wrong"),
+    [
+        ("messages", "`messages` would accept whatever breaks in any of them"),
+        ("message.DoorOpened", "a spec has no `message`"),
+        ("messages.DoorOpened.field", "`messages.DoorOpened` has no `field`"),
+        ("messages..DoorOpened", "`messages..DoorOpened` is no path into a spec"),
+    ],
+)
+def test_what_check_refuses_accepts_nothing(path: str, wrong: str) -> None:
+    old, new = edition(house({"DoorOpened": DOOR})), edition(house({}, breaks={path: REASON}))
+    comparison = Comparison(old, new)
+    assert {each.accepted for each in comparison.effects} == {""}
+    assert accepted_breaks(comparison.pair) == []
+    assert [(each.path, why) for each, why in ignored_breaks(comparison.pair)] == [(path, wrong)]
+    assert f"version 9.0.0 accepts nothing by `breaks`: {wrong}\n" in text(comparison)
+    back = Comparison(new, new)
+    assert ignored_breaks(back.pair) == []
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        (
+            "messages.DoorOpend.id",
+            "messages.DoorOpend.id; there is no message `DoorOpend`, did you mean `DoorOpened`?\n",
+        ),
+        ("messages.Q", "messages.Q; there is no message `Q`\n"),
+        ("messages.VentsOpen", "messages.VentsOpen\n"),
+        ("link.baud", "link.baud\n"),
+    ],
+)
+def test_a_message_that_neither_edition_has_was_misspelt(path: str, said: str) -> None:
+    old, new = house({"DoorOpened": DOOR}), house({}, breaks={path: REASON})
+    shown = text(Comparison(edition(old), edition(new)))
+    assert f"version 9.0.0 accepts what breaks nothing: {said}" in shown
+
+
+@pytest.mark.parametrize(
+    ("version", "breaks", "proposed"),
+    [
+        ("8.0.0", {}, '- version: "8.0.0"'),
+        ("9.0.0", {}, "# What is meant to break, each with its reason:"),
+        ("9.0.0", {"messages.DoorOpened": REASON}, None),
+    ],
+)
+def test_an_entry_that_the_history_has_is_not_proposed_again(
+    version: str, breaks: dict[str, str], proposed: str | None
+) -> None:
+    new = house({}, breaks=breaks)
+    new["protocol"] = {**new["protocol"], "version": version}
+    new["history"] = [{"version": "9.0.0", "changes": ["It."], "breaks": breaks}]
+    comparison = Comparison(edition(house({"DoorOpened": DOOR})), edition(new))
+    vars(comparison)["effects"] = [each for each in comparison.effects if each.axis != "programs"]
+    shown = FORMATS["markdown"](View(comparison))
+    found = [line.strip() for line in shown.partition("```yaml\n")[2].splitlines()]
+    assert (found[0] if found else None) == proposed
+    assert ("#   messages.DoorOpened: REASON" in found) is (not breaks and proposed is not None)
+
+
+def text(comparison: Comparison) -> str:
+    return FORMATS["text"](View(comparison))
 
 
 # ------------------------------------------------------------------ what was reserved

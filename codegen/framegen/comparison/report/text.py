@@ -69,7 +69,7 @@ def _notes(view: View) -> Iterator[str]:
         yield f"  note: {view.old.label} has {found} by today's rules, and is compared all the same"
     if new:
         found = pluralize(len(new), "finding")
-        yield f"  note: `framegen check` shows {found} in {view.new.label}, which are to be mended"
+        yield f"  note: {view.new.label} is not right yet: `framegen check` shows {found}"
     if view.capped:
         yield f"  note: at most {view.most_tried} frames a message are tried out, of " + (
             _names(view.capped)
