@@ -55,4 +55,4 @@ def test_every_key_of_the_language_is_used() -> None:
     keys = {(part.__name__, key) for part in parts for key in part.model_fields}
     files = [BUSSERVO, *(FILES[name] for name in SPOKEN)]
     used = {key for file in files for key in keys_in(compiled_file(file).spec)}
-    assert keys - used == UNUSED
+    assert keys - used <= UNUSED

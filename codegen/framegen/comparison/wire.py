@@ -20,7 +20,7 @@ from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.comparison.effect import Outcome, Which
     from framegen.comparison.meaning import Difference
@@ -143,8 +143,12 @@ class Trial:
 
     def run(self) -> Trials:
         """Try out the message at its edges."""
+        return self.found_in(self.frames())
+
+    def found_in(self, frames: Iterable[tuple[Witness, bool]]) -> Trials:
+        """Return what became of these frames of the message."""
         found = Trials(self.sender, self.message, self.message.direction)
-        for witness, breaks in self.frames():
+        for witness, breaks in frames:
             found.add(witness, breaks=breaks)
         found.all_tried = not self.cut_short
         if self.other is not None and found.counts.keys() == {"refused"}:
@@ -192,7 +196,8 @@ class Trial:
         if verdict.message is None:
             inside = self._read_inside(self.way, data)
             if inside:
-                return witness("misread", f"is read as {', '.join(inside)}", *inside), True
+                rest = ", with noise beside it" if inside == self._other_name else ""
+                return witness("misread", f"is read as {', '.join(inside)}{rest}", *inside), True
             return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
                 values
             )
@@ -246,6 +251,10 @@ class Trial:
         events = ReferenceDecoder(self.theirs, [way]).decode(data)
         found = [each.message.name for each in events if each.message is not None]
         return [*dict.fromkeys(found)]
+
+    @property
+    def _other_name(self) -> list[str]:
+        return [] if self.other is None else [self.other.name]
 
     def _fields(self, other: MessageLayout) -> Any:
         if self.sender == "old":

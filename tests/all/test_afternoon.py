@@ -1,0 +1,65 @@
+"""The guide to changes, followed in a repository of its own: every test passes when it is done."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests import documents
+
+ROOT = Path(__file__).parent.parent.parent
+GUIDE = "docs/changing-the-protocol.md"
+# It cannot be followed a second time; and the packages that are installed lie elsewhere.
+NOT_TWICE = (
+    f"tests/test_readme.py::test_examples_print_what_the_page_says[{GUIDE}]",
+    "tests/test_house.py::test_there_is_one_version",
+)
+
+
+def run(folder: Path, *words: str) -> str:
+    """Run a module of the copy, and return what it prints."""
+    folders = (folder / each for each in ("generated", "codegen", "simulator"))
+    done = subprocess.run(
+        [sys.executable, "-m", *words],
+        cwd=folder,
+        env=os.environ
+        | {"PYTHONPATH": os.pathsep.join(map(str, folders)), "HYPOTHESIS_PROFILE": "quick"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        check=False,
+    )
+    return done.stdout
+
+
+def copied(folder: Path) -> Path:
+    """Copy what belongs to the project."""
+    git = shutil.which("git") or "git"
+    listed = subprocess.run(
+        [git, "ls-files", "-z"], cwd=ROOT, capture_output=True, encoding="utf-8", check=True
+    )
+    for name in filter(None, listed.stdout.split("\0")):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, folder / name)
+    return folder
+
+
+@pytest.mark.parametrize("section", ["Add a command", "A field of another width"])
+def test_every_test_passes_where_the_guide_was_followed(section: str, tmp_path: Path) -> None:
+    page = (ROOT / GUIDE).read_text(encoding="utf-8")
+    begin = page.index(f"\n## {section}\n") + 1
+    end = page.index("\n## ", begin)
+    folder = copied(tmp_path)
+    documents.committed(folder)
+    assert documents.played(page[:end], folder) == page[:end]
+    # As the guide says of what guides show.
+    run(folder, "tests.documents")
+    told = run(folder, "pytest", "-q", "-n", "2", *(f"--deselect={each}" for each in NOT_TWICE))
+    assert re.search(r"^\d+ passed[^,]*(, \d+ \w+)* in ", told, re.MULTILINE), told[-4000:]
+    assert "failed" not in told.splitlines()[-1]
