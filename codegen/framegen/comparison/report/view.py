@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.checks.breaks import known_messages, named_message
 from framegen.comparison.accepted import accepted_breaks
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.due import due, next_version, tells_versions, version_finding
@@ -14,7 +15,9 @@ from framegen.comparison.entry import sentences
 from framegen.comparison.explained import explain, is_documentation
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
+from framegen.console import visible
 from framegen.language.version import NoVersion
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -151,6 +154,15 @@ class View:
         paths += [(each.old, each.new) for each in self.comparison.changes]
         lines = accepted_breaks(self.pair)
         return [each for each in lines if not any(each.covers(*both) for both in paths)]
+
+    def meant(self, line: Accepted) -> str:
+        """Return which message was meant where neither edition has the one that is named."""
+        name = named_message(line.path)
+        known = {**known_messages(self.new.spec), **known_messages(self.old.spec)}
+        if name is None or name in known:
+            return ""
+        hint = did_you_mean(name, known, otherwise=" ").strip()
+        return f"; there is no message `{visible(name)}`" + (f", {hint}" if hint else "")
 
     @cached_property
     def bump(self) -> Bump | None:
