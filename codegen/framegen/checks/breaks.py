@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from framegen.language.spec import Spec
     from framegen.reading.yamltree import KeyPath
 
-_EXAMPLE = "write it as findings have it, such as `messages.LampFade.fields.time_ms`"
+_EXAMPLE = "write it as findings have it, such as `messages.NAME.fields.NAME`"
 
 
 def _look(spec: Spec) -> Iterator[Problem]:
@@ -37,7 +37,7 @@ def _path(here: KeyPath, text: str) -> Iterator[Problem]:
         return
     if path == ("messages",):
         what = "`messages` would accept whatever breaks in any of them"
-        yield Problem(here, what, "name one, such as `messages.LampFade`", on_key=True)
+        yield Problem(here, what, "name one, such as `messages.NAME`", on_key=True)
 
 
 RULE = StructureRule(
