@@ -198,7 +198,7 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
     ),
     "not acknowledged": (
         ["result: `Controller.run_action_group` returns Sent; it returned Run"],
-        [],
+        ["+ added: `run_action_group()` tells whether it `started`, by ActionGroupStarted"],
     ),
     "field not optional any more": (
         ["arguments: `Tail()`: `second` has to be given"],
