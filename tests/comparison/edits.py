@@ -62,7 +62,7 @@ def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) ->
 
 # The specs that are edited are asked for again and again.
 @lru_cache(maxsize=32)
-def _edition(text: str, label: str, checked: bool) -> Edition:  # noqa: FBT001
+def _edition(text: str, label: str, checked: bool) -> Edition:
     values = json.loads(text)
     spec = Spec.model_validate(values)
     model, tree = derive(spec), Tree(values)
