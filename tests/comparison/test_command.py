@@ -119,7 +119,8 @@ def test_the_text_shows_the_verdict_and_the_frame_of_each_break(
     assert shown.startswith(f"greenhouse: {old} (1.1.0) -> {new} (1.1.0)\n")
     lines = [" ".join(line.split()) for line in shown.splitlines()]
     # That a message has no example is what rules dislike today.
-    assert f"note: {new} has 1 finding by today's rules, and is compared all the same" in lines
+    assert f"note: {old} has 1 finding by today's rules, and is compared all the same" in lines
+    assert f"note: {new} is not right yet: `framegen check` shows 1 finding" in lines
     assert "wire old gateway with new station: breaks: 1 refused" in lines
     assert "new gateway with old station: breaks: 1 refused" in lines
     assert "upgrade both ends at once: each breaks with the old edition of the other" in lines

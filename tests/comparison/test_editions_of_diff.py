@@ -162,8 +162,8 @@ def test_one_edition_can_come_from_the_input(clone: Path, monkeypatch: pytest.Mo
 
 WRONG = [
     (("v9",), "`v9` is no file and no released edition, and `v9` is no revision", "--tags"),
-    (("nope.yaml",), "nope.yaml does not exist", "git tag"),
-    (("nope.yaml", "HEAD"), "nope.yaml does not exist", "git tag"),
+    (("nope.yaml",), "nope.yaml does not exist", "framegen diff"),
+    (("nope.yaml", "HEAD"), "nope.yaml does not exist", "framegen diff"),
     (("HEAD", "v9"), "`v9` is no file", "git fetch"),
     (("v9:spec/lamp.yaml",), "`v9` is no revision of the repository", "git fetch --tags"),
     (("HEAD:nope.yaml",), "nope.yaml is not in `HEAD`", "`HEAD:spec/OLD.yaml`"),

@@ -83,3 +83,10 @@ def test_what_users_notice_comes_first(words: list[tuple[str, str]]) -> None:
     assert "lamps" in found[0]
     assert "8" in found[0]
     assert len(found) == 1 + len(words)
+
+
+def test_a_name_that_may_have_changed_is_gone_and_the_other_new() -> None:
+    text = base("lamps").replace("LampRead", "LampAsk")
+    found = sentences(Comparison(lamps(base("lamps")), lamps(text)))
+    assert found[0] == "LampRead is gone, and LampAsk is new."
+    assert "may be" not in " ".join(found)

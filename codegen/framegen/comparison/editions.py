@@ -160,7 +160,8 @@ def _or_a_file(word: str, error: Unusable) -> Unusable:
     if ":" in word:
         return error
     shown, names = visible(word), [file.stem for file in _all_released()]
-    near = did_you_mean(word, names, otherwise=error.hint) if names else error.hint
+    hint = _NAME_TWO if word.endswith(_A_FILE) else error.hint
+    near = did_you_mean(word, names, otherwise=hint) if names else hint
     if Path(word).is_dir():
         return Unusable(f"{shown} is a folder, and not a spec", hint=_NAME_TWO)
     if word.endswith(_A_FILE):

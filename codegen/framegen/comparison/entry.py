@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.changes.wording import called
 from framegen.comparison.due import tells_versions, warns
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
+    from framegen.comparison.changes.change import Change
     from framegen.comparison.comparison import Comparison
 
 _DOCUMENTS = frozenset(rule.id for rule in CHANGE_RULES if rule.subject == "document")
@@ -33,7 +35,7 @@ def sentences(comparison: Comparison, *, examples: bool = True) -> list[str]:
         near = any(here[: len(path)] == path or path[: len(here)] == here for path in paths)
         told = warns(change) or (near and change.rule not in _DOCUMENTS)
         follows = not examples and change.rule == _EXAMPLE
-        (noticed if told else following if follows else words).append(sentence(change.text))
+        (noticed if told else following if follows else words).append(sentence(_text(change)))
     if not noticed:
         noticed = [sentence(effect.text) for effect in effects]
     if not noticed and not words:
@@ -42,6 +44,13 @@ def sentences(comparison: Comparison, *, examples: bool = True) -> list[str]:
     if len(words) > _MOST_WORDS:
         words = [f"{pluralize(len(words), 'change')} of words, sources or examples."]
     return [*noticed, *words]
+
+
+def _text(change: Change) -> str:
+    """Return what became of something; what is not said to be renamed is gone, once released."""
+    if change.rule == "maybe-renamed" and change.old is not None and change.new is not None:
+        return f"{called(change.old)} is gone, and {called(change.new)} is new"
+    return change.text
 
 
 def sentence(text: str) -> str:

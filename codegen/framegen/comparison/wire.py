@@ -184,8 +184,9 @@ class Trial:
         """Return what becomes of a frame with these values, and whether that breaks anything."""
         data = encode(self.message, values)
 
-        def witness(outcome: Outcome, reading: str) -> Witness:
-            return Witness(self.sender, data, self.message.name, values, outcome, reading)
+        def witness(outcome: Outcome, reading: str, *read_as: str) -> Witness:
+            name = self.message.name
+            return Witness(self.sender, data, name, values, outcome, reading, read_as)
 
         if self.way is None:
             return witness("refused", "there is no such end"), self._was_understood(values)
@@ -195,14 +196,15 @@ class Trial:
         if verdict.message is None:
             inside = self._read_inside(self.way, data)
             if inside:
-                rest = ", with noise beside it" if self._is_other(inside) else ""
-                return witness("misread", f"is read as {inside}{rest}"), True
+                rest = ", with noise beside it" if inside == self._other_name else ""
+                return witness("misread", f"is read as {', '.join(inside)}{rest}", *inside), True
             return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
                 values
             )
         read = values_of(verdict.message, data)
         if self.other is None or verdict.message is not self.other:
-            return witness("misread", f"is read as {verdict.message.name}"), True
+            other = verdict.message.name
+            return witness("misread", f"is read as {other}", other), True
         outcome, reading, breaks = self._compared(self.other, values, read)
         return witness(outcome, reading), breaks
 
@@ -244,14 +246,15 @@ class Trial:
             return False
         return True
 
-    def _read_inside(self, way: Direction, data: bytes) -> str:
+    def _read_inside(self, way: Direction, data: bytes) -> list[str]:
         """Return the messages that the other end finds in a frame that it refuses as a whole."""
         events = ReferenceDecoder(self.theirs, [way]).decode(data)
         found = [each.message.name for each in events if each.message is not None]
-        return ", ".join(dict.fromkeys(found))
+        return [*dict.fromkeys(found)]
 
-    def _is_other(self, name: str) -> bool:
-        return self.other is not None and self.other.name == name
+    @property
+    def _other_name(self) -> list[str]:
+        return [] if self.other is None else [self.other.name]
 
     def _fields(self, other: MessageLayout) -> Any:
         if self.sender == "old":

@@ -6,15 +6,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.checks.breaks import known_messages, named_message
 from framegen.comparison.accepted import accepted_breaks
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.due import due, next_version, tells_versions, version_finding
 from framegen.comparison.edges import MOST
 from framegen.comparison.entry import sentences
-from framegen.comparison.explained import explain
+from framegen.comparison.explained import explain, is_documentation
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
+from framegen.console import visible
 from framegen.language.version import NoVersion
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -119,6 +122,16 @@ class View:
         ]
 
     @property
+    def documentation(self) -> list[Change]:
+        """The changes of words alone."""
+        return [each for each in self.without_effect if _is_words(each)]
+
+    @property
+    def tried_in_vain(self) -> list[Change]:
+        """The changes of facts that no effect was found of, and of what is reserved."""
+        return [each for each in self.without_effect if not _is_words(each)]
+
+    @property
     def nothing(self) -> bool:
         """Whether the editions say the same."""
         return not self.effects and not self.comparison.changes
@@ -141,6 +154,15 @@ class View:
         paths += [(each.old, each.new) for each in self.comparison.changes]
         lines = accepted_breaks(self.pair)
         return [each for each in lines if not any(each.covers(*both) for both in paths)]
+
+    def meant(self, line: Accepted) -> str:
+        """Return which message was meant where neither edition has the one that is named."""
+        name = named_message(line.path)
+        known = {**known_messages(self.new.spec), **known_messages(self.old.spec)}
+        if name is None or name in known:
+            return ""
+        hint = did_you_mean(name, known, otherwise=" ").strip()
+        return f"; there is no message `{visible(name)}`" + (f", {hint}" if hint else "")
 
     @cached_property
     def bump(self) -> Bump | None:
@@ -173,6 +195,12 @@ class View:
         new = "" if change.new is None else self.new.place(change.new)
         return " -> ".join(filter(None, (old, new)))
 
+    def place(self, change: Change) -> str:
+        """Return where a change is in the new edition, or in the old where it is gone."""
+        if change.new is None:
+            return self.old.place(change.path)
+        return self.new.place(change.new)
+
     @property
     def groups(self) -> list[list[Section]]:
         """The sections; together those to which the same happened for the same reason elsewhere."""
@@ -192,6 +220,10 @@ class View:
         if old is not None and old[:1] == ("messages",) and len(old) > 1:
             return self.pair.messages.to_new.get(str(old[1]), str(old[1]))
         return ""
+
+
+def _is_words(change: Change) -> bool:
+    return is_documentation(change) and not change.rule.startswith("reserved-")
 
 
 def rule_of(change: Change) -> ChangeRule | None:
