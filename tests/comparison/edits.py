@@ -57,12 +57,12 @@ def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) ->
     Its text is not read again, so that nothing in it has a place. Of one that is not checked,
     nobody knows what is wrong with it.
     """
-    return _edition(json.dumps(data), label)
+    return _edition(json.dumps(data), label, checked=checked)
 
 
 # The specs that are edited are asked for again and again.
 @lru_cache(maxsize=32)
-def _edition(text: str, label: str) -> Edition:
+def _edition(text: str, label: str, *, checked: bool) -> Edition:
     values = json.loads(text)
     spec = Spec.model_validate(values)
     model, tree = derive(spec), Tree(values)
