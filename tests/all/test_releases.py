@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.due import due, version_finding
-from framegen.comparison.editions import edition_of
+from framegen.comparison.listing import edition_of
 from framegen.comparison.release import release
 from framegen.compile import compile_spec
 from framegen.reading.source import Source

@@ -22,6 +22,8 @@ UNITS = {
     "kHz": ("1000", "Hz"),
     "ns": ("0.000000001", "s"),
     "hPa": None,
+    "°C": ("1", "K"),
+    "K": ("1", "K"),
     "%": ("0.01", ""),
     "‰": ("0.001", ""),
     "min": ("60", "s"),
@@ -29,6 +31,9 @@ UNITS = {
     "cm/s": None,
     "rpm": None,
 }
+ZEROS = {"°C": Fraction("273.15")}
+# Of two of these, neither is another spelling of the other.
+KNOWN = {"s", "V", "A", "m", "Ah", "K", "g", "Hz", "", "°", "rad"}
 
 Quantity = tuple[Fraction, Fraction, str]
 
@@ -45,7 +50,8 @@ def quantity_of(field: dict[str, Any]) -> Quantity | None:
     elif not unit:
         return None
     factor, base = UNITS.get(unit) or ("1", unit)
-    return step * Fraction(factor), offset * Fraction(factor), base
+    zero = ZEROS.get(unit, Fraction(0))
+    return step * Fraction(factor), offset * Fraction(factor) + zero, base
 
 
 def judge_numbers(ours: dict[str, Any], theirs: dict[str, Any], sent: float, read: float) -> str:
@@ -55,7 +61,8 @@ def judge_numbers(ours: dict[str, Any], theirs: dict[str, Any], sent: float, rea
         alike = sent == read or (math.isnan(sent) and math.isnan(read))
         return "same" if alike else "misread"
     if one[2] != other[2]:
-        return "uncertain" if one[:2] == other[:2] and sent == read else "misread"
+        alike = one[:2] == other[:2] and sent == read and not {one[2], other[2]} <= KNOWN
+        return "uncertain" if alike else "misread"
     meant, understood = (
         each[0] * Fraction(number) + each[1] for each, number in ((one, sent), (other, read))
     )

@@ -52,6 +52,13 @@ def test_a_rule_says_what_it_is_for(rule: ChangeRule) -> None:
     assert getattr(rules, rule.id.replace("-", "_")).RULE is rule
 
 
+@BY_ID
+def test_what_a_rule_says_is_not_about_its_example(rule: ChangeRule) -> None:
+    assert not re.search(
+        r"lamp|level|colour|signed_|_controller", f"{rule.why} {rule.do}", re.IGNORECASE
+    )
+
+
 def test_no_two_rules_share_an_id_and_none_has_that_of_a_rule_of_check() -> None:
     from framegen.checks import RULES  # noqa: PLC0415
 
@@ -115,6 +122,27 @@ def test_what_names_a_thing_by_its_new_name_is_no_change() -> None:
     assert told == ["ServoMove.duration_ms: renamed from time_ms"]
     back = [each.text for each in changes(pair_of(new, SERVO))]
     assert back == ["ServoMove.time_ms: renamed from duration_ms"]
+
+
+def test_what_only_may_be_renamed_is_told_under_the_name_that_it_had() -> None:
+    new = renamed(SERVO, "ActionGroupCompleted", "GroupOver")
+    new = with_(new, "messages", "ActionGroupRun", "reports", ["ActionGroupStarted"])
+    told = [each.text for each in changes(pair_of(SERVO, new)) if each.rule == "reports"]
+    assert told == [
+        "ActionGroupRun: reports ActionGroupStarted, ActionGroupCompleted became ActionGroupStarted"
+    ]
+
+
+@pytest.mark.parametrize(("key", "at", "words"), [("errata", 2, "title"), ("unknowns", 2, "what")])
+def test_what_is_said_otherwise_of_the_same_message_is_the_same(
+    key: str, at: int, words: str
+) -> None:
+    message = SERVO[key][at]["concerns"]["message"]
+    new = with_(SERVO, key, at, words, "Other words.")
+    new = with_(new, key, at, "concerns", {"message": message})
+    told = [(each.rule, each.path) for each in changes(pair_of(SERVO, new))]
+    assert {path[:2] for _, path in told} == {(key, at)}
+    assert not [rule for rule, _ in told if rule.endswith(("-added", "-removed"))]
 
 
 def test_changes_come_in_the_order_of_the_new_edition_and_what_is_gone_last() -> None:

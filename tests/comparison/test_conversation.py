@@ -92,6 +92,23 @@ def test_the_way_back_mirrors_the_way_there(name: str) -> None:
     conversations.assert_mirrored(pair_named(name))
 
 
+def test_the_frame_that_shows_it_is_short() -> None:
+    (effect, *_) = (each for each in effects_named("nothing is repeated") if each.witness)
+    assert effect.witness is not None
+    # One reply has room for 84 servos.
+    assert len(effect.witness.data) <= len(["55", "55", "0C", "15", "03"]) + 3 * 3
+
+
+def test_another_reply_is_told_with_the_one_that_is_awaited() -> None:
+    bare = with_(SERVO, "messages", "BatteryVoltageRead", "method", "read_battery_voltage()")
+    new = with_(bare, "messages", "BatteryVoltageRead", "reply", "ActionGroupStopped")
+    found = [each for each in conversation_effects(pair_of(bare, new)) if each.breaks]
+    assert [each.text for each in found if each.outcome == "other reply"] == [
+        "BatteryVoltageRead is answered by ActionGroupStopped, and not by BatteryVoltage",
+        "BatteryVoltageRead is answered by BatteryVoltage, and not by ActionGroupStopped",
+    ]
+
+
 @pytest.mark.parametrize(
     "name", ["a reply is gone", "a reply has room for more", "a refusal is gone"]
 )

@@ -138,8 +138,8 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
         ["value: `ServoMove.COMMAND` is 3; it was 4"],
     ),
     "unit": (
-        ["meaning: `ServoMove`: time_ms = 1 ms is read as 1 s"],
-        ["meaning: `ServoMove`: time_ms = 1 s is read as 1 ms"],
+        ["meaning: `ServoMove`: time_ms = 1 ms means 1 s"],
+        ["meaning: `ServoMove`: time_ms = 1 s means 1 ms"],
     ),
     "name of a message": (
         [
@@ -206,15 +206,15 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
     ),
     "number of a named value": (
         [
-            "value: `VentsOpen.RAMP_S_AT_ONCE` is 1; it was 0, so ramp_s = 1 is read as at_once",
+            "value: `VentsOpen.RAMP_S_AT_ONCE` is 1; it was 0, so ramp_s = 1 means at_once",
         ],
         [
-            "value: `VentsOpen.RAMP_S_AT_ONCE` is 0; it was 1, so ramp_s = at_once is read as 1",
+            "value: `VentsOpen.RAMP_S_AT_ONCE` is 0; it was 1, so ramp_s = at_once means 1",
         ],
     ),
     "place of a bit": (
-        ["value: `Flags.ERROR_HEAT` is 4; it was 2, so error.heat = 1 is read as 0"],
-        ["value: `Flags.ERROR_HEAT` is 2; it was 4, so error.heat = 1 is read as 0"],
+        ["value: `Flags.ERROR_HEAT` is 4; it was 2, so error.heat = 1 means 0"],
+        ["value: `Flags.ERROR_HEAT` is 2; it was 4, so error.heat = 1 means 0"],
     ),
     "bits removed": (
         ["removed: `Flags.ERROR_CODE` and `Flags.error_code` are gone"],

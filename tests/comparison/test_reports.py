@@ -3,6 +3,7 @@
 import json
 import re
 from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -107,7 +108,7 @@ def test_nothing_of_a_spec_begins_a_line_of_the_text(view: View) -> None:
     shown = FORMATS["text"](view)
     assert HIDDEN.search(shown) is None
     # A line of ours is a blank one, a heading, or indented.
-    headings = {"greenhouse", "all", "documentation", *NAMES}
+    headings = {"greenhouse", "all", "documentation", "without", *NAMES}
     for line in shown.splitlines():
         first = re.split(r"[ :(]", line, maxsplit=1)[0]
         assert not first or first in headings or re.match(r"\d+ messages: ", line), line
@@ -119,7 +120,17 @@ def test_github_is_given_a_command_for_each_break_and_no_other(view: View) -> No
     lines = FORMATS["github"](view).split("\n")
     commands = [line for line in lines if line.lstrip().startswith("::")]
     levels = {"breaks": "error", "uncertain": "warning", "accepted": "notice"}
-    wanted = Counter(levels[standing(each)] for each in view.effects if each.breaks)
+    # One for each message and each two ends, on whichever axis it breaks; programs are their own.
+    about = {
+        (
+            standing(each),
+            each.path[:2],
+            each.axis == "programs" or str(ends_of(view.pair, each)),
+        )
+        for each in view.effects
+        if each.breaks
+    }
+    wanted = Counter(levels[how] for how, *_ in about)
     wanted["warning"] += view.version_finding is not None
     assert Counter(line[2:].partition(" ")[0] for line in commands) == +wanted
     command = re.compile(
@@ -129,6 +140,52 @@ def test_github_is_given_a_command_for_each_break_and_no_other(view: View) -> No
         assert command.match(line), line
     assert not any("##[" in line for line in lines if line not in commands)
     assert not any("\r" in line for line in lines)
+
+
+def test_what_becomes_of_one_request_is_one_annotation() -> None:
+    ends, path = "old gateway, new station", ("messages", "VentsOpen")
+    refused = Effect("wire", "refused", path, path, "VentsOpen: is refused", ends)
+    lost = Effect("conversation", "no reply", path, path, "VentsOpen gets no reply", ends)
+    (command, *rest) = FORMATS["github"](view_of([refused, lost])).splitlines()
+    assert command.startswith("::error ")
+    assert "title=wire and conversation%2C old gateway with new station::" in command
+    assert command.endswith("VentsOpen: is refused%0AVentsOpen gets no reply")
+    assert not any(line.startswith("::error") for line in rest)
+
+
+@pytest.mark.parametrize("name", ["spec/li ft,x:y.yaml", "spec/plain.yaml"])
+def test_an_annotation_is_of_the_file_whatever_it_is_called(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "spec").mkdir()
+    (tmp_path / name).write_text("")
+    for label in (name, "v1:spec/plain.yaml"):
+        comparison = Comparison(BEFORE, edition(HOUSE, label))
+        vars(comparison).update(effects=[CERTAIN], changes=[], trials=[])
+        said = name if label == name else "spec/plain.yaml"
+        shown = FORMATS["github"](View(comparison))
+        assert f"file={said.replace(':', '%3A').replace(',', '%2C')},line=" in shown
+
+
+def test_a_frame_is_shown_as_a_whole() -> None:
+    path = ("messages", "VentsOpen")
+    witness = Witness("old", bytes(range(256)), "VentsOpen", {}, "misread", "is read otherwise")
+    view = view_of([Effect("wire", "misread", path, path, "It.", "", witness=witness)])
+    for name, render in FORMATS.items():
+        assert bytes(range(256)).hex(" ").upper() in render(view), name
+
+
+def test_what_is_reserved_is_no_documentation_and_each_change_has_its_place() -> None:
+    change = Change("reserved-added", None, ("messages",), "reserved[0] is new: id 3")
+    words = Change("words", ("link",), ("link",), "link: in other words")
+    shown = FORMATS["text"](view_of([], [change, words])).splitlines()
+    at = shown.index("without effect: 1 change that no end and no program notices")
+    assert shown[at + 1] == "  reserved[0] is new: id 3"
+    assert shown[at + 2].startswith("    spec/a.yaml:")
+    at = shown.index("documentation: 1 change that nothing depends on")
+    assert shown[at + 1] == "  link: in other words"
+    assert shown[at + 2].startswith("    spec/a.yaml:")
 
 
 @few_each
@@ -284,6 +341,10 @@ LAMP = Ends("host", "lamp", old_first=False)
         ([HOST], "every host before any board"),
         ([BOARD], "every board before any host"),
         ([HOST, LAMP], "every host before any board, and every lamp before any host"),
+        (
+            [Ends("host", "host", old_first=True)],
+            "both ends at once: each breaks with the old edition of the other",
+        ),
         ([HOST, BOARD], "both ends at once: each breaks with the old edition of the other"),
     ],
 )

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from framegen.language.spec import Spec
     from framegen.reading.yamltree import KeyPath
 
-_EXAMPLE = "write it as findings have it, such as `messages.LampFade.fields.time_ms`"
-_ONE_OF_ALL = "name one, such as `messages.LampFade`"
+_EXAMPLE = "write it as findings have it, such as `messages.NAME.fields.NAME`"
+_ONE_OF_ALL = "name one, such as `messages.NAME`"
 
 
 def whats_wrong(text: str) -> NoPath | None:

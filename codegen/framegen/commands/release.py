@@ -44,7 +44,7 @@ def run(arguments: Namespace) -> int:
     from framegen.checks.breaks import missing  # noqa: PLC0415
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.comparison.comparison import Comparison  # noqa: PLC0415
-    from framegen.comparison.editions import RELEASED, edition_of, released  # noqa: PLC0415
+    from framegen.comparison.listing import RELEASED, edition_of, released  # noqa: PLC0415
     from framegen.comparison.release import release  # noqa: PLC0415
     from framegen.compile import compile_leniently  # noqa: PLC0415
     from framegen.language.load import read_source  # noqa: PLC0415

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from framegen.comparison.pair import element_fields, named_bits, named_values
-from framegen.comparison.units import quantity
+from framegen.comparison.units import is_known, quantity
 from framegen.model.slots import Items, Number, Packed, Text
 
 if TYPE_CHECKING:
@@ -232,9 +232,14 @@ def _numbers(
     if means is not None and meant is not None and _finite(sent) and _finite(read):
         alike = (means.step, means.offset) == (meant.step, meant.offset)
         if means.unit != meant.unit:
-            # A name for a unit may be another name for the same.
-            outcome: Outcome = "uncertain" if alike and sent == read else "misread"
+            # A name for a unit may be another name for the same, unless both are known.
+            known = is_known(means.unit) and is_known(meant.unit)
+            outcome: Outcome = "uncertain"
             text = f"{path} = {_said(ours, sent)} is read as {_said(theirs, read)}"
+            if known or not alike or sent != read:
+                outcome = "misread"
+            else:
+                text += ", which may be another unit"
             yield Difference(outcome, path, text)
         elif means.value(sent) != meant.value(read):
             text = f"{path} = {_said(ours, sent)} is read as {_said(theirs, read)}"

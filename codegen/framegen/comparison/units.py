@@ -23,31 +23,9 @@ _PREFIXES = {
     "M": Fraction(10**6),
     "G": Fraction(10**9),
 }
-# Units that take prefixes. All others are names, and equal if they are spelt alike.
-_PREFIXED = frozenset(
-    (
-        "s",
-        "m",
-        "g",
-        "V",
-        "A",
-        "W",
-        "Hz",
-        "Pa",
-        "N",
-        "Nm",
-        "Ah",
-        "Wh",
-        "K",
-        "J",
-        "bar",
-        "gauss",
-        "rad",
-        "Ω",
-        "T",
-        "F",
-    )
-)
+# Units that take prefixes, to which all others that are known come down.
+_BASES = ("s", "m", "g", "V", "A", "W", "Hz", "Pa", "N", "Nm", "Ah", "Wh", "K", "J", "Ω", "T", "F")
+_PREFIXED = frozenset((*_BASES, "rad", "°", "°C", "°F", "%", "bar", "gauss"))
 _SPELLINGS = {
     "sec": "s",
     "second": "s",
@@ -56,6 +34,10 @@ _SPELLINGS = {
     "milliseconds": "ms",
     "microsecond": "us",
     "microseconds": "us",
+    "minute": "min",
+    "minutes": "min",
+    "hour": "h",
+    "hours": "h",
     "volt": "V",
     "volts": "V",
     "millivolt": "mV",
@@ -63,22 +45,39 @@ _SPELLINGS = {
     "ampere": "A",
     "amperes": "A",
     "percent": "%",
+    "permille": "‰",
     "degree": "°",
     "degrees": "°",
     "deg": "°",
     "degC": "°C",
+    "degc": "°C",
+    "℃": "°C",
     "celsius": "°C",
+    "degF": "°F",
+    "degf": "°F",
+    "℉": "°F",
+    "fahrenheit": "°F",
+    "kelvin": "K",
     "ohm": "Ω",
+    "1/s": "Hz",
+    "rev/s": "Hz",
+    "1/min": "rpm",
+    "rev/min": "rpm",
+    "r/min": "rpm",
 }
 _MULTIPLES = {
     "min": (Fraction(60), "s"),
     "h": (Fraction(3600), "s"),
-    "rpm": (Fraction(1, 60), "rev/s"),
+    "rpm": (Fraction(1, 60), "Hz"),
     "%": (Fraction(1, 100), ""),
     "‰": (Fraction(1, 1000), ""),
     "bar": (Fraction(10**5), "Pa"),
     "gauss": (Fraction(1, 10**4), "T"),
+    "°C": (Fraction(1), "K"),
+    "°F": (Fraction(5, 9), "K"),
 }
+# What zero is in the unit without prefix.
+_ZEROS = {"°C": Fraction("273.15"), "°F": Fraction("459.67") * Fraction(5, 9)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,25 +100,38 @@ class Quantity:
 def quantity(field: NumberField) -> Quantity | None:
     """Return what a number means as its unit or its scale says it; None where neither does."""
     if field.scale is not None:
-        factor, unit = _base(field.scale.unit)
+        factor, zero, unit = _base(field.scale.unit)
         step, offset = Fraction(field.scale.step), Fraction(field.scale.offset)
-        return Quantity(step * factor, offset * factor, unit)
+        return Quantity(step * factor, offset * factor + zero, unit)
     if not field.unit:
         return None
-    factor, unit = _base(field.unit)
-    return Quantity(factor, Fraction(0), unit)
+    return Quantity(*_base(field.unit))
 
 
-def _base(unit: str) -> tuple[Fraction, str]:
-    """Return a unit as a factor and a unit without prefix: `mV` is a thousandth of `V`."""
-    unit = _SPELLINGS.get(unit, _SPELLINGS.get(unit.lower(), unit))
-    if unit in _MULTIPLES:
-        return _MULTIPLES[unit]
-    if unit in _PREFIXED:
-        return Fraction(1), unit
+def is_known(unit: str) -> bool:
+    """Tell whether the unit of a quantity is one of those whose spellings are known."""
+    return not unit or unit in _PREFIXED
+
+
+def _base(unit: str) -> tuple[Fraction, Fraction, str]:
+    """Return a unit as a factor, what its zero is, and a unit without prefix.
+
+    `mV` is a thousandth of `V`, and zero is zero.
+    """
+    unit = _spelt(unit)
+    if unit in _MULTIPLES or unit in _PREFIXED:
+        return _unprefixed(Fraction(1), unit)
     for prefix, factor in _PREFIXES.items():
-        named = unit.removeprefix(prefix)
-        if named != unit and named in _PREFIXED:
-            multiple, base = _MULTIPLES.get(named, (Fraction(1), named))
-            return factor * multiple, base
-    return Fraction(1), unit
+        named = _spelt(unit.removeprefix(prefix))
+        if unit.startswith(prefix) and named in _PREFIXED:
+            return _unprefixed(factor, named)
+    return Fraction(1), Fraction(0), unit
+
+
+def _spelt(unit: str) -> str:
+    return _SPELLINGS.get(unit, _SPELLINGS.get(unit.lower(), unit))
+
+
+def _unprefixed(factor: Fraction, unit: str) -> tuple[Fraction, Fraction, str]:
+    multiple, base = _MULTIPLES.get(unit, (Fraction(1), unit))
+    return factor * multiple, _ZEROS.get(unit, Fraction(0)), base

@@ -24,10 +24,7 @@ RULE = ChangeRule(
     title="The line runs at another rate",
     subject="line",
     why="At another rate nothing that one end sends is understood by the other: it hears noise.",
-    do=(
-        "Change both ends at once, or let the client be told the rate: `open_controller(port, "
-        "baud=...)`."
-    ),
+    do="Change both ends at once, or let programs say the rate where they open the line.",
     at="link",
     before="baud: 9600",
     after="baud: 115200",

@@ -244,16 +244,24 @@ class Both:
 
     @cached_property
     def errata(self) -> Things[Erratum]:
-        """The mistakes in documents."""
+        """The mistakes in documents: in other words it is the same, of the same message."""
         path = ("errata",)
-        keys = [lambda each: each.title, lambda each: repr(each.concerns)]
+        keys = [
+            lambda each: each.title,
+            lambda each: repr(each.concerns),
+            lambda each: each.concerns.message,
+        ]
         return listed(self.old.errata, self.new.errata, path, path, keys)
 
     @cached_property
     def unknowns(self) -> Things[Unknown]:
-        """The questions that no source answers."""
+        """The questions that no source answers: in other words it is the same, as for errata."""
         path = ("unknowns",)
-        keys = [lambda each: each.what, lambda each: repr(each.concerns)]
+        keys = [
+            lambda each: each.what,
+            lambda each: repr(each.concerns),
+            lambda each: each.concerns.message,
+        ]
         return listed(self.old.unknowns, self.new.unknowns, path, path, keys)
 
     @cached_property
@@ -291,6 +299,11 @@ class Both:
     def message(self, name: str | None) -> str | None:
         """Return what the new edition calls a message."""
         return None if name is None else self.pair.messages.to_new.get(name, name)
+
+    def certain_message(self, name: str) -> str:
+        """Return what the new edition calls a message, or its old name where that is a guess."""
+        pairing = self.pair.messages
+        return name if name in pairing.guessed else pairing.to_new.get(name, name)
 
     def source(self, name: str) -> str:
         """Return what the new edition calls a source."""

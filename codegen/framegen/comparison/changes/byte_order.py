@@ -29,8 +29,8 @@ RULE = ChangeRule(
     title="The bytes of numbers come in another order",
     subject="frame",
     why=(
-        "Each number of two bytes and more is read with its bytes turned round: a level of 1 "
-        "becomes 256."
+        "Each number of two bytes and more is read with its bytes turned round: 1 becomes 256, if "
+        "it has two."
     ),
     do="Change both ends at once; where only one field is meant, give that field a `byte_order`.",
     at="",

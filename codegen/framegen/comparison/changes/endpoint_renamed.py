@@ -22,10 +22,7 @@ RULE = ChangeRule(
     id="endpoint-renamed",
     title="An end of the line has another name",
     subject="program",
-    why=(
-        "Directions of the library are named for the ends: `HOST_TO_LAMP`. On the wire, nobody "
-        "sees the name."
-    ),
+    why=("Directions of the library are named for the ends. On the wire, nobody sees the name."),
     do="Change it together with another break of programs.",
     at="",
     before="endpoints: {host: Commands., lamp: Shines., switch: Reports.}",

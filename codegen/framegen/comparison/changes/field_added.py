@@ -24,10 +24,13 @@ RULE = ChangeRule(
     title="A message has another field",
     subject="field",
     why=(
-        "Frames are longer: an end refuses those of the other edition, unless the field comes "
-        "last and is optional."
+        "Frames are longer: an old end refuses those that have it. A new end refuses those that "
+        "lack it, unless the field comes last and is optional."
     ),
-    do="Add a message with the field, or put it last and say `optional: true`.",
+    do=(
+        "Where it comes last and is `optional`, upgrade the receiver first. Otherwise make it so, "
+        "or add a message with the field."
+    ),
     at="messages.LampRead.fields",
     before="",
     after="colour: {type: u8}",

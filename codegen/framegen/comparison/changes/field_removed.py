@@ -24,7 +24,10 @@ RULE = ChangeRule(
     title="A field of a message is gone",
     subject="field",
     why="Frames are shorter: an end refuses those of the other edition.",
-    do="Keep its place: `reserved: 0` has it written as zero and read as anything.",
+    do=(
+        "Keep the place of a field that goes: `reserved: 0` has it written as zero and read as "
+        "anything."
+    ),
     at="messages.LampRead.fields",
     before="colour: {type: u8}",
     after="",

@@ -24,8 +24,8 @@ RULE = ChangeRule(
     subject="field",
     why="Programs name it as an argument and an attribute. On the wire, nothing changes.",
     do=(
-        "Say `was: old_name`, so that it is known for the same, and change it together with "
-        "another break of programs."
+        "Change it together with another break of programs. `was` says that it is the same, as "
+        "long as anybody compares with the old name."
     ),
     at="messages.LampRead.fields",
     before="lamp_id: {type: u8}",

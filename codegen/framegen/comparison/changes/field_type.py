@@ -27,7 +27,9 @@ RULE = ChangeRule(
         "A field of another size moves all that is behind it; one of another sign or kind is read "
         "as another number."
     ),
-    do="Add a message, or a field at the end that is optional.",
+    do=(
+        "Add a message; or add a field at the end that is optional, and upgrade the receiver first."
+    ),
     at="messages.LampRead.fields",
     before="lamp_id: {type: u8}",
     after="lamp_id: {type: u16}",

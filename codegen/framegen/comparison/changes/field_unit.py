@@ -30,10 +30,14 @@ RULE = ChangeRule(
     title="The steps of a number are said otherwise",
     subject="field",
     why=(
-        "The same number means another time or level to the other end. Written down for the first "
+        "The same number means another quantity to the other end. Written down for the first "
         "time, or spelt otherwise, it means the same."
     ),
-    do="Where the meaning changes, add a field or a message: no end can tell which is meant.",
+    do=(
+        "Where the meaning changes, add a field or a message: no end can tell which is meant. "
+        "Where only the spelling of a unit does that is not known here, say so in `breaks` of the "
+        "`history`."
+    ),
     at="messages.LampRead.fields",
     before="time: {type: u16, unit: ms}",
     after="time: {type: u16, unit: s}",

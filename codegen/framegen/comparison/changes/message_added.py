@@ -22,14 +22,8 @@ RULE = ChangeRule(
     id="message-added",
     title="There is a new message",
     subject="message",
-    why=(
-        "Ends of the old edition do not know it: a device says nothing to it, and a client takes "
-        "it for noise."
-    ),
-    do=(
-        "Upgrade the end that receives it first. What a device sends by itself, old clients do "
-        "not understand."
-    ),
+    why="Ends of the old edition do not know it, and refuse it.",
+    do="Upgrade the end that receives it first.",
     at="messages",
     before="",
     after="LampBlink: {id: 9, fields: {lamp_id: {type: u8}}}",

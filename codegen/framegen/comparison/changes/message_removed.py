@@ -23,12 +23,12 @@ RULE = ChangeRule(
     title="A message is gone",
     subject="message",
     why=(
-        "Ends of the old edition go on sending it, and nobody understands it. Its id may be taken "
-        "for another message later."
+        "Ends of the old edition go on sending it, and nobody understands it. Under its id, they "
+        "would take another message for it."
     ),
     do=(
-        "Say `deprecated` for a while instead; once it is gone, keep its id and its name in "
-        "`reserved`."
+        "Before it goes, it is `deprecated` for a while; once it is gone, its id and its name "
+        "stay in `reserved`."
     ),
     at="messages",
     before="LampBlink: {id: 9, fields: {lamp_id: {type: u8}}}",

@@ -24,8 +24,8 @@ RULE = ChangeRule(
     subject="message",
     why="Programs build and receive it by the name of its class. On the wire, nothing changes.",
     do=(
-        "Say `was: OldName`, so that it is known for the same, and change it together with "
-        "another break of programs."
+        "Change it together with another break of programs. `was` says that it is the same, as "
+        "long as anybody compares with the old name."
     ),
     at="messages",
     before="LampBlink: {id: 9, fields: {lamp_id: {type: u8}}}",

@@ -29,8 +29,8 @@ RULE = ChangeRule(
         "Nobody sees the name of any other part."
     ),
     do=(
-        "Where it is an address, change it together with another break of programs, and say `was: "
-        "old_name`."
+        "Where programs name it, change it together with another break of programs; `was` says "
+        "that it is the same."
     ),
     at="frame",
     before="station: {is: address, type: u8}",

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 def _look(both: Both) -> Iterator[Change]:
     for each in both.messages.twins:
-        old, new = (
-            ", ".join(map(str, names))
-            for names in (map(both.message, each.old.reports), each.new.reports)
-        )
-        yield from changed("reports", each, "reports", old, new, "reports")
+        if [*map(both.message, each.old.reports)] != each.new.reports:
+            # What only may be the same is told under the name that it had.
+            old = ", ".join(map(both.certain_message, each.old.reports))
+            new = ", ".join(each.new.reports)
+            yield from changed("reports", each, "reports", old, new, "reports")
 
 
 RULE = ChangeRule(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from framegen.comparison.changes.change import ChangeRule
 from framegen.comparison.changes.telling import removed
+from framegen.comparison.changes.wording import reservation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def _look(both: Both) -> Iterator[Change]:
-    yield from removed("reserved-removed", both.reserved)
+    yield from removed("reserved-removed", both.reserved, lambda each: reservation(each.what))
 
 
 RULE = ChangeRule(

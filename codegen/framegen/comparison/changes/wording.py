@@ -9,7 +9,7 @@ from framegen.reading.yamltree import dotted
 
 if TYPE_CHECKING:
     from framegen.comparison.changes.things import Thing
-    from framegen.language.spec import AnyField, Concern
+    from framegen.language.spec import AnyField, Concern, Reserved
     from framegen.language.values import Method, Range
     from framegen.reading.yamltree import KeyPath
 
@@ -59,6 +59,15 @@ def described(field: Thing[AnyField]) -> str:
         return f"a list of {field.what.element}"
     is_list = field.what.counted_by or field.what.sized_by or field.what.count
     return f"a list of {field.what.type}" if is_list else field.what.type
+
+
+def reservation(reserved: Reserved) -> str:
+    """Return what is reserved: `id 30 (lamp -> host), name LampDim`."""
+    way = "" if reserved.direction is None else f" ({reserved.direction})"
+    said = [] if reserved.id is None else [f"id {reserved.id}{way}"]
+    if reserved.name:
+        said.append(f"name {reserved.name}")
+    return ", ".join(said)
 
 
 def concern(concerned: Concern) -> str:

@@ -78,10 +78,13 @@ def _is_dead(plays: Sequence[Play]) -> bool:
 
 
 def _worst(found: Sequence[Verdict]) -> Verdict | None:
-    """Return the worst verdict, one that breaks before all others; of equals the first."""
-    return min(
-        found, key=lambda each: (not each.breaks, OUTCOMES.index(each.outcome)), default=None
-    )
+    """Return the worst verdict, one that breaks before all others; of equals the shortest."""
+
+    def rank(each: Verdict) -> tuple[bool, int, int]:
+        size = len(each.play.data) + len(each.play.answered)
+        return not each.breaks, OUTCOMES.index(each.outcome), size
+
+    return min(found, key=rank, default=None)
 
 
 def _judged(table: Table, play: Play) -> Verdict | None:

@@ -85,6 +85,9 @@ def _lost(table: Table, play: Play, answer: str) -> tuple[str, str]:
         return "no reply", f"gets no reply: {answer} {_unheard(play)}"
     came = ", ".join(play.seen.came)
     if {each.name for each in play.exchange.answers}.isdisjoint(play.seen.came):
+        if came == answer:
+            wanted = " or ".join(each.name for each in play.exchange.answers)
+            return "other reply", f"is answered by {answer}, and not by {wanted}"
         return "other reply", f"is answered by {answer}, which is read as {came}"
     return "not recognized", f"is answered by {came}, which is not what was asked, or of whom"
 

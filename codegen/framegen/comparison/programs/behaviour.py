@@ -165,7 +165,7 @@ class _Values:
     def _read(self, values: Mapping[str, Any], read: Mapping[str, Any]) -> Iterator[Effect]:
         for each in differences(self.fields, self.old, self.new, values, read):
             if each.outcome == "misread":
-                yield from self._told("meaning", _INDEX.sub("", each.path), each.text)
+                yield from self._told("meaning", _INDEX.sub("", each.path), _meant(each.text))
 
     def _told(self, outcome: str, path: str, text: str) -> Iterator[Effect]:
         if (outcome, path) in self.told:
@@ -174,6 +174,11 @@ class _Values:
         old, new = _paths(self.pair, self.old, self.new, path)
         text = text if outcome == "refused" else f"`{self.new.name}`: {text}"
         yield Effect("programs", outcome, old, new, text)
+
+
+def _meant(text: str) -> str:
+    """Return what is wrong with a value as programs have it, which read no frames."""
+    return text.replace(" is read as ", " means ")
 
 
 def _counters(message: MessageLayout) -> dict[str, set[tuple[str, int]]]:

@@ -51,7 +51,9 @@ def all_ends(pair: Pair) -> list[Ends]:
 def upgrade_order(broken: Iterable[Ends]) -> str:
     """Say which end is upgraded first, where these do not understand each other."""
     ends = [*broken]
-    if len({(each.first, each.second) for each in ends}) < len(ends):
+    twice = len({(each.first, each.second) for each in ends}) < len(ends)
+    # An end that asks in one edition and answers in the other breaks with itself.
+    if twice or any(each.first == each.second for each in ends):
         return "both ends at once: each breaks with the old edition of the other"
     # What an old end breaks with must not be there before that is upgraded.
     orders = {

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 _WORDS = {"breaks": "breaks", "uncertain": "uncertain", "accepted": "on purpose"}
 # Rows of a table, and items of a list: a comment on a pull request has room for 65 536 characters.
 _MOST = 100
+# Up to so many rows, long frames are shown as a whole.
+_FEW, _BYTES, _BYTES_OF_MANY = 30, 300, 40
 
 
 def render(view: View) -> str:
@@ -71,8 +73,9 @@ def _upgrade(view: View) -> Iterator[str]:
 def _breaks(effects: list[Effect]) -> Iterator[str]:
     yield "| | where | what | between | frame |"
     yield "|---|---|---|---|---|"
+    most = _BYTES if len(effects) <= _FEW else _BYTES_OF_MANY
     for effect in effects[:_MOST]:
-        frame = "" if effect.witness is None else code(hex_of(effect.witness.data))
+        frame = "" if effect.witness is None else code(hex_of(effect.witness.data, most))
         what = _prose(effect_text(effect, str(effect.path[1]) if effect.path[1:] else ""))
         if effect.accepted:
             what += f" (accepted: {_prose(effect.accepted)})"

@@ -133,9 +133,14 @@ def _effect(effect: Effect, title: str, frames: set[bytes]) -> Iterator[str]:
 
 
 def _without_effect(view: View) -> Iterator[str]:
-    found = view.without_effect
-    yield f"documentation: {pluralize(len(found), 'change')} that nothing depends on"
-    for change in found[:_MOST_LISTED]:
-        yield f"  {visible(change.text)}"
-    if len(found) > _MOST_LISTED:
-        yield f"  and {len(found) - _MOST_LISTED} more: `--format json` lists them all"
+    for title, found in (
+        ("without effect: {} that no end and no program notices", view.tried_in_vain),
+        ("documentation: {} that nothing depends on", view.documentation),
+    ):
+        if found:
+            yield title.format(pluralize(len(found), "change"))
+        for change in found[:_MOST_LISTED]:
+            yield f"  {visible(change.text)}"
+            yield f"    {view.place(change)}"
+        if len(found) > _MOST_LISTED:
+            yield f"  and {len(found) - _MOST_LISTED} more: `--format json` lists them all"

@@ -12,7 +12,7 @@ from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.due import due, next_version, tells_versions, version_finding
 from framegen.comparison.edges import MOST
 from framegen.comparison.entry import sentences
-from framegen.comparison.explained import explain
+from framegen.comparison.explained import explain, is_documentation
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
 from framegen.console import visible
@@ -122,6 +122,16 @@ class View:
         ]
 
     @property
+    def documentation(self) -> list[Change]:
+        """The changes of words alone."""
+        return [each for each in self.without_effect if _is_words(each)]
+
+    @property
+    def tried_in_vain(self) -> list[Change]:
+        """The changes of facts that no effect was found of, and of what is reserved."""
+        return [each for each in self.without_effect if not _is_words(each)]
+
+    @property
     def nothing(self) -> bool:
         """Whether the editions say the same."""
         return not self.effects and not self.comparison.changes
@@ -176,14 +186,20 @@ class View:
 
     @property
     def sentences(self) -> list[str]:
-        """The changes as the history of the spec tells them."""
-        return sentences(self.comparison)
+        """The changes as the history of the spec tells them; its examples follow them."""
+        return sentences(self.comparison, examples=False)
 
     def places(self, change: Change) -> str:
         """Return where a change is, in both editions: `old.yaml:9:5 -> spec/new.yaml:9:5`."""
         old = "" if change.old is None else self.old.place(change.old)
         new = "" if change.new is None else self.new.place(change.new)
         return " -> ".join(filter(None, (old, new)))
+
+    def place(self, change: Change) -> str:
+        """Return where a change is in the new edition, or in the old where it is gone."""
+        if change.new is None:
+            return self.old.place(change.path)
+        return self.new.place(change.new)
 
     @property
     def groups(self) -> list[list[Section]]:
@@ -204,6 +220,10 @@ class View:
         if old is not None and old[:1] == ("messages",) and len(old) > 1:
             return self.pair.messages.to_new.get(str(old[1]), str(old[1]))
         return ""
+
+
+def _is_words(change: Change) -> bool:
+    return is_documentation(change) and not change.rule.startswith("reserved-")
 
 
 def rule_of(change: Change) -> ChangeRule | None:

@@ -1,4 +1,4 @@
-"""Frames and their values, as reports show them: on one line, and of what is long the beginning."""
+"""Frames and their values, as reports show them, each on one line."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from framegen.pluralize import pluralize
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect, Witness
 
-# Of a longer frame, so many bytes are shown; and so many characters of its values.
-_BYTES = 40
+# Of a longer frame, so many bytes are shown; and so many characters of its values. Who decodes a
+# frame needs all of it: longer ones are in the report for programs.
+_BYTES = 300
 _CHARACTERS = 160
 
 
-def hex_of(data: bytes) -> str:
-    """Return a frame in hex, `55 55 02 07`, of a long one the beginning."""
-    if len(data) <= _BYTES:
+def hex_of(data: bytes, most: int = _BYTES) -> str:
+    """Return a frame in hex, `55 55 02 07`, of one with more bytes than `most` the beginning."""
+    if len(data) <= most:
         return data.hex(" ").upper()
-    return f"{data[:_BYTES].hex(' ').upper()} ... ({pluralize(len(data), 'byte')})"
+    return f"{data[:most].hex(' ').upper()} ... ({pluralize(len(data), 'byte')})"
 
 
 def call_of(witness: Witness) -> str:
