@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 _EXAMPLE = "write it as findings have it, such as `messages.NAME.fields.NAME`"
+# What one or two slips make of a name.
+_ALMOST_EQUAL, _MOST_SLIPS = 0.85, 2
 _ONE_OF_ALL = "name one, such as `messages.NAME`"
 
 
@@ -51,18 +54,21 @@ def _path(here: KeyPath, text: str) -> Iterator[Problem]:
 
 
 def _message(here: KeyPath, text: str, spec: Spec) -> Iterator[Problem]:
-    """Yield a problem where a message is named that is not here, and of which nothing is left.
+    """Yield a problem where the name of a message seems to be misspelt.
 
-    Older versions may name what is forgotten since.
+    Another name may be that of a message that was removed, of which a spec need not know. Older
+    versions may name what is forgotten since.
     """
     name = named_message(text)
-    if name is None:
-        return
     known = known_messages(spec)
-    if name not in known:
+    if name is None or name in known:
+        return
+    alike = [each for each in known if abs(len(each) - len(name)) <= _MOST_SLIPS]
+    near = get_close_matches(name, alike, 1, _ALMOST_EQUAL)
+    if near:
         gone = f"if it was removed, reserve it: `reserved: [{{name: {name}, why: ...}}]`"
-        hint = did_you_mean(name, known, otherwise=" ").strip()
-        yield Problem(here, missing(name), f"{hint} {gone}".lstrip(), on_key=True)
+        hint = f"did you mean `{near[0]}`? {gone}"
+        yield Problem(here, missing(name), hint, on_key=True)
 
 
 def missing(name: str) -> str:
