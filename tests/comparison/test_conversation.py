@@ -74,7 +74,7 @@ def test_the_frame_that_shows_it_is_short() -> None:
     (effect, *_) = (each for each in effects_named("nothing is repeated") if each.witness)
     assert effect.witness is not None
     # One reply has room for 84 servos.
-    assert len(effect.witness.data) <= len("55 55 0C 15 03".split()) + 3 * 3
+    assert len(effect.witness.data) <= len(bytes.fromhex("55 55 0C 15 03")) + 3 * 3
 
 
 def test_another_reply_is_told_with_the_one_that_is_awaited() -> None:
