@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import linecache
 import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -251,6 +252,11 @@ class _Library(MetaPathFinder, Loader):
     def get_data(self, path: str) -> bytes:
         return self._texts[path].encode()
 
+    def forget_lines(self) -> None:
+        """Let nobody take lines of another library of that name for lines of this one."""
+        for file in self._texts:
+            linecache.cache.pop(file, None)
+
     def _file(self, fullname: str) -> str:
         place = self._folder.joinpath(*fullname.split("."))
         package = str(place / "__init__.py")
@@ -280,6 +286,7 @@ def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[Mo
     # Data is asked for by its whole path.
     finder = _Library(files, (folder or Path("made")).absolute())
     sys.meta_path.insert(0, finder)
+    finder.forget_lines()
     try:
         yield importlib.import_module(name)
     finally:
@@ -287,3 +294,4 @@ def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[Mo
         for module in [module for module in sys.modules if module.split(".")[0] == name]:
             del sys.modules[module]
         sys.modules.update(before)
+        finder.forget_lines()

@@ -316,8 +316,10 @@ def test_a_spec_with_findings_explains_nothing(misspelt: Path, capsys: Capture) 
 
 def test_rules_lists_every_rule(capsys: Capture) -> None:
     assert main(["rules"]) == 0
-    listed = [line.split(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
+    printed = capsys.readouterr()
+    listed = [line.split(maxsplit=1) for line in printed.out.splitlines()]
     assert listed == [[rule.id, rule.title] for rule in RULES]
+    assert printed.err.startswith("`framegen rules --changes` lists the kinds of changes")
 
 
 def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:

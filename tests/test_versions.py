@@ -162,7 +162,8 @@ def test_former_names_and_accepted_breaks_change_nothing_that_is_generated(file:
     version = data["protocol"]["version"]
     data.setdefault("history", [{"version": version, "changes": ["It."]}])
     changed = with_former_names(data)
-    changed["history"][0]["breaks"] = {"messages.Gone": "Nobody has it.", "link.baud": "Faster."}
+    breaks = {f"messages.{next(iter(data['messages']))}": "Nobody has it.", "link.baud": "Faster."}
+    changed["history"][0]["breaks"] = breaks
     before, after = compiled_of(data), compiled_of(changed)
     assert after.findings == []
     had = [

@@ -1,6 +1,7 @@
 """Requests and replies are matched: what was answered, by what, how fast, and what came alone."""
 
 import pytest
+from framegen.audit.text import as_text
 
 from tests.audit.line import audited
 from tests.factories import BUSSERVO, compiled_file
@@ -55,6 +56,66 @@ def test_without_times_the_order_alone_decides() -> None:
     found = audited(compiled_file(BUSSERVO).model, f"{ASK} {TELL} {ASK}")
     each = found.conversations.by_request["BatteryVoltageRead"]
     assert (each.requests, each.answered, each.unanswered, each.seconds) == (2, 1, 1, [])
+
+
+def test_a_probe_at_another_rate_is_no_request_without_a_reply() -> None:
+    probed = (
+        f"# opened, at 115200 baud\n{ASK}  # 0 s, host: a\n"
+        f"# opened, at 9600 baud\n{ASK}  # 1 s, host: a\n"
+    )
+    model = compiled_file(BUSSERVO).model
+    for text, counts in (
+        (f"{probed}{TELL}  # 1.5 s, controller: a\n", (1, 1, 0)),
+        # Where nothing came at any rate, none of them is known to be the right one.
+        (probed, (2, 0, 2)),
+        (f"{probed}{TELL}  # 1.5 s, noise: bad header\n", (2, 0, 2)),
+    ):
+        each = audited(model, text).conversations.by_request["BatteryVoltageRead"]
+        assert (each.requests, each.answered, each.unanswered) == counts
+
+
+def test_times_that_run_backwards_are_said() -> None:
+    model = compiled_file(BUSSERVO).model
+    lines = recording([(9, HOST, ASK), (0.5, BOARD, TELL), (0.75, HOST, ASK), (0.25, BOARD, TELL)])
+    found = audited(model, lines)
+    assert found.backward == ["line 2 of line", "line 4 of line"]
+    assert "times run backwards" in "\n".join(as_text(found))
+    # Two recordings in one file each have a clock of their own.
+    begun = "# recorded of 'a line' from 2026-01-02 09:08:07 +0000 on\n"
+    again = recording([(0, HOST, ASK), (0.5, BOARD, TELL)])
+    found = audited(model, f"{begun}{again}{begun}{again}")
+    assert found.backward == []
+    assert "times run backwards" not in "\n".join(as_text(found))
+
+
+GATHER, ONE, TWO = "55 55 FE 03 0E F0", "55 55 01 04 0E 01 EB", "55 55 02 04 0E 02 E9"
+ASK_TWO = "55 55 02 03 0E EC"
+GATHERED = [
+    ([(0, HOST, GATHER)], (1, 0, 0, 0), []),
+    ([(0, HOST, GATHER), (0.25, "servo", ONE)], (1, 1, 0, 0), [0.25]),
+    ([(0, HOST, GATHER), (0.25, "servo", ONE), (0.5, "servo", TWO)], (1, 1, 0, 0), [0.25]),
+    ([(0, "servo", ONE), (1, HOST, GATHER)], (1, 0, 0, 1), []),
+    ([(0, HOST, GATHER), (61, "servo", ONE)], (1, 0, 0, 1), []),
+    # Asked again, it is another request; what comes behind the next one answers that.
+    (
+        [(0, HOST, GATHER), (0.5, "servo", ONE), (1, HOST, GATHER), (1.25, "servo", ONE)],
+        (2, 2, 0, 0),
+        [0.5, 0.25],
+    ),
+    ([(0, HOST, GATHER), (1, HOST, ASK_TWO), (1.5, "servo", ONE)], (2, 0, 1, 1), []),
+    ([(0, HOST, ASK_TWO), (0.25, HOST, GATHER), (0.5, "servo", TWO)], (2, 1, 0, 0), [0.5]),
+]
+
+
+@pytest.mark.parametrize(("lines", "counts", "seconds"), GATHERED)
+def test_a_question_to_all_is_answered_by_those_who_answer(
+    lines: list[tuple[float, str, str]], counts: tuple[int, ...], seconds: list[float]
+) -> None:
+    found = audited(model_of("lxservo"), recording(lines))
+    each = found.conversations.by_request["ServoIdRead"]
+    assert (each.requests, each.answered, each.unanswered, each.unsolicited) == counts
+    assert each.seconds == pytest.approx(seconds)
+    assert ("ServoIdRead" in [each.message.name for each in found.raised]) is (each.answered > 0)
 
 
 def test_one_end_alone_says_nothing_of_the_other() -> None:

@@ -138,23 +138,136 @@ def test_what_was_noise_for_other_reasons_stays_noise() -> None:
 
 
 def test_noise_that_was_recorded_in_pieces_is_one_frame() -> None:
-    text = "55 55 04  # 1 s, noise: unknown command\n2A 01 02  # 1.1 s, noise: unknown command\n"
-    (misfit,) = audited(busservo(), text).misfits
-    assert (misfit.kind, misfit.times, misfit.size) == ("unknown command", 1, 6)
+    pieces = [b"\x55\x55\x04", b"\x2a\x01", b"\x02\x55\x55\x02\x99"]
+    text = "".join(
+        f"{piece.hex()}  # 1.{number * 5:02} s, noise: unknown command\n"
+        for number, piece in enumerate(pieces)
+    )
+    first, second = audited(busservo(), text).misfits
+    assert (first.kind, first.times, first.size) == ("unknown command", 1, 6)
+    assert (second.kind, second.times, second.size) == ("unknown command", 1, 4)
+    # Each is where it begins, though the recorder cut them elsewhere.
+    assert [each.examples[0][0] for each in (first, second)] == ["line 1", "line 3"]
+
+
+UNKNOWN = "55 55 02 99"
+APART: list[tuple[list[tuple[float, str, str]], list[tuple[str, str, int, str]]]] = [
+    # What a monitor of both ends writes: the same bytes raw say the same.
+    (
+        [
+            (1.75, "either noise: bad header", "00 13"),
+            (1.75, "either noise: unknown command", UNKNOWN),
+            (2.3, "either noise: too short", "55 55 04 0F 4C"),
+        ],
+        [
+            ("unknown command", "command 153", 4, "line 2"),
+            ("noise", "too short in BatteryVoltage", 5, "line 3"),
+            ("noise", "bad header", 2, "line 1"),
+        ],
+    ),
+    (
+        [
+            (0.8, "noise: length mismatch", "55 55 02 0F"),
+            (1.2, "noise: length mismatch", "00 80 F8 FE 00 80"),
+            (1.6, "noise: unknown command", UNKNOWN),
+            (2.0, "noise: unknown command", "55 55 08 03 01 E8"),
+        ],
+        [
+            ("unknown command", "command 153 from controller", 4, "line 3"),
+            ("noise", "length mismatch", 6, "line 2"),
+            ("noise", "unknown command", 6, "line 4"),
+            ("noise", "length mismatch in BatteryVoltage", 4, "line 1"),
+        ],
+    ),
+    # The halves of a frame: too late, of another sender, and for another reason.
+    (
+        [(1.0, "noise: unknown command", "55 55 02"), (1.06, "noise: unknown command", "99")],
+        [("noise", "unknown command", 3, "line 1"), ("noise", "unknown command", 1, "line 2")],
+    ),
+    (
+        [(1.0, "noise: unknown command", "55 55 02"), (1.0, "host noise: unknown command", "99")],
+        [("noise", "unknown command", 3, "line 1"), ("noise", "unknown command", 1, "line 2")],
+    ),
+    (
+        [(1.0, "noise: too short", "55 55 02"), (1.0, "noise: bad header", "99")],
+        [("noise", "too short", 3, "line 1"), ("noise", "bad header", 1, "line 2")],
+    ),
+]
+
+
+@pytest.mark.parametrize(("lines", "expected"), APART)
+def test_noise_that_a_recorder_judged_apart_stays_apart(
+    lines: list[tuple[float, str, str]], expected: list[tuple[str, str, int, str]]
+) -> None:
+    text = "".join(f"{data}  # {at} s, {who}\n" for at, who, data in lines)
+    found = [
+        (each.kind, each.what, len(data), place)
+        for each in audited(busservo(), text).misfits
+        for place, data in each.examples
+    ]
+    assert sorted(found) == sorted(expected)
+
+
+@pytest.mark.parametrize(("between", "unknown"), [("", 1), ("# a note\n", 1), ("# quiet\n", 0)])
+def test_halves_of_a_frame_are_joined_unless_the_line_went_quiet(
+    between: str, unknown: int
+) -> None:
+    half = "{}  # 1 s, noise: unknown command\n"
+    text = half.format("55 55 02") + between + half.format("99")
+    kinds = [each.kind for each in audited(busservo(), text).misfits]
+    assert kinds.count("unknown command") == unknown
+
+
+def test_a_recording_with_noise_says_what_its_bytes_say() -> None:
+    (lines, _), *_ = APART
+    recorded = "".join(f"{data}  # {at} s, {who}\n" for at, who, data in lines)
+    raw = " ".join(data for _, _, data in lines)
+    one, other = audited(busservo(), recorded), audited(busservo(), raw)
+    assert [(each.kind, each.what, each.size) for each in one.misfits] == [
+        (each.kind, each.what, each.size) for each in other.misfits
+    ]
 
 
 def test_a_look_alike_is_named() -> None:
     (misfit,) = audited(busservo(), "55 55 02 01").misfits
     assert misfit.why.endswith(
-        "it is a frame of The dialect of LeArm and uHand boards, where it asks for the version"
+        "it is a frame of the dialect of LeArm and uHand boards, where it asks for the version"
     )
 
 
-def test_what_is_malformed_on_purpose_is_no_misfit() -> None:
-    found = audited(
-        busservo(), f"55 55 05  # 1 s, host noise: too short\n{VOLTAGE}  # 2 s, controller: a"
+ON_PURPOSE = [
+    ("# a query cut short in its fields, and BatteryVoltageRead at once", "too short", True),
+    ("# a query cut short in its fields, then BatteryVoltageRead", "too short", True),
+    ("# a query cut short in its fields, and BatteryVoltageRead at once", "bad header", False),
+    ("# a query cut short in its fields, and BatteryVoltageRead at once", "", False),
+    ("# BatteryVoltageRead, example 1", "too short", False),
+    ("# a query", "too short", False),
+    ("", "too short", False),
+    ("", "", False),
+]
+
+
+@pytest.mark.parametrize(("title", "reason", "is_meant"), ON_PURPOSE)
+def test_what_a_run_of_conform_says_is_malformed_on_purpose_is_no_misfit(
+    title: str, reason: str, *, is_meant: bool
+) -> None:
+    text = f"{title}\n55 55 05  # 1 s, host noise: {reason}\n{VOLTAGE}  # 2 s, controller: a"
+    found = audited(busservo(), text)
+    assert (found.malformed, found.fits) == (int(is_meant), is_meant)
+    assert found.noise == (0 if is_meant else 3)
+
+
+def test_a_monitor_of_what_the_host_sends_finds_noise_too() -> None:
+    text = (
+        "# a query cut short in its fields, and BatteryVoltageRead at once\n"
+        "# recorded of 'a line' from 2026-01-02 09:08:07 +0000 on\n"
+        "00 80 F8 FE 00 80  # 1 s, host noise: bad header\n"
+        f"{UNKNOWN}  # 2 s, host noise: unknown command\n"
+        "55 55 08 03 01 E8  # 3 s, host noise: too short\n"
     )
-    assert (found.misfits, found.malformed, found.fits) == ([], 1, True)
+    found = audited(busservo(), text)
+    assert (found.malformed, found.noise, found.fits) == (0, 12, False)
+    assert found.misfits[0].what == "command 153 from host"
 
 
 @pytest.mark.parametrize(("tolerated", "fits"), [(0, False), (2, False), (3, True), (100, True)])

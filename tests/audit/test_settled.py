@@ -8,6 +8,7 @@ import pytest
 from framegen.audit.evidence import evidence
 from framegen.compile import compile_spec
 from framegen.model.codec import encode
+from framegen.model.model import Model
 from framegen.reading.source import Source
 from framegen.reading.yamltree import read_tree
 
@@ -56,31 +57,91 @@ def test_a_request_that_nobody_answered_is_no_evidence() -> None:
         assert [each.message.name for each in audited(model, text).raised] == expected
 
 
+WHERE, THERE = "55 55 06 15 03 01 02 06", "55 55 0C 15 03 01 FC 01 02 EC 01 06 FF FF"
+ASKED = f"{WHERE}  # 0 s, host: a\n"
+ANSWERED = f"{ASKED}{THERE}  # 0.5 s, controller: a\n"
+MOVED = "55 55 08 03 01 E8 03 01 20 03  # 0 s, host: a\n"
+BY_BOARD, BY_HOST = "sent by the controller", "sent by the host"
 CONCERNS = [
-    ("{message: ServoMove}", "targets.position 800"),
-    ("{message: ServoMove, field: time_ms}", "time_ms 1000"),
-    ("{message: ServoMove, field: targets}", "targets 1 element"),
-    ("{message: ServoMove, field: targets.position}", "targets.position 800"),
-    ("{message: ServoMove, parameter: 2}", "parameter 2 was E8"),
-    ("{message: ServoMove, fact: length}", "in frames of 10 bytes"),
-    ("{message: ServoMove, example: 1}", "example 1 was seen as it stands"),
-    ("{message: ServoMove, example: 2}", None),
-    ("{message: ServoUnload}", None),
+    ("{message: ServoPositions}", "positions.position 492, 508, 65535", BY_BOARD),
+    ("{message: ServoPositions, field: positions}", "positions 3 elements", BY_BOARD),
+    ("{message: ServoPositions, field: positions.servo_id}", "servo_id 1, 2, 6", BY_BOARD),
+    ("{message: ServoPositions, parameter: 2}", "parameter 2 was 01", BY_BOARD),
+    ("{message: ServoPositions, fact: length}", "in frames of 14 bytes", BY_BOARD),
+    ("{message: ServoPositionsRead}", "servo_ids[] 1, 2, 6", BY_HOST),
+    ("{message: ServoPositionsRead, parameter: 1}", "parameter 1 was 03", BY_HOST),
+    ("{message: BatteryVoltage}", None, ""),
+    # That somebody sent it shows nothing of the board.
+    ("{message: ServoMove}", None, ""),
+    ("{message: ServoMove, field: targets.position}", None, ""),
+    ("{message: ServoMove, example: 1}", None, ""),
 ]
 
 
-@pytest.mark.parametrize(("concerns", "expected"), CONCERNS)
-def test_what_was_seen_of_an_open_question(concerns: str, expected: str | None) -> None:
+def asking(concerns: str) -> Model:
+    """Return busservo with one open question."""
     data = data_of(BUSSERVO)
     text = f"unknowns:\n  - concerns: {concerns}\n    what: Something.\n"
     data["unknowns"] = read_tree(Source("unknowns", text))[0].data["unknowns"]
-    found = audited(compiled_of(data).model, "55 55 08 03 01 E8 03 01 20 03")
+    return compiled_of(data).model
+
+
+@pytest.mark.parametrize(("concerns", "expected", "sender"), CONCERNS)
+def test_what_was_seen_of_an_open_question(
+    concerns: str, expected: str | None, sender: str
+) -> None:
+    found = audited(asking(concerns), MOVED + ANSWERED)
     if expected is None:
         assert found.questions == []
     else:
         (question,) = found.questions
         assert expected in question.seen[0]
-        assert "sent by the host" in question.seen[0]
+        assert sender in question.seen[0]
+
+
+def test_an_example_is_seen_where_the_board_sent_or_answered_it() -> None:
+    for frame, name, sender in (
+        (TELL, "BatteryVoltage", BY_BOARD),
+        (ASK, "BatteryVoltageRead", BY_HOST),
+    ):
+        model = asking(f"{{message: {name}, example: 1}}")
+        shown = bytes(model.messages[name].message.examples[0].hex).hex(" ")
+        ask = f"{ASK}  # 0 s, host: a\n"
+        tell = f"{shown if frame == TELL else TELL}  # 1 s, controller: a\n"
+        (question,) = audited(model, ask + tell).questions
+        assert f"example 1 was seen as it stands, {sender}" in question.seen[0]
+
+
+def test_a_question_about_a_request_stays_open_until_it_is_answered() -> None:
+    model = asking("{message: ServoPositionsRead}")
+    assert audited(model, ASKED).questions == []
+    assert audited(model, ANSWERED).questions != []
+
+
+@pytest.mark.parametrize("origin", [{"cite": "vendor, section 1.5"}, {"constructed": "By hand."}])
+def test_an_example_of_the_same_frame_is_confirmed_and_keeps_its_source(
+    origin: dict[str, Any],
+) -> None:
+    data = data_of(BUSSERVO)
+    example = {"title": "Ask", "hex": ASK, "values": {}, **origin}
+    data["messages"]["BatteryVoltageRead"]["examples"] = [example]
+    model = compiled_of(data).model
+    text = f"{ASK}  # 0 s, host: a\n{TELL}  # 1 s, controller: a\n"
+    yaml = next(
+        each.yaml
+        for each in audited(model, text).raised
+        if each.message.name == "BatteryVoltageRead"
+    )
+    assert yaml.splitlines()[0].strip() == (
+        "# Example 1 is confirmed: leave it and its source as they are."
+    )
+    with_examples(data, "BatteryVoltageRead", yaml)
+    after = compiled_of(data)
+    assert [each.message for each in after.findings] == []
+    assert data["messages"]["BatteryVoltageRead"]["examples"][0] == example
+    assert "BatteryVoltageRead" not in [
+        each.message.name for each in audited(after.model, text).raised
+    ]
 
 
 # ------------------------------------------------------------------ the count of facts

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from tests.factories import Data
 
 SERVO, BUS, HOUSE = SPECS["busservo"], SPECS["modbus"], SPECS["greenhouse"]
+SMALL = with_(SERVO, "messages", "ServoPositions", "fields", "positions", "count", "1..5")
+TURNED = with_(SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items())))
+BOARDLESS = with_(SERVO, "link", "usb_hid", GONE)
 DYNAMIXEL, LX, MSP = (data_of(FILES[name]) for name in ("dynamixel1", "lxservo", "msp"))
 BATTERY = ("messages", "BatteryVoltageRead")
 VOLTAGE = ("messages", "BatteryVoltage")
@@ -20,7 +23,10 @@ RUN = ("messages", "ActionGroupRun")
 
 
 class Said(NamedTuple):
-    """What is said of an exchange: of whom, what becomes of it, and whether it breaks."""
+    """What is said of an exchange: of whom, what becomes of it, and whether it breaks.
+
+    What is said of the line has the path of a key instead of a message.
+    """
 
     ends: str
     outcome: str
@@ -60,7 +66,8 @@ CASES: dict[str, Case] = {
         SERVO,
         [
             Said(_OLD_HOST, "unawaited", "BatteryVoltageRead", breaks=False),
-            Said(_NEW_HOST, "no reply", "BatteryVoltageRead"),
+            # Devices may have sent it all along; but programs were given it as a report.
+            Said(_NEW_HOST, "no reply", "BatteryVoltageRead", breaks=False),
             Said(_NEW_HOST, "no report", "BatteryVoltage"),
         ],
     ),
@@ -194,6 +201,35 @@ CASES: dict[str, Case] = {
         [
             Said(_OLD_HOST, "no report", "ApiVersionRefused", breaks=False),
             Said(_NEW_HOST, "no error", "ApiVersionRead"),
+        ],
+    ),
+    "replies have each other's ids": Case(
+        LX,
+        _moved(_moved(LX, "Temperature", 25), "TemperatureLimit", 26),
+        [
+            Said(_OLD_LX, "other reply", "TemperatureLimitRead"),
+            Said(_NEW_LX, "other reply", "TemperatureLimitRead"),
+        ],
+    ),
+    "a reply has room for fewer": Case(
+        SERVO, SMALL, [Said(_OLD_HOST, "in part", "ServoPositionsRead")]
+    ),
+    # The old host asks in parts.
+    "a reply has room for more": Case(
+        SMALL, SERVO, [Said(_NEW_HOST, "in part", "ServoPositionsRead")]
+    ),
+    "a board without a port is gone": Case(
+        SERVO, BOARDLESS, [Said(_NEW_HOST, "not found", "link.usb_hid")]
+    ),
+    "a board without a port is new": Case(
+        BOARDLESS, SERVO, [Said(_OLD_HOST, "not found", "link.usb_hid", breaks=False)]
+    ),
+    "both ends ask": Case(
+        SERVO,
+        TURNED,
+        [
+            Said("old host, new controller", "no reply", "endpoints"),
+            Said("new controller, old host", "no reply", "endpoints"),
         ],
     ),
     "all is written down": Case(SERVO, with_(SERVO, *BATTERY, "summary", "Ask."), []),

@@ -45,8 +45,8 @@ class Desk:
     chance: random.Random
 
     def pick(self, things: Iterable[T]) -> T:
-        """Return one of some things."""
-        found = list(things)
+        """Return one of some things, the same in each run: a set has another order in each."""
+        found = sorted(things, key=str) if isinstance(things, set) else list(things)
         if not found:
             raise Inapplicable
         return self.chance.choice(found)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import copy
 import json
+from functools import lru_cache
 from typing import Any
 
+from framegen.checks import check_model, check_structure
 from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 from framegen.compile import Compiled
@@ -49,15 +51,24 @@ def reordered(data: Data, path: Steps, order: list[str]) -> Data:
     return with_(data, *path, {name: here[name] for name in order})
 
 
-def edition(data: Data, label: str = "made_up.yaml") -> Edition:
+def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) -> Edition:
     """Return an edition of a spec that may contradict itself: one fact is changed at a time.
 
-    Its text is not read again, so that nothing in it has a place.
+    Its text is not read again, so that nothing in it has a place. Of one that is not checked,
+    nobody knows what is wrong with it.
     """
-    values = json.loads(json.dumps(data))
+    return _edition(json.dumps(data), label, checked=checked)
+
+
+# The specs that are edited are asked for again and again.
+@lru_cache(maxsize=32)
+def _edition(text: str, label: str, *, checked: bool) -> Edition:
+    values = json.loads(text)
     spec = Spec.model_validate(values)
-    model = derive(spec)
-    return Edition(label, Compiled(Source(label, ""), Tree(values), [], spec, model), spec, model)
+    model, tree = derive(spec), Tree(values)
+    tolerated = (check_structure(spec, tree) or check_model(model, tree)) if checked else ()
+    compiled = Compiled(Source(label, ""), tree, [], spec, model, tuple(tolerated))
+    return Edition(label, compiled, spec, model)
 
 
 def pair_of(old: Data, new: Data) -> Pair:
@@ -245,3 +256,9 @@ EDITS: dict[str, tuple[Data, Data]] = {
     ),
     "nothing reserved": (HOUSE, with_(HOUSE, "reserved", [])),
 }
+
+
+def of_the_day(name: str, seed: int) -> tuple[Data, Data]:
+    """Return the editions of an edit, one way round or, for the next seed, the other."""
+    old, new = EDITS[name]
+    return (old, new) if (seed + [*EDITS].index(name)) % 2 else (new, old)

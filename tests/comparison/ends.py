@@ -5,8 +5,10 @@ from __future__ import annotations
 import importlib
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.conversation.exchange_effects import verdicts
 from framegen.comparison.conversation.play import OTHER, Table
 from framegen.comparison.edges import values_to_try
 from framegen.compile import Compiled
@@ -24,10 +26,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import ModuleType
 
+    from framegen.comparison.conversation.exchange_effects import Verdict
     from framegen.comparison.conversation.play import Play
     from framegen.comparison.edition import Edition
     from framegen.comparison.effect import Which
     from framegen.comparison.pair import Pair
+    from framegen.model.exchanges import Exchange
 
 # Virtual seconds in which all comes that may come.
 LONG = 5.0
@@ -98,7 +102,10 @@ class Ends:
         handlers = self.part(device, "device")._HANDLERS
         for name in handlers.values():
             setattr(there, name, answer if name in self._asked(device) else _nothing)
-        with self.client(client, there) as controller:
+        # Who expects an echo is on a line that has one: what becomes of it is no matter of plays.
+        echoes = self.pair.edition(client).spec.link.local_echo
+        line = EchoLine(there) if echoes else DeviceLine(there)
+        with self.client(client, there, line=line) as controller:
             request = made_of(self.library(client), play.exchange.request, play.values)
             return self._ends(client, controller, request)
 
@@ -152,29 +159,106 @@ class Ends:
         return Seen(ending, frozenset(name for name, came in rest.items() if came))
 
 
-def differing(ends: Ends, messages: set[str] | None = None) -> list[Play]:
-    """Return the plays of requests, of all or of those named, that really end otherwise.
+@dataclass(frozen=True)
+class Scene:
+    """A play of the comparison, and how it really ends: now, and between two old ends.
 
-    Of those that end alike for the same reason, the first is played.
+    What two old ends cannot say has no `was`.
+    """
+
+    play: Play
+    now: Seen
+    was: Seen | None
+
+    @property
+    def is_as_said(self) -> bool:
+        """Tell whether it ends as the comparison says, and ended so before."""
+        before = self.play.before
+        return self.now == _said(self.play) and self.was == (before and _said(before))
+
+    @property
+    def is_lost(self) -> bool:
+        """Tell whether a program got what it should, and gets it no longer."""
+        good = _GOOD[self.play.kind]
+        return self.was is not None and self.was.ending in good and self.now.ending not in good
+
+
+# How a request may end for which a device gives an answer of each kind.
+_GOOD = {
+    "reply": {"reply", "sent"},
+    "refusal": {"refusal", "sent", "unasked"},
+    "failure": {"failure", "sent", "unasked"},
+}
+
+
+def scenes(ends: Ends, table: Table, client: Which, exchange: Exchange) -> list[Scene]:
+    """Play an exchange; of what ends alike for the same reason, the first is played."""
+    plays: dict[Any, Play] = {}
+    for play in table.plays(client, exchange):
+        before = play.before
+        was = None if before is None else (before.ending, before.seen.rest, before.read_as)
+        answers = tuple(each.message for each in play.answers)
+        way = (play.kind, play.ending, play.seen.rest, play.read_as, answers, was)
+        plays.setdefault(way, play)
+    found: list[Scene] = []
+    for play in plays.values():
+        old = None if play.before is None else ends.seen(play.before, "old")
+        found.append(Scene(play, ends.seen(play, OTHER[client]), old))
+    return found
+
+
+def differing(ends: Ends, messages: set[str] | None = None) -> list[Scene | Exchange]:
+    """Return what is really otherwise of requests, of all or of those named.
+
+    These are plays that end otherwise, and exchanges that break without being said to, or that are
+    said to break and do not.
     """
     table = Table(ends.pair)
-    found: list[Play] = []
+    found: list[Scene | Exchange] = []
     sides: tuple[Which, Which] = ("old", "new")
     for client in sides:
         for name, exchange in table.clients[client].exchanges.items():
-            if messages is not None and name not in messages:
-                continue
-            plays: dict[Any, Play] = {}
-            for play in table.plays(client, exchange):
-                answers = tuple(each.message for each in play.answers)
-                way = (play.kind, play.ending, play.seen.rest, play.read_as, answers)
-                plays.setdefault(way, play)
-            found += [
-                play
-                for play in plays.values()
-                if ends.seen(play, OTHER[client]) != Seen(play.ending, frozenset(play.seen.rest))
-            ]
+            if messages is None or name in messages:
+                played = scenes(ends, table, client, exchange)
+                found += [each for each in played if not each.is_as_said]
+                said = (each.breaks for each in verdicts(table, client, exchange) if _is_lost(each))
+                if any(said) is not _breaks(table, client, exchange, played):
+                    found.append(exchange)
     return found
+
+
+def _breaks(table: Table, client: Which, exchange: Exchange, played: list[Scene]) -> bool:
+    """Tell whether a program loses something, or all that both editions know of an exchange."""
+    answered = [scene for scene in played if scene.play.kind == "reply"]
+    endings = [scene.now.ending for scene in answered if scene.now.ending != "unasked"]
+    is_dead = bool(endings) and set(endings) == {"timeout"}
+    if client == "new" and _is_told_first(table.pair, exchange):
+        # What answers it may have come unasked before: it is lost where the request is not read.
+        return any(scene.is_lost for scene in played if not scene.play.read_as)
+    known = table.other(client, exchange) is not None
+    return any(scene.is_lost for scene in played) or (known and is_dead)
+
+
+def _is_told_first(pair: Pair, exchange: Exchange) -> bool:
+    """Tell whether the old edition has the answer to a command, and says nowhere when it comes."""
+    messages = pair.old.spec.messages
+    request, reply = exchange.request.name, exchange.reply
+    before = messages.get(pair.messages.to_old.get(request, ""))
+    name = None if reply is None else pair.messages.to_old.get(reply.name)
+    if before is None or before.reply is not None or name is None:
+        return False
+    linked = ((each.reply, each.refusal, each.acknowledged) for each in messages.values())
+    reports = {report for each in messages.values() for report in each.reports}
+    return name not in {*chain.from_iterable(linked), *reports}
+
+
+def _is_lost(verdict: Verdict) -> bool:
+    """Tell whether a verdict is about what is lost, and not about what comes besides."""
+    return verdict.outcome != "unawaited"
+
+
+def _said(play: Play) -> Seen:
+    return Seen(play.ending, frozenset(play.seen.rest))
 
 
 def _ending(made: Any, controller: Any, exchange: Any, request: Any) -> str:

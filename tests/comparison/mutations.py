@@ -25,7 +25,7 @@ from tests.factories import BUSSERVO, data_of
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from framegen.comparison.edition import Edition
 
@@ -102,6 +102,18 @@ def _mutated(
     new = edition_of(changed, "new")
     title = f"after({spec!r}, {[*names]!r}, {seed})"
     return None if new is None else Editions(title, old, new, Author(before, changed))
+
+
+def places(name: str, seed: int) -> Iterator[Editions]:
+    """Yield what a mutation makes of the specs in which it has a place, in an order by lot.
+
+    Of each, the one or the other edition comes first.
+    """
+    chance = random.Random(f"{seed} {name}")  # noqa: S311 - no secret
+    for spec in chance.sample([*SPECS], len(SPECS)):
+        made = after(spec, [name], chance.randrange(100)) or after(spec, [name], 0)
+        if made is not None:
+            yield made.turned if chance.randrange(2) else made
 
 
 @st.composite

@@ -27,6 +27,9 @@ _PASSING = frozenset(
 )
 _MOST_VALUES = 24
 _HELPERS = """
+import inspect
+
+
 class Line:
     name = "line"
 
@@ -70,6 +73,10 @@ def handled(handler, message, reply):
     device = kind()
     device.accept(message.encode())
     return seen, device.take()
+
+
+def accepted(method, names):
+    inspect.signature(method).bind(None, **dict.fromkeys(names))
 
 
 def matched(message, *names):
@@ -223,10 +230,22 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
         yield f"callable(AsyncController.{exchange.method})"
         yield f"handled({handler!r}, {call}, {reply})"
         yield f"callable(Device.{handler})"
+    methods = {exchange.method for exchange in exchanges.EXCHANGES.values()}
     for client in ("Controller", "AsyncController", "OneDevice", "AllDevices"):
-        for each in vars(getattr(made, client, object)):
+        for each, value in vars(getattr(made, client, object)).items():
             if not each.startswith("_"):
                 yield f"callable({client}.{each})"
+                # What others of a client take is seen where they are called.
+                called = client.endswith("Controller") and each in methods
+                if inspect.isfunction(value) and not called:
+                    yield f"accepted({client}.{each}, {_needed(value)})"
+
+
+def _needed(function: Any) -> list[str]:
+    """Return the names of what a method must be given."""
+    empty, (_, *given) = inspect.Parameter.empty, inspect.signature(function).parameters.values()
+    named = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+    return [each.name for each in given if each.default is empty and each.kind in named]
 
 
 def _limited(limits: Any, kind: Any, usual: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
@@ -255,10 +274,13 @@ def _of_result(exchange: Any, call: str) -> Iterator[str]:
 
 
 def _reply(exchange: Any, asked: Mapping[str, Any]) -> str | None:
-    """Return an expression for a reply that repeats what it must."""
+    """Return an expression for a reply that repeats what it must, and tells of no failure."""
     if exchange.reply is None:
         return None
     usual = usual_values(exchange.reply)
+    failure = getattr(exchange.failures, "_field", "")
+    if failure:
+        usual[failure] = 0
     address = getattr(exchange.address, "field", "")
     if address in usual and address in asked:
         usual[address] = asked[address]
@@ -280,11 +302,15 @@ def made_by_name(name: str, values: Mapping[str, Any]) -> str:
 
 
 def usual_values(kind: Any) -> dict[str, Any]:
-    """Return a value for each argument of a message."""
-    return {
-        each: next(_values(kind, each, at))
-        for at, each in enumerate(inspect.signature(kind).parameters)
-    }
+    """Return a value for each argument of a message; None for what no frame of it has room for."""
+    given = inspect.signature(kind).parameters
+    values = {each: next(_values(kind, each, at)) for at, each in enumerate(given)}
+    for each in reversed(given):
+        if not fails(run("kind(**values)", {"kind": kind, "values": values})):
+            break
+        if given[each].default is None:
+            values[each] = None
+    return values
 
 
 def _attributes(kind: Any) -> list[str]:

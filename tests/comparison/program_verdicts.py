@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from framegen.comparison.programs import program_effects
-from framegen.comparison.programs.rendered import rendered
+from framegen.comparison.programs.rendered import NoLibrary, rendered
 from framegen.model.exchanges import method_of, snake_case
 from framegen.targets.python.names import names_of, package_of
 
@@ -51,8 +51,9 @@ class Verdict:
 
 def files_of(edition: Edition) -> dict[str, str] | None:
     """Return the library of an edition, by path; None where nothing can be made of it."""
-    files = rendered(edition)
-    if files is None:
+    try:
+        files = rendered(edition)
+    except NoLibrary:
         return None
     return {f"generated/{package_of(edition.model)}/{path}": text for path, text in files.items()}
 

@@ -34,7 +34,8 @@ For the example of each rule, the outcome stands beside it.
 The host has the library, and the lamp answers;
 one of them has the edition before, and the other the one after.
 `as before` is said where nothing is noticed, and `new` where only what is new is not understood.
-Of a whole spec, the lines that do not matter are left out. `framegen rules ID` tells of one rule.
+Of a whole spec, the lines that do not matter are left out.
+At a terminal, `framegen rules --changes` lists the rules, and `framegen rules ID` tells of one.
 """
 _SUBJECTS = {
     "line": "The line",
@@ -50,11 +51,28 @@ _SUBJECTS = {
 
 def page() -> str:
     """Return the whole page."""
-    parts = [_HEAD]
+    parts = [_HEAD, contents()]
     for subject, title in _SUBJECTS.items():
         parts.append(f"## {title}\n")
-        parts += ["\n".join(_told(rule)) for rule in CHANGE_RULES if rule.subject == subject]
+        parts += ["\n".join(_told(rule)) for rule in _rules(subject)]
     return "\n".join(parts)
+
+
+def contents() -> str:
+    """Return the list of all rules, with a link to each."""
+    lines = [
+        f"- {_link(title)}: " + ",\n  ".join(_link(rule.id) for rule in _rules(subject))
+        for subject, title in _SUBJECTS.items()
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _rules(subject: str) -> list[ChangeRule]:
+    return [rule for rule in CHANGE_RULES if rule.subject == subject]
+
+
+def _link(heading: str) -> str:
+    return f"[{heading}](#{heading.lower().replace(' ', '-')})"
 
 
 def section(rule: ChangeRule) -> str:

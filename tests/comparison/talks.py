@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from typing import TYPE_CHECKING, Literal
 
 from framegen.comparison.pair import Pair
-from framegen.comparison.wire import trials_of, try_out
+from framegen.comparison.wire import trials_of
 
 from tests.comparison.authors import edition_of
 from tests.comparison.oracle import Oracle
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from framegen.comparison.edition import Edition
+    from framegen.comparison.effect import Witness
     from framegen.comparison.wire import Trial, Trials
 
     from tests.comparison.mutations import Editions
@@ -64,10 +65,20 @@ class Talk:
     @cached_property
     def tried(self) -> list[Trials]:
         """What the comparison says of each message of each sender."""
-        return try_out(self.pair)
+        return [trial.found_in(frames) for trial, frames in self._frames]
 
-    def trials(self) -> Iterator[tuple[Oracle, Trial]]:
-        """Yield each trial of each sender, with the judge of what it sends."""
-        for sender in SENDERS:
-            for trial in trials_of(self.pair, sender):
-                yield self.oracles[sender], trial
+    @cached_property
+    def _frames(self) -> list[tuple[Trial, list[tuple[Witness, bool]]]]:
+        """Each trial of each sender with its frames, which are tried once for all that asks."""
+        trials = (trial for sender in SENDERS for trial in trials_of(self.pair, sender))
+        return [(trial, [*trial.frames()]) for trial in trials]
+
+    def frames(self) -> Iterator[tuple[Oracle, Trial, list[tuple[Witness, bool]]]]:
+        """Yield each trial of each sender and its frames, with the judge of what it sends."""
+        for trial, frames in self._frames:
+            yield self.oracles[trial.sender], trial, frames
+
+    def trials(self) -> Iterator[tuple[Oracle, Trial, Trials]]:
+        """Yield each trial of each sender and its verdict, with the judge of what it sends."""
+        for (trial, _), tried in zip(self._frames, self.tried, strict=True):
+            yield self.oracles[trial.sender], trial, tried

@@ -19,6 +19,7 @@ from tests.timeouts import GENEROUS
 ACTION = ROOT / ".github" / "actions" / "framegen-diff" / "action.yml"
 WORKFLOW = ROOT / ".github" / "workflows" / "ci.yml"
 HOOKS = ROOT / ".pre-commit-hooks.yaml"
+GUIDE = ROOT / "docs" / "changing-the-protocol.md"
 BASH = shutil.which("bash")
 GIT = shutil.which("git")
 MILLISECONDS = ("type: u16\n        unit: s\n", "type: u16\n        unit: ms\n")
@@ -168,6 +169,78 @@ def test_what_cannot_be_compared_is_an_error_without_a_report(runner: Runner) ->
 
 
 @needs_bash
+@pytest.mark.parametrize("base", ["", "main"], ids=["push", "pull request"])
+def test_a_spec_that_is_not_in_the_checkout_is_an_error(runner: Runner, base: str) -> None:
+    for spec in ("spec/nope.yaml", "nope", "spec"):
+        code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF=base)
+        assert code == 2
+        assert f"::error title=framegen diff::The checkout has no spec '{spec}'" in printed
+    assert not runner.report.exists()
+
+
+@needs_bash
+def test_a_spec_is_named_as_on_the_command_line(runner: Runner) -> None:
+    change(runner.checkout)
+    code, printed = runner.compare(SPEC="greenhouse", GITHUB_BASE_REF="main")
+    assert code == 1, printed
+    assert "VentsOpen" in runner.report.read_text(encoding="utf-8")
+
+
+@needs_bash
+@pytest.mark.parametrize("spec", ["", pytest.param("kiln", marks=pytest.mark.slow)])
+def test_a_renamed_spec_is_compared_with_what_it_was(runner: Runner, spec: str) -> None:
+    change(runner.checkout)
+    git(runner.checkout, "mv", "spec/greenhouse.yaml", "spec/kiln.yaml")
+    code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="main")
+    assert code == 1, printed
+    assert "::error file=spec/kiln.yaml,line=" in printed
+
+
+@needs_bash
+def test_a_spec_that_is_gone_is_told(runner: Runner) -> None:
+    git(runner.checkout, "rm", "-q", "spec/greenhouse.yaml")
+    code, printed = runner.compare(GITHUB_BASE_REF="main")
+    assert code == 1, printed
+    assert "::error file=spec/greenhouse.yaml,title=greenhouse::spec/greenhouse.yaml is" in printed
+    assert "everything of greenhouse breaks" in runner.summary.read_text(encoding="utf-8")
+
+
+@needs_bash
+def test_a_new_spec_among_others_has_nothing_to_be_compared_with(runner: Runner) -> None:
+    lamp = ROOT / "tests" / "specs" / "lamp.yaml"
+    shutil.copy(lamp, runner.checkout / "spec" / "lamp.yaml")
+    code, printed = runner.compare(SPEC="lamp", GITHUB_BASE_REF="main")
+    assert (code, printed.count("\n")) == (0, 1), printed
+    assert "::notice title=framegen diff::There is nothing to compare" in printed
+
+
+@needs_bash
+def test_a_push_without_a_release_says_that_nothing_was_compared(runner: Runner) -> None:
+    code, printed = runner.compare(GITHUB_BASE_REF="")
+    assert code == 0, printed
+    assert "::notice title=framegen diff::Nothing was compared" in printed
+    assert not runner.report.exists()
+    assert not runner.summary.exists()
+
+
+@needs_bash
+@pytest.mark.slow
+@pytest.mark.parametrize("spec", ["", "greenhouse", "spec/greenhouse.yaml"])
+def test_a_push_is_compared_with_what_was_released(runner: Runner, spec: str) -> None:
+    released = runner.checkout / "spec" / "released" / "greenhouse-1.0.0.yaml"
+    released.parent.mkdir()
+    shutil.copy(runner.checkout / "spec" / "greenhouse.yaml", released)
+    code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="")
+    assert (code, "::notice" in printed) == (0, False), printed
+    assert runner.report.exists()
+    released.unlink()
+    # A spec that differs from the last commit is compared with that.
+    change(runner.checkout)
+    code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="")
+    assert (code, "::notice" in printed) == (1, False), printed
+
+
+@needs_bash
 def test_the_first_spec_is_compared_with_nothing(runner: Runner) -> None:
     (runner.checkout / "spec").rename(runner.checkout / "specs")
     git(runner.checkout, "rm", "-rq", "--cached", "spec")
@@ -275,7 +348,7 @@ def test_each_hook_is_a_verb_that_does_its_work(
         assert command == "framegen"
         assert hook["id"] == f"framegen-{words[0]}"
         assert words[0] in VERBS
-        assert re.search(hook["files"], spec)
+        assert hook.get("always_run") or re.search(hook["files"], spec)
         files = [spec] if hook.get("pass_filenames", True) else []
         assert main([*words, *files]) == 0, capsys.readouterr().err
     change(checkout)
@@ -283,7 +356,40 @@ def test_each_hook_is_a_verb_that_does_its_work(
     assert "VentsOpen" in capsys.readouterr().out
 
 
+def snippets() -> list[Any]:
+    """Return what the guide gives to copy."""
+    _, _, section = GUIDE.read_text(encoding="utf-8").partition("\n## Before others see it\n")
+    texts = re.findall(
+        r"^```yaml\n(.*?)^```$", section.partition("\n## ")[0], re.MULTILINE | re.DOTALL
+    )
+    return [yaml.safe_load(text) for text in texts]
+
+
+def test_the_guide_names_inputs_and_hooks_that_there_are() -> None:
+    job, hooks = snippets()
+    checkout, action = job["jobs"]["diff"]["steps"]
+    assert checkout["uses"].startswith("actions/checkout@")
+    place = action["uses"].partition("@")[0].partition("/.github/")[2]
+    assert ROOT / ".github" / place == ACTION.parent
+    assert action["with"].keys() <= read(ACTION)["inputs"].keys()
+    assert action["with"]["comment"] == "true"
+    ours = read(WORKFLOW)["jobs"]["diff"]
+    assert job["jobs"]["diff"]["permissions"] == ours["permissions"]
+    (repository,) = hooks["repos"]
+    assert repository.keys() == {"repo", "rev", "hooks"}
+    assert [each["id"] for each in repository["hooks"]] == [each["id"] for each in read(HOOKS)]
+
+
+def test_the_hook_that_compares_runs_where_a_spec_was_deleted() -> None:
+    (hook,) = (each for each in read(HOOKS) if each["id"] == "framegen-diff")
+    assert (hook["always_run"], hook["verbose"]) == (True, True)
+
+
 def test_hooks_leave_released_editions_alone() -> None:
     released = "spec/released/greenhouse-1.0.0.yaml"
-    checked = {hook["id"] for hook in read(HOOKS) if re.search(hook["files"], released)}
+    checked = {
+        hook["id"]
+        for hook in read(HOOKS)
+        if hook.get("always_run") or re.search(hook["files"], released)
+    }
     assert checked == {"framegen-diff", "framegen-generate"}

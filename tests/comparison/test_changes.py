@@ -87,12 +87,12 @@ def test_the_example_of_a_rule_is_what_it_tells_of(rule: ChangeRule) -> None:
 # ------------------------------------------------------------------ nothing is passed over
 
 # So many leaves are one that is changed in every run; all of them are, among the slow tests.
-_EACH = 8
+_EACH = 24
 
 
 @pytest.mark.parametrize("name", ["greenhouse", "everything"])
 def test_every_changed_fact_is_told_at_its_place(name: str) -> None:
-    assert told_at_their_places(SPECS[name], each=_EACH) > 15
+    assert told_at_their_places(SPECS[name], each=_EACH) > 5
 
 
 def test_every_key_of_the_language_is_among_the_examples() -> None:

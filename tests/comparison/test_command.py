@@ -119,7 +119,8 @@ def test_the_text_shows_the_verdict_and_the_frame_of_each_break(
     assert shown.startswith(f"greenhouse: {old} (1.1.0) -> {new} (1.1.0)\n")
     lines = [" ".join(line.split()) for line in shown.splitlines()]
     # That a message has no example is what rules dislike today.
-    assert f"note: {new} has 1 finding by today's rules, and is compared all the same" in lines
+    assert f"note: {old} has 1 finding by today's rules, and is compared all the same" in lines
+    assert f"note: {new} is not right yet: `framegen check` shows 1 finding" in lines
     assert "wire old gateway with new station: breaks: 1 refused" in lines
     assert "new gateway with old station: breaks: 1 refused" in lines
     assert "upgrade both ends at once: each breaks with the old edition of the other" in lines
@@ -170,6 +171,58 @@ def test_every_spec_of_a_project_is_compared_and_the_worst_gives_the_exit_code(
     assert [bool(each["effects"]) for each in reports] == [True, False]
     assert reports[0]["old"]["edition"] == "v1:spec/a.yaml"
     assert printed.err == "not compared: spec/c.yaml is not in `v1`\n"
+
+
+GONE = "spec/a.yaml is gone: everything of greenhouse breaks"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--format=text"], f"greenhouse: v1:spec/a.yaml (1.1.0) -> nothing\n\n  {GONE}\n"),
+        (["--format=markdown"], f"**{GONE}**"),
+        (["--format=github"], f"::error file=spec/a.yaml,title=greenhouse::{GONE}\n## greenhouse"),
+        (["--format=json"], f'"text": "{GONE}"'),
+    ],
+    ids=lambda row: row[0],
+)
+def test_a_spec_that_is_gone_breaks_in_every_format(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+    options: list[str],
+    said: str,
+) -> None:
+    start(tmp_path)
+    commit(tmp_path, {"spec/a.yaml": yaml_of(BARE)}, "v1")
+    (tmp_path / "spec" / "a.yaml").unlink()
+    monkeypatch.chdir(tmp_path)
+    codes = {"wire": 1, "programs,version": 1, "conversation,uncertain,version": 0, "never": 0}
+    for fail_on, code in codes.items():
+        assert main(["diff", "v1", *options, "--fail-on", fail_on]) == code
+        assert said in capsys.readouterr().out
+    assert main(["diff"]) == 1
+
+
+def test_the_json_of_what_is_gone_has_the_keys_of_every_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    start(tmp_path)
+    lamp = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
+    commit(tmp_path, {"spec/a.yaml": yaml_of(BARE), "spec/b.yaml": lamp})
+    (tmp_path / "spec" / "a.yaml").unlink()
+    (tmp_path / "spec" / "b.yaml").rename(tmp_path / "spec" / "c.yaml")
+    monkeypatch.chdir(tmp_path)
+    main(["diff", "--format", "json"])
+    kept, gone = (json.loads(line) for line in capsys.readouterr().out.splitlines())
+    assert gone.keys() == kept.keys()
+    assert kept["old"]["edition"] == "HEAD:spec/b.yaml"
+    assert gone["new"] is None
+    assert gone["old"] == {"edition": "HEAD:spec/a.yaml", "version": "1.1.0", "findings": None}
+    assert [(each["axis"], each["standing"]) for each in gone["effects"]] == [
+        ("wire", "breaks"),
+        ("programs", "breaks"),
+    ]
 
 
 def test_a_spec_that_contradicts_itself_too_much_is_an_error(

@@ -6,7 +6,8 @@ from pathlib import Path
 from shutil import copytree
 
 import pytest
-from framegen.comparison.editions import Editions, edition_of, find_editions, released
+from framegen.comparison.editions import Editions, find_editions
+from framegen.comparison.listing import edition_of, released
 from framegen.compile import compile_leniently, compile_spec
 from framegen.language.load import MAX_BYTES
 from framegen.reading.source import Source
@@ -83,6 +84,9 @@ BOTH_BLINDS = ("blinds", BLINDS_VERSION, BLINDS_VERSION)
         ((), [BOTH_BLINDS, ("stage_lamp", "0.3.0", "0.5.0")]),
         (("HEAD",), [BOTH_BLINDS, ("stage_lamp", "0.3.0", "0.5.0")]),
         (("v0.2.0",), [("stage_lamp", "0.2.0", "0.5.0")]),
+        (("v0.1.0",), [("stage_lamp", "0.1.0", "0.5.0")]),
+        (("v0.1.0", "lamp"), [("stage_lamp", "0.1.0", "0.5.0")]),
+        (("v0.1.0", "HEAD"), [("stage_lamp", "0.1.0", "0.3.0")]),
         (("v0.2.0", "HEAD"), [("stage_lamp", "0.2.0", "0.3.0")]),
         (("HEAD~1", "main"), [("stage_lamp", "0.2.0", "0.3.0")]),
         (("v0.1.0:spec/old_lamp.yaml",), [("stage_lamp", "0.1.0", "0.5.0")]),
@@ -167,7 +171,6 @@ WRONG = [
     (("HEAD:spec",), "HEAD:spec is not a file", "the spec itself"),
     (("HEAD:",), "`HEAD:` names no file", "HEAD:spec/"),
     (("HEAD:../../x.yaml",), "../../x.yaml is not in `HEAD`", "from the root"),
-    (("v0.1.0",), "spec/blinds.yaml is not in `v0.1.0`", "spec/OLD.yaml"),
     (("-x",), "`-x` is no revision", "dash"),
     (("--output=x:spec/lamp.yaml",), "`--output=x` is no revision", "dash"),
     (("docs",), "docs is a folder", "two editions"),
@@ -294,3 +297,84 @@ def test_where_an_edition_is_from_does_not_show_in_what_is_made_of_it() -> None:
         one, other = (edition_of(Source(name, text)) for name in ("a/b.yaml", "v1:spec/c.yaml"))
         assert one.compiled.source.path == other.compiled.source.path
         assert one.label != other.label
+
+
+# ------------------------------------------------------------------ renamed, and gone
+
+
+def named(name: str, number: str) -> str:
+    """Return the lamp as another protocol, or as itself."""
+    return version(LAMPS, number).replace("name: stage_lamp", f"name: {name}")
+
+
+def written(copy: Path, *specs: tuple[str, str]) -> None:
+    """Have these specs lie there, and no others."""
+    for file in (copy / "spec").glob("*.yaml"):
+        file.unlink()
+    for name, text in specs:
+        (copy / "spec" / f"{name}.yaml").write_text(text, encoding="utf-8")
+
+
+WEATHER = (ROOT / "tests" / "specs" / "weather.yaml").read_text(encoding="utf-8")
+NO_LAMP = "spec/lamp.yaml is gone: everything of stage_lamp breaks"
+NO_BLINDS = "spec/blinds.yaml is gone: everything of blinds breaks"
+BEACON = ("beacon", "0.3.0", "0.6.0")
+LANTERN = ("stage_lamp", "0.3.0", "0.6.0")
+MOVED = [
+    ([("lantern", named("stage_lamp", "0.6.0")), ("blinds", BLINDS)], [BOTH_BLINDS, LANTERN], []),
+    # Two files changed places.
+    ([("lamp", BLINDS), ("blinds", named("stage_lamp", "0.6.0"))], [LANTERN, BOTH_BLINDS], []),
+    # The protocol has another name, and its file, too.
+    ([("beacon", named("beacon", "0.6.0")), ("blinds", BLINDS)], [BEACON, BOTH_BLINDS], []),
+    ([("lamp", named("beacon", "0.6.0")), ("blinds", BLINDS)], [BOTH_BLINDS, BEACON], []),
+    ([("blinds", BLINDS)], [BOTH_BLINDS], [NO_LAMP]),
+    # What came has nothing to do with what went.
+    ([("lamp", LAMPS), ("weather", WEATHER)], [("stage_lamp", "0.3.0", "0.4.0")], [NO_BLINDS]),
+    # Two are gone: either may be the one that has another name.
+    ([("beacon", named("beacon", "0.6.0"))], [], [NO_BLINDS, NO_LAMP]),
+    ([], [], [NO_BLINDS, NO_LAMP]),
+]
+
+
+@pytest.mark.parametrize("words", [(), ("HEAD",)], ids=["nothing named", "a revision"])
+@pytest.mark.parametrize(("specs", "pairs", "gone"), MOVED)
+def test_a_spec_is_followed_to_its_new_name_or_is_gone(
+    copy: Path,
+    words: tuple[str, ...],
+    specs: list[tuple[str, str]],
+    pairs: list[tuple[str, str, str]],
+    gone: list[str],
+) -> None:
+    written(copy, *specs)
+    assert versions(*words) == pairs
+    assert [str(each) for each in find_editions(*words).gone] == gone
+
+
+def test_a_released_protocol_without_a_spec_is_gone(copy: Path) -> None:
+    folder = copy / "spec" / "released"
+    folder.mkdir()
+    for name in ("stage_lamp-0.3.0", "stage_lamp-0.2.0", "other-1.0.0", "notes"):
+        text = version(LAMPS, name.rpartition("-")[2])
+        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+    written(copy, ("blinds", BLINDS))
+    git(copy, "add", "--all")
+    git(copy, "commit", "--quiet", "--message", "Without the lamp")
+    (gone,) = find_editions().gone
+    assert str(gone) == NO_LAMP.replace("lamp.yaml", "stage_lamp.yaml")
+    assert (gone.edition, gone.released) == ("spec/released/stage_lamp-0.3.0.yaml", True)
+    assert find_editions("HEAD").gone == []
+    # Its library has another name now.
+    written(copy, ("blinds", BLINDS), ("beacon", named("beacon", "0.6.0")))
+    assert versions() == [BEACON, BOTH_BLINDS]
+    assert find_editions().gone == []
+    written(copy)
+    assert len(find_editions().gone) == 2
+
+
+def test_without_a_project_the_error_is_that(
+    alone: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))
+    with pytest.raises(Unusable, match="no spec is named"):
+        find_editions()

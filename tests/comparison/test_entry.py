@@ -49,6 +49,21 @@ def test_a_few_changes_of_words_are_told_and_many_are_counted() -> None:
     ]
 
 
+def test_examples_follow_what_changed_unless_nothing_else_did() -> None:
+    new = copy.deepcopy(OLD)
+    (example, *_) = new["messages"]["VentsOpen"]["examples"]
+    example["hex"] = f"{example['hex'][:-2]}77"
+    alone = sentences(Comparison(edition(OLD), edition(new)), examples=False)
+    assert len(alone) == 1
+    assert "VentsOpen.examples[0]" in alone[0]
+    new["protocol"]["title"] = "A hothouse"
+    comparison = Comparison(edition(OLD), edition(new))
+    assert [alone[0] in sentences(comparison, examples=each) for each in (True, False)] == [
+        True,
+        False,
+    ]
+
+
 def test_a_deprecation_is_told_with_its_reason_before_mere_words() -> None:
     new = copy.deepcopy(OLD)
     new["messages"]["VentsOpen"]["deprecated"] = "VentsMove is smoother."
@@ -68,3 +83,10 @@ def test_what_users_notice_comes_first(words: list[tuple[str, str]]) -> None:
     assert "lamps" in found[0]
     assert "8" in found[0]
     assert len(found) == 1 + len(words)
+
+
+def test_a_name_that_may_have_changed_is_gone_and_the_other_new() -> None:
+    text = base("lamps").replace("LampRead", "LampAsk")
+    found = sentences(Comparison(lamps(base("lamps")), lamps(text)))
+    assert found[0] == "LampRead is gone, and LampAsk is new."
+    assert "may be" not in " ".join(found)

@@ -64,10 +64,10 @@ def test_no_frame_becomes_worse_than_the_worst_that_was_tried(
     talk: Talk, data: st.DataObject
 ) -> None:
     drawn = (
-        (oracle, trial, [data.draw(values_for(trial.message, few=True))])
-        for oracle, trial in talk.trials()
+        (oracle, trial, tried, [data.draw(values_for(trial.message, few=True))])
+        for oracle, trial, tried in talk.trials()
     )
-    proof.assert_nothing_is_worse_than_its_verdict(talk, drawn)
+    proof.assert_nothing_is_worse_than_its_verdict(drawn)
 
 
 def test_what_both_editions_understand_is_heard_on_one_line(talk: Talk) -> None:

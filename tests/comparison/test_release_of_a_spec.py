@@ -10,7 +10,7 @@ import pytest
 from framegen.cli import main
 from framegen.comparison import comparison
 from framegen.comparison.comparison import Comparison
-from framegen.comparison.editions import working_edition
+from framegen.comparison.listing import working_edition
 from framegen.comparison.programs import program_effects
 from framegen.writing import disk
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from framegen.comparison.changes import CHANGE_RULES
 
-from tests.comparison.rules_page import PAGE, section, verdicts
+from tests.comparison.rules_page import PAGE, contents, section, verdicts
 
 TEXT = PAGE.read_text(encoding="utf-8")
 # What these break is tried out in every run; that of all rules, among the slow tests.
@@ -16,6 +18,14 @@ def test_the_page_describes_every_rule() -> None:
     stale = [rule.id for rule in CHANGE_RULES if f"\n{section(rule)}\n" not in TEXT]
     assert stale == [], "if this was meant to change: python -m tests.documents"
     assert TEXT.count("\n### ") == len(CHANGE_RULES)
+
+
+def test_the_contents_lead_to_every_heading_in_its_order() -> None:
+    assert f"\n{contents()}\n## " in TEXT
+    headings = re.findall(r"^##+ (.+)$", TEXT, re.MULTILINE)
+    links = re.findall(r"\[([^]]+)\]\(#([\w-]+)\)", contents())
+    assert [name for name, _ in links] == headings
+    assert all(anchor == name.lower().replace(" ", "-") for name, anchor in links)
 
 
 @pytest.mark.parametrize("id_", SOME)

@@ -63,6 +63,16 @@ class Audit:
         others = any(each.kind != "noise" for each in self.misfits)
         return not others and self.noise <= self.tolerated
 
+    @property
+    def backward(self) -> list[str]:
+        """The places where times run backwards."""
+        return [
+            f"{stretch.place} of {recording.name}"
+            for recording in self.recordings
+            for stretch in recording.stretches
+            if stretch.backward
+        ]
+
     @cached_property
     def evidence(self) -> Evidence:
         """What the spec is known from now."""
@@ -70,8 +80,8 @@ class Audit:
 
     @cached_property
     def questions(self) -> list[Question]:
-        """The open questions of the spec that the recordings say something of."""
-        return questions(self.model, self.coverage)
+        """The open questions of the spec of which the recordings show something."""
+        return questions(self.model, self.coverage, self.conversations.answered)
 
     @cached_property
     def raised(self) -> list[Raised]:

@@ -65,6 +65,9 @@ class Conversations:
             answer.name for each in self.by_request.values() for answer in each.exchange.answers
         }
         self._pending: list[tuple[Conversation, Sighting]] = []
+        # A request to a silent address that some answer nevertheless, until the next is sent.
+        self._gathering: tuple[Conversation, Sighting] | None = None
+        self._is_gathered = False
         self._both = {"requests": False, "answers": False}
 
     @property
@@ -79,7 +82,7 @@ class Conversations:
 
     def add(self, sighting: Sighting) -> None:
         """Take a message that is certain."""
-        if sighting.message is None or not sighting.is_certain:
+        if sighting.message is None or not sighting.is_certain or sighting.stretch.probe:
             return
         name = sighting.message.name
         if name in self.by_request:
@@ -92,12 +95,15 @@ class Conversations:
         for each, request in self._pending:
             _unanswered(each, request)
         self._pending.clear()
+        self._gathering = None
 
     def _request(self, found: Conversation, sighting: Sighting) -> None:
         self._both["requests"] = True
         found.requests += 1
+        self._gathering = None
         if _is_silent(found.exchange, sighting.values):
             found.silent += 1
+            self._gathering, self._is_gathered = (found, sighting), False
             return
         for pending in [*self._pending]:
             # The same again is a second try; and times that go back are of another recording.
@@ -112,18 +118,16 @@ class Conversations:
     def _answer(self, name: str, sighting: Sighting) -> None:
         self._both["answers"] = True
         for pending in self._pending:
-            found, request = pending
-            if not _answers(found.exchange, name, request, sighting):
-                continue
-            self._pending.remove(pending)
-            found.answered += 1
-            refusal, failure = found.exchange.refusal, found.exchange.failure
-            if refusal is not None and refusal.name == name:
-                found.refused += 1
-            elif failure is not None and sighting.values[failure.name]:
-                found.failed += 1
-            if request.stretch.at is not None and sighting.stretch.at is not None:
-                found.seconds.append(_seconds(request, sighting))
+            if _answers(pending, name, sighting):
+                self._pending.remove(pending)
+                _answered(pending, name, sighting)
+                return
+        gathering = self._gathering
+        if gathering is not None and _answers(gathering, name, sighting):
+            # However many answer, it was one request.
+            if not self._is_gathered:
+                _answered(gathering, name, sighting)
+            self._is_gathered = True
             return
         whose = next(
             each
@@ -133,6 +137,18 @@ class Conversations:
         whose.unsolicited += 1
         if len(whose.unsolicited_at) < _PLACES:
             whose.unsolicited_at.append(sighting.place)
+
+
+def _answered(pending: tuple[Conversation, Sighting], name: str, answer: Sighting) -> None:
+    found, request = pending
+    found.answered += 1
+    refusal, failure = found.exchange.refusal, found.exchange.failure
+    if refusal is not None and refusal.name == name:
+        found.refused += 1
+    elif failure is not None and answer.values[failure.name]:
+        found.failed += 1
+    if request.stretch.at is not None and answer.stretch.at is not None:
+        found.seconds.append(_seconds(request, answer))
 
 
 def _unanswered(found: Conversation, request: Sighting) -> None:
@@ -152,8 +168,9 @@ def _is_silent(exchange: Exchange, values: Mapping[str, Any]) -> bool:
     return address is not None and values[address.name] in address.silent
 
 
-def _answers(exchange: Exchange, name: str, request: Sighting, answer: Sighting) -> bool:
+def _answers(pending: tuple[Conversation, Sighting], name: str, answer: Sighting) -> bool:
     """Tell whether a message answers a request: its kind, its device and what it repeats."""
+    exchange, request = pending[0].exchange, pending[1]
     if name not in [each.name for each in exchange.answers]:
         return False
     if not 0 <= _seconds(request, answer) <= _LATE:

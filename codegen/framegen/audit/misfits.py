@@ -88,7 +88,8 @@ class Misfits:
         if found is None:
             return ""
         meaning = f", where it {found.meaning}" if found.meaning else ""
-        return f"; it is a frame of {found.lookalike.title}{meaning}"
+        title = found.lookalike.title.removeprefix("The ")
+        return f"; it is a frame of the {title}{meaning}"
 
     def _add(self, kind: Kind, what: str, why: str, sighting: Sighting) -> None:
         misfit = self._found.get((kind, what))

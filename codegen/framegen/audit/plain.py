@@ -31,6 +31,7 @@ def as_json(audit: Audit) -> dict[str, Any]:
         "either_end": audit.unsure,
         "noise": audit.noise,
         "malformed": audit.malformed,
+        "times_backwards": audit.backward,
         "misfits": [_misfit(each) for each in audit.misfits],
         "coverage": {name: _message(each) for name, each in audit.coverage.messages.items()},
         "conversations": {

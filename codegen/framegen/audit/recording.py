@@ -7,9 +7,12 @@ a doctor and a run of `framegen conform` alike. Hex as text and raw bytes are on
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from framegen.cases.malformed import malformed_in
 from framegen.hextext import HexError, read_hex
 from framegen.reading.yamltree import Unusable
 from framegen.recording_file import EITHER, NOISE, QUIET
@@ -29,8 +32,13 @@ _MARK = b"\xef\xbb\xbf"  # what some editors write in front of text
 _CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 _COMMENT = re.compile(rb"#[^\n]*")
 _RAW = "raw bytes need --input raw"
-# How a doctor's report says what board it is of.
+# How a doctor's report says what board it is of, and at which rate it goes on.
 _DEVICE, _NOT_STATED = "# device: ", "not stated"
+_OPENED = re.compile(r"# opened, at (\S+) baud")
+# A recording begins anew, as where two were put into one file.
+_BEGUN = "# recorded of "
+# Noise that came within so many seconds is one piece: a recorder waits no longer for the rest.
+_GAP = 0.05
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +47,9 @@ class Stretch:
 
     `sender` is None where it is not known, and `at` where there are no times. `refused` is why its
     recorder took them for no message, and empty where it did not. What is `malformed` was sent so
-    on purpose.
+    on purpose, and a `probe` at a rate, `baud`, at which the device said nothing. What is
+    `backward` has a time before that of the line before. `joined` are the places of pieces, each
+    with where it begins.
     """
 
     data: bytes
@@ -48,6 +58,17 @@ class Stretch:
     at: float | None = None
     refused: str = ""
     malformed: bool = False
+    probe: bool = False
+    backward: bool = False
+    baud: str = ""
+    joined: tuple[tuple[int, str], ...] = ()
+
+    def place_at(self, at: int) -> str:
+        """Name the place of a byte of it."""
+        if self.at is None:
+            return f"byte {int(self.place.removeprefix('byte ')) + at}"
+        after = bisect_right(self.joined, at, key=lambda piece: piece[0])
+        return self.joined[after - 1][1] if after else self.place
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +93,7 @@ def read_recording(
 ) -> Recording:
     """Read the content of a file in any form. Raises Unusable, with the line.
 
-    `ends` are those who may send. What a client sends is never noise, so that of its lines is meant
-    to be malformed; noise of nobody's came from the device.
+    `ends` are those who may send. Noise of nobody's came from the device.
     """
     if form == "raw" or (form == "auto" and not _is_text(content)):
         raw = Stretch(content, "byte 0")
@@ -81,8 +101,8 @@ def read_recording(
     lines = content.removeprefix(_MARK).decode("utf-8", errors="replace").split("\n")
     try:
         if any(map(_TIMED.match, lines)):
-            found = _joined(_recorded(lines, ends, roles))
-            return Recording(name, tuple(found), device=_device(lines))
+            found = [*_joined(_recorded(lines, ends, roles))]
+            return Recording(name, tuple(_probed(found, roles)), device=_device(lines))
         return Recording(name, tuple(_plain(lines)))
     except _Line as error:
         hint = _RAW if form == "auto" and not error.hint else error.hint
@@ -131,16 +151,39 @@ def _hex(text: str, number: int) -> bytes:
         raise _Line(number, str(error)) from None
 
 
+@dataclass
+class _Notes:
+    """What the comments of a recording say of the lines that follow."""
+
+    title: str = ""
+    baud: str = ""
+    last: float = 0.0
+
+    def add(self, line: str) -> None:
+        """Take a line that is a comment, or empty."""
+        opened = _OPENED.fullmatch(line)
+        if opened is not None:
+            self.baud = opened[1]
+        if line.startswith(_BEGUN):
+            self.title, self.baud, self.last = "", "", 0.0
+        elif line:
+            self.title = line.removeprefix("# ")
+
+
 def _recorded(lines: list[str], ends: Collection[str], roles: Roles) -> Iterator[Stretch | None]:
     """Yield the lines of a recording; None for one where the line went quiet."""
+    notes = _Notes()
     for number, line in enumerate(lines, 1):
         found = _TIMED.match(line)
         if found is None:
-            if line.strip() == QUIET:
+            text = line.strip()
+            if text == QUIET:
                 yield None
-            elif line.strip() and not line.strip().startswith("#"):
+            elif text and not text.startswith("#"):
                 problem = "it has no time and sender, as in `HEX  # 0.5 s, NAME: ...`"
                 raise _Line(number, f"{problem}, and other lines have")
+            else:
+                notes.add(text)
             continue
         data = _hex(found["hex"], number)
         who, _, last = found["who"].rpartition(" ")
@@ -150,30 +193,60 @@ def _recorded(lines: list[str], ends: Collection[str], roles: Roles) -> Iterator
             known = ", ".join([*ends, EITHER, NOISE])
             hint = f"those who send are {known}: is it a recording of this protocol?"
             raise _Line(number, f"{sender!r} is none of those who send", hint)
+        at, what = float(found["at"]), found["what"].strip()
+        is_backward, notes.last = at < notes.last, at
         yield Stretch(
             data,
             f"line {number}",
             None if sender == EITHER else sender,
-            float(found["at"]),
-            found["what"].strip() or NOISE if is_noise else "",
-            malformed=is_noise and sender == roles.client,
+            at,
+            (what or NOISE) if is_noise else "",
+            # Only a run of conform sends such, and says so before it does.
+            malformed=is_noise and sender == roles.client and what in malformed_in(notes.title),
+            backward=is_backward,
+            baud=notes.baud,
         )
 
 
 def _joined(found: Iterator[Stretch | None]) -> Iterator[Stretch]:
-    """Join the noise of one sender, of which a recorder has a line for each piece it read."""
-    held: Stretch | None = None
+    """Join noise of one sender and reason, of which a recorder has a line for each piece it read.
+
+    What came later than a recorder waits for the rest of a frame stays apart.
+    """
+    held: list[Stretch] = []
     for each in found:
-        if (
-            held is not None
-            and each is not None
-            and (held.refused and each.refused)
-            and (held.sender, held.malformed, each.malformed) == (each.sender, False, False)
-        ):
-            held = replace(held, data=held.data + each.data)
-            continue
-        if held is not None and held.data:
-            yield held
-        held = each
-    if held is not None and held.data:
-        yield held
+        if held and (each is None or not _goes_on(held[-1], each)):
+            yield from _whole(held)
+            held.clear()
+        if each is not None:
+            held.append(each)
+    yield from _whole(held)
+
+
+def _whole(pieces: list[Stretch]) -> Iterator[Stretch]:
+    """Yield what pieces are together, unless that is nothing."""
+    data = b"".join(each.data for each in pieces)
+    if len(pieces) > 1 and data:
+        begins = accumulate((len(each.data) for each in pieces), initial=0)
+        joined = tuple(zip(begins, (each.place for each in pieces), strict=False))
+        yield replace(pieces[0], data=data, joined=joined)
+    elif data:
+        yield pieces[0]
+
+
+def _goes_on(held: Stretch, each: Stretch) -> bool:
+    """Tell whether noise goes on in the next line."""
+    if not held.refused or held.malformed or each.malformed or held.at is None or each.at is None:
+        return False
+    is_alike = (held.sender, held.refused) == (each.sender, each.refused)
+    return is_alike and 0 <= each.at - held.at <= _GAP + 1e-9
+
+
+def _probed(found: list[Stretch], roles: Roles) -> Iterator[Stretch]:
+    """Mark what was sent at rates at which nothing came, where something came at another."""
+    heard = {
+        each.baud for each in found if each.sender not in (None, roles.client) and not each.refused
+    }
+    for each in found:
+        is_probe = bool(each.baud and heard) and each.baud not in heard
+        yield replace(each, probe=True) if is_probe and each.sender == roles.client else each

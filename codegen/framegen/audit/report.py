@@ -128,6 +128,9 @@ def _remarks(audit: Audit) -> Iterator[tuple[str, str]]:
         yield "may be of either end; --direction says whose", f"{unsure} times {several}"
     if audit.malformed:
         yield "was malformed on purpose", pluralize(audit.malformed, "time")
+    if audit.backward:
+        often = pluralize(len(audit.backward), "time")
+        yield "times run backwards", f"{often}, first at {audit.backward[0]}"
 
 
 def _counted(counts: dict[int, int]) -> str:

@@ -57,7 +57,7 @@ class Raised:
         title = f"Seen on hardware: {', '.join(each.name for each in shown.facts)}"
         for number, example in enumerate(self.message.examples, 1):
             if example.hex == shown.data:
-                yield f"      # Example {number} has the same frame: rather change its `cite`."
+                yield f"      # Example {number} is confirmed: leave it and its source as they are."
         yield f"      - title: {scalar(title)}"
         yield f"        hex: {to_hex(shown.data)}"
         yield f"        values: {flow(shown.values)}"
@@ -76,18 +76,24 @@ def about(concern: Concern) -> str:
     return f"{concern.message} {concern.fact}" if concern.fact else concern.message
 
 
-def questions(model: Model, coverage: Coverage) -> list[Question]:
-    """Return the open questions about what was seen."""
+def questions(model: Model, coverage: Coverage, answered: frozenset[str]) -> list[Question]:
+    """Return the open questions about what a device sent, and about requests that it answered."""
     found = [
-        Question(number, unknown, [*_seen(coverage, unknown.concerns)])
+        Question(number, unknown, [*_seen(covered, unknown.concerns)])
         for number, unknown in enumerate(model.spec.unknowns)
+        if (covered := coverage.messages.get(unknown.concerns.message)) is not None
+        if _shows_the_board(model, covered, answered)
     ]
     return [each for each in found if each.seen]
 
 
-def _seen(coverage: Coverage, concern: Concern) -> Iterator[str]:
-    covered = coverage.messages.get(concern.message)
-    if covered is None or not covered.seen:
+def _shows_the_board(model: Model, covered: MessageCoverage, answered: frozenset[str]) -> bool:
+    """Tell whether it shows anything of a board: that a client sent something does not."""
+    return covered.layout.direction.sender != model.roles.client or covered.name in answered
+
+
+def _seen(covered: MessageCoverage, concern: Concern) -> Iterator[str]:
+    if not covered.seen:
         return
     sender = covered.layout.direction.sender
     if concern.example is not None:
@@ -135,8 +141,8 @@ def raised(model: Model, coverage: Coverage, answered: frozenset[str], device: s
     sources = [name for name, each in model.spec.sources.items() if each.kind == OBSERVATION]
     source = next(iter(sources), _SOURCE)
     found: list[Raised] = []
-    for name, covered in coverage.messages.items():
-        if covered.layout.direction.sender == model.roles.client and name not in answered:
+    for covered in coverage.messages.values():
+        if not _shows_the_board(model, covered, answered):
             continue
         shown = [each for each in covered.shown if any(not fact.seen for fact in each.facts)]
         facts = [fact for each in shown for fact in each.facts if not fact.seen]

@@ -155,9 +155,7 @@ class Reader:
             yield from noise
 
     def _sighting(self, event: Event, stretch: Stretch, ways: Sequence[Direction]) -> Sighting:
-        at, place = event.at, stretch.place
-        if stretch.at is None:
-            place = f"byte {int(place.removeprefix('byte ')) + at}"
+        at, place = event.at, stretch.place_at(event.at)
         message = event.message
         if message is None:
             return Sighting(

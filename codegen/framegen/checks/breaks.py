@@ -15,6 +15,19 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 _EXAMPLE = "write it as findings have it, such as `messages.NAME.fields.NAME`"
+_ONE_OF_ALL = "name one, such as `messages.NAME`"
+
+
+def whats_wrong(text: str) -> NoPath | None:
+    """Return why nothing can break at a path, whatever a spec holds; None where something can."""
+    try:
+        path = read_path(text)
+        expect_place(path)
+    except NoPath as error:
+        return error
+    if path == ("messages",):
+        return NoPath("`messages` would accept whatever breaks in any of them")
+    return None
 
 
 def _look(spec: Spec) -> Iterator[Problem]:
@@ -22,22 +35,54 @@ def _look(spec: Spec) -> Iterator[Problem]:
         for text, reason in release.breaks.items():
             here = ("history", index, "breaks", text)
             yield from _path(here, text)
+            if release.version == spec.protocol.version:
+                yield from _message(here, text, spec)
             if not reason.strip():
                 what = f"nothing says why `{text}` breaks"
                 yield Problem(here, what, "write the reason, for those whose program it breaks")
 
 
 def _path(here: KeyPath, text: str) -> Iterator[Problem]:
-    try:
-        path = read_path(text)
-        expect_place(path)
-    except NoPath as error:
-        hint = did_you_mean(error.step, error.known) if error.known else _EXAMPLE
+    error = whats_wrong(text)
+    if error is not None:
+        example = _ONE_OF_ALL if text == "messages" else _EXAMPLE
+        hint = did_you_mean(error.step, error.known) if error.known else example
         yield Problem(here, str(error), hint, on_key=True)
+
+
+def _message(here: KeyPath, text: str, spec: Spec) -> Iterator[Problem]:
+    """Yield a problem where a message is named that is not here, and of which nothing is left.
+
+    Older versions may name what is forgotten since.
+    """
+    name = named_message(text)
+    if name is None:
         return
-    if path == ("messages",):
-        what = "`messages` would accept whatever breaks in any of them"
-        yield Problem(here, what, "name one, such as `messages.NAME`", on_key=True)
+    known = known_messages(spec)
+    if name not in known:
+        gone = f"if it was removed, reserve it: `reserved: [{{name: {name}, why: ...}}]`"
+        hint = did_you_mean(name, known, otherwise=" ").strip()
+        yield Problem(here, missing(name), f"{hint} {gone}".lstrip(), on_key=True)
+
+
+def missing(name: str) -> str:
+    """Return what is wrong with naming a message of which a spec knows nothing."""
+    return f"there is no message `{name}`, and none of that name is reserved"
+
+
+def named_message(text: str) -> str | None:
+    """Return the message in which a path is; None where it is in none."""
+    if whats_wrong(text) is not None:
+        return None
+    path = read_path(text)
+    return str(path[1]) if path[0] == "messages" else None
+
+
+def known_messages(spec: Spec) -> dict[str, None]:
+    """Return the names of messages that a spec knows: here, of old, or reserved."""
+    names = dict.fromkeys(spec.messages)
+    names |= dict.fromkeys(name for each in spec.messages.values() for name in each.was)
+    return names | dict.fromkeys(each.name for each in spec.reserved if each.name is not None)
 
 
 RULE = StructureRule(

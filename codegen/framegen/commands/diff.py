@@ -35,6 +35,7 @@ programs      what was written for the old library
 uncertain     a name that changed, until the spec says `was: OldName`
 version       the version of the spec was not raised as it should be
 never         nothing of this
+Of a spec that is gone, the wire and programs break.
 What breaks on purpose, as `breaks` in the history of the spec says, is shown and does not count."""
 _EXIT_CODES = """\
 0  nothing that counts
@@ -82,14 +83,19 @@ def run(arguments: Namespace) -> int:
     """Print a report of each pair of editions. Return the exit code that --fail-on gives it."""
     from framegen.comparison.editions import find_editions  # noqa: PLC0415
     from framegen.comparison.report import FORMATS as RENDERERS  # noqa: PLC0415
+    from framegen.comparison.report import gone  # noqa: PLC0415
 
     fail_on = _fail_on(arguments.fail_on)
     editions = find_editions(arguments.old, arguments.new)
     statuses: list[int] = []
-    for number, pair in enumerate(editions.pairs):
+    between = "" if arguments.format == "json" else "\n"
+    for pair in editions.pairs:
         report, status = _report(*pair, RENDERERS[arguments.format], fail_on)
-        print("\n" * (number > 0 and arguments.format != "json") + report, end="")
+        print(between * bool(statuses) + report, end="")
         statuses.append(status)
+    for each in editions.gone:
+        print(between * bool(statuses) + gone.FORMATS[arguments.format](each), end="")
+        statuses.append(gone.exit_status(fail_on))
     sys.stdout.flush()
     for why in editions.left_out:
         print(f"not compared: {why}", file=sys.stderr)

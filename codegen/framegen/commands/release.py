@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,24 +41,33 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Write the spec and its released edition. 1 for findings. Raises Unusable."""
+    from framegen.checks.breaks import missing  # noqa: PLC0415
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.comparison.comparison import Comparison  # noqa: PLC0415
-    from framegen.comparison.editions import RELEASED, edition_of, released  # noqa: PLC0415
+    from framegen.comparison.listing import RELEASED, edition_of, released  # noqa: PLC0415
     from framegen.comparison.release import release  # noqa: PLC0415
+    from framegen.compile import compile_leniently  # noqa: PLC0415
     from framegen.language.load import read_source  # noqa: PLC0415
     from framegen.project import default_spec, named_spec, project_root  # noqa: PLC0415
 
     given: Path = arguments.spec or default_spec()
     file = given if given.exists() else named_spec(str(given)) or given
     spec = compiled(file)
-    if print_findings([spec]):
+    lenient = compile_leniently(spec.source)
+    if lenient.derived is None and print_findings([spec]):
         return 1
-    name = spec.spec.protocol.name
+    name = lenient.spec.protocol.name
     editions = {each.stem.removeprefix(f"{name}-"): each for each in released(file.parent, name)}
     older = _newest(editions)
-    comparison = None
-    if older is not None:
-        comparison = Comparison(edition_of(read_source(older)), edition_of(spec.source))
+    before = None if older is None else edition_of(read_source(older))
+    if before is not None:
+        # A release reserves the names of messages that are gone.
+        names = {missing(each) for each in before.spec.messages}
+        left = [each for each in spec.findings if each.message not in names]
+        spec = replace(lenient, findings=left)
+    if print_findings([spec]):
+        return 1
+    comparison = None if before is None else Comparison(before, edition_of(spec.source))
     made = release(spec, comparison, editions, arguments.version, arguments.accept)
     root = project_root(file)
     folder = file.parent.resolve().relative_to(root).as_posix()

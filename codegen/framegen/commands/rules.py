@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -39,6 +40,12 @@ def run(arguments: Namespace) -> int:
     changes = {rule.id: rule for rule in CHANGE_RULES}
     if arguments.id is None:
         _list(changes if arguments.changes else rules)
+        if not arguments.changes:
+            # Beside the list, which other programs may read.
+            print(
+                f"`framegen rules --changes` lists the kinds of changes ({len(changes)})",
+                file=sys.stderr,
+            )
         return 0
     if arguments.id not in rules.keys() | changes.keys():
         known = changes if arguments.changes else rules | changes

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from framegen.checks.breaks import whats_wrong
 from framegen.comparison.effect import Effect
 from framegen.comparison.explained import explain
 from framegen.reading.yamltree import dotted
@@ -36,8 +37,13 @@ class Accepted:
 
 def accepted_breaks(pair: Pair) -> list[Accepted]:
     """Return what the new history accepts and the old one did not, or for another reason."""
-    before = set(_lines(pair.old))
-    return [each for each in _lines(pair.new) if each not in before]
+    return [each for each in _new_lines(pair) if whats_wrong(each.path) is None]
+
+
+def ignored_breaks(pair: Pair) -> list[tuple[Accepted, str]]:
+    """Return what the new history accepts in vain, as no break is at such a path, and why not."""
+    found = ((each, whats_wrong(each.path)) for each in _new_lines(pair))
+    return [(each, str(wrong)) for each, wrong in found if wrong is not None]
 
 
 def accept(effects: Iterable[Effect], pair: Pair, changes: Sequence[Change]) -> Iterator[Effect]:
@@ -52,8 +58,7 @@ def accept(effects: Iterable[Effect], pair: Pair, changes: Sequence[Change]) -> 
         if not effect.breaks or not lines:
             yield effect
             continue
-        reasons = [each for each in lines if each.covers(effect.old, effect.new)]
-        reasons = reasons or _of_all_causes(effect, lines, changes)
+        reasons = _reasons(effect, pair, lines, changes)
         met.update(reasons)
         yield replace(effect, accepted="; ".join(dict.fromkeys(each.reason for each in reasons)))
     for line in lines:
@@ -61,10 +66,52 @@ def accept(effects: Iterable[Effect], pair: Pair, changes: Sequence[Change]) -> 
             yield from _declared(line, changes)
 
 
+def _new_lines(pair: Pair) -> list[Accepted]:
+    before = set(_lines(pair.old))
+    return [each for each in _lines(pair.new) if each not in before]
+
+
 def _lines(edition: Edition) -> Iterator[Accepted]:
     for release in edition.spec.history:
         for path, reason in release.breaks.items():
             yield Accepted(release.version, path, reason)
+
+
+def places(effect: Effect) -> list[KeyPath]:
+    """Return the paths that are accepted for an effect: its own.
+
+    Where a message that is gone is read as others, it is those that bring this about.
+    """
+    others = _read_instead(effect)
+    return [("messages", each) for each in others] if others else [effect.path]
+
+
+def _read_instead(effect: Effect) -> tuple[str, ...]:
+    """Return what the new edition reads of a message that is gone; nothing where it refuses it."""
+    if effect.new is not None or effect.witness is None:
+        return ()
+    return effect.witness.read_as
+
+
+def _is_guess(effect: Effect, pair: Pair) -> bool:
+    """Tell whether frames of one message are read as another that may be the same."""
+    if effect.old is None or effect.new is None or effect.axis == "programs":
+        return False
+    return effect.old[:1] == ("messages",) and effect.old[1] in pair.messages.guessed
+
+
+def _reasons(
+    effect: Effect, pair: Pair, lines: Sequence[Accepted], changes: Sequence[Change]
+) -> list[Accepted]:
+    """Return what accepts an effect; that a message may be gone gives its id to no other."""
+    others = _read_instead(effect)
+    if not others and _is_guess(effect, pair):
+        return [each for each in lines if each.covers(effect.new)]
+    if not others:
+        own = [each for each in lines if each.covers(effect.old, effect.new)]
+        return own or _of_all_causes(effect, lines, changes)
+    found = [[each for each in lines if each.covers(("messages", name))] for name in others]
+    return [each for reasons in found for each in reasons] if all(found) else []
 
 
 def _of_all_causes(

@@ -11,6 +11,7 @@ from framegen.comparison.changes import changes
 from framegen.comparison.conversation import conversation_effects
 from framegen.comparison.pair import Pair
 from framegen.comparison.programs import program_effects
+from framegen.comparison.reused import reuse_effects
 from framegen.comparison.wire import Trials, try_out, wire_effects
 
 if TYPE_CHECKING:
@@ -38,11 +39,12 @@ class Comparison:
 
     @cached_property
     def effects(self) -> list[Effect]:
-        """What users notice: wire, then conversation, then programs; what is accepted says why."""
+        """What users notice on each axis, and what is used again; what is accepted says why."""
         found = [
             *wire_effects(self.pair, self.trials),
             *conversation_effects(self.pair),
             *program_effects(self.pair),
+            *reuse_effects(self.pair),
         ]
         return [*accept(found, self.pair, self.changes)]
 

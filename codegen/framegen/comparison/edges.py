@@ -53,6 +53,12 @@ class Edges:
             for at, (name, slot) in enumerate(self._slots.items())
         }
         self._counts = _counts(message, other)
+        # The usual elements of lists.
+        self._elements = {
+            name: _element_edges(slot, None)[0]
+            for name, slot in self._slots.items()
+            if isinstance(slot, Items)
+        }
 
     def single(self) -> Iterator[dict[str, Any]]:
         """Yield values of which one is varied at a time, and each count."""
@@ -84,36 +90,34 @@ class Edges:
         """Return every argument: as given, or as usual; None for what so short a frame has not."""
         there = {slot.name for slot in self._message.there(count)}
         return {
-            name: _whole(slot, given.get(name, self._edges[name][0]), count, name in given)
+            name: self._whole(slot, given.get(name, self._edges[name][0]), count, name in given)
             if name in there
             else None
             for name, slot in self._slots.items()
         }
+
+    def _whole(self, slot: Field, value: Any, count: int, varied: bool) -> Any:
+        """Return the value of an argument; of a list, so many elements, one of which it is."""
+        match slot:
+            case Items():
+                number = slot.low if slot.is_fixed else count
+                items = [self._elements[slot.name]] * number
+                if number:
+                    items[-1 if varied else 0] = value
+                return items if slot.text is None else "".join(map(chr, items))
+            case Packed():
+                usual = max(slot.low, min(1, slot.high))
+                numbers = [usual] * slot.count
+                numbers[-1 if varied else 0] = value
+                return numbers
+            case _:
+                return value
 
 
 def _is_usual(message: MessageLayout, count: int) -> bool:
     if message.items is None:
         return not message.optional or count == message.counts[-1]
     return count >= min(_FEW, message.counts[-1]) and message.size_at(count) <= _SHORT
-
-
-def _whole(slot: Field, value: Any, count: int, varied: bool) -> Any:
-    """Return the value of an argument; of a list, so many elements, of which the value is one."""
-    match slot:
-        case Items():
-            number = slot.low if slot.is_fixed else count
-            first = _element_edges(slot, None)[0]
-            items = [first] * number
-            if number:
-                items[-1 if varied else 0] = value
-            return items if slot.text is None else "".join(map(chr, items))
-        case Packed():
-            usual = max(slot.low, min(1, slot.high))
-            numbers = [usual] * slot.count
-            numbers[-1 if varied else 0] = value
-            return numbers
-        case _:
-            return value
 
 
 def _counts(message: MessageLayout, other: MessageLayout | None) -> list[int]:

@@ -3,34 +3,58 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeGuard
 
-from framegen.comparison.edition import Edition
+from framegen.comparison.listing import (
+    RELEASED,
+    earlier_specs,
+    edition_of,
+    folder_of,
+    released,
+    specs_at,
+    specs_beside,
+    specs_here,
+    working_edition,
+)
+from framegen.comparison.partners import partners
 from framegen.comparison.revision import NotInRevision, Revision
-from framegen.compile import compile_leniently
 from framegen.console import visible
 from framegen.language.load import MAX_BYTES, read_source, refuse_size, source_of
-from framegen.language.version import Version
-from framegen.project import all_specs, named_spec
+from framegen.project import FOLDER, all_specs, named_spec
 from framegen.reading.findings import did_you_mean
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
+    from framegen.comparison.edition import Edition
+    from framegen.comparison.partners import Listed
     from framegen.reading.source import Source
 
-# Below the folder of the spec.
-RELEASED = "released"
 _A_FILE = (".yaml", ".yml")
+
+
+@dataclass(frozen=True)
+class Gone:
+    """A spec that was there, or was released, and is not any more; `path` is where it was."""
+
+    path: str
+    edition: str
+    protocol: str
+    version: str = ""
+    released: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.path} is gone: everything of {self.protocol} breaks"
 
 
 @dataclass
 class Editions:
-    """Pairs of editions, the older first, and what could not be paired."""
+    """Pairs of editions, the older first; specs without an older one, and those without a newer."""
 
     pairs: list[tuple[Edition, Edition]] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
+    gone: list[Gone] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -73,47 +97,24 @@ def find_editions(old: str | None = None, new: str | None = None) -> Editions:
 _NAME_TWO = "name two editions, such as `framegen diff v1.0.0` or `framegen diff old.yaml new.yaml`"
 
 
-def edition_of(source: Source) -> Edition:
-    """Read an edition, whatever today's rules say of it. Raises Unusable where it has no model."""
-    try:
-        compiled = compile_leniently(source)
-    except Unusable as error:
-        place = "" if error.finding is None else f"\n{error.finding.render(source)}"
-        raise Unusable(f"{source.name}: {error}{place}", hint=error.hint) from None
-    model = compiled.model
-    # So that what is made of two editions does not differ by where they are from.
-    path = f"spec/{model.spec.protocol.name}.yaml"
-    compiled = replace(compiled, source=replace(compiled.source, path=path))
-    return Edition(source.name, compiled, model.spec, model)
-
-
-def working_edition(spec: Path) -> Edition:
-    """Read a spec as it lies here. Raises Unusable."""
-    return edition_of(read_source(spec))
-
-
-def released(folder: Path, name: str) -> list[Path]:
-    """Return the released editions of a protocol, the newest first; its spec is in `folder`."""
-    versions: dict[Path, Version] = {}
-    for file in (folder / RELEASED).glob("*.yaml"):
-        version = Version.parse_or_none(file.stem.removeprefix(f"{name}-"))
-        if version is not None and file.stem != str(version):
-            versions[file] = version
-    return sorted(versions, key=versions.__getitem__, reverse=True)
-
-
 def older_edition(spec: Path, name: str) -> Edition:
     """Return what a spec is compared with unless something is named. Raises Unusable."""
     for file in released(spec.parent, name):
         return edition_of(read_source(file))
-    try:
-        return edition_of(_at(Revision("HEAD", _folder(spec)), spec))
-    except NotInRevision:
-        raise NotInRevision(
-            f"{visible(spec.as_posix())} has no earlier edition yet: none is released, and no "
-            "commit before this has it",
-            hint="commit it, or name what to compare it with",
-        ) from None
+    later = specs_beside(spec)
+    found = partners(earlier_specs(later, spec), later)
+    each = next(each for each in later if each.file == spec.name)
+    if each not in found:
+        raise _first(each)
+    return found[each].edition
+
+
+def _first(spec: Listed) -> NotInRevision:
+    return NotInRevision(
+        f"{visible(spec.path)} has no earlier edition yet: none is released, and no "
+        "commit before this has it",
+        hint="commit it, or name what to compare it with",
+    )
 
 
 def _given(word: str | None) -> _Given | Revision | None:
@@ -190,9 +191,9 @@ def _standard_input() -> Source:
 def _beside(word: Revision | None, edition: Edition, file: Path | None) -> Edition:
     """Return what an edition is compared with: the spec here, or what a revision has of it."""
     if word is not None and file is not None and file.parent.name != RELEASED:
-        return edition_of(_at(word, file))
+        return _at(word, file)
     spec = _spec_of(edition)
-    return working_edition(spec) if word is None else edition_of(_at(word, spec))
+    return working_edition(spec) if word is None else _at(word, spec)
 
 
 def _lies_here(file: Path | None) -> TypeGuard[Path]:
@@ -231,34 +232,75 @@ def _of_all(old: Revision | None, new: Revision | None) -> Editions:
 
     Where nothing was named, the first edition of a spec is no error.
     """
-    found, errors = Editions(), list[Unusable]()
-    for spec in all_specs():
-        try:
-            after = working_edition(spec) if new is None else edition_of(_at(new, spec))
-            name = after.spec.protocol.name
-            before = older_edition(spec, name) if old is None else edition_of(_at(old, spec))
-        except NotInRevision as error:
-            errors.append(error)
-            found.left_out.append(str(error))
+    later = specs_here() if new is None else specs_at(new)
+    try:
+        earlier = earlier_specs(later, _any_spec()) if old is None else specs_at(old)
+    except Unusable:
+        # Where there is no project, git is not what is missing.
+        _ = later or all_specs()
+        raise
+    if not later and not earlier:
+        all_specs()
+        raise NotInRevision("neither of the two has a spec", hint=_NAME_TWO)
+    known, errors = partners(earlier, later), list[Unusable]()
+    found = Editions()
+    for each in later:
+        if each in known:
+            found.pairs.append((known[each].edition, each.edition))
         else:
-            found.pairs.append((before, after))
-    if not found.pairs and (old, new) != (None, None):
+            # Whether it is a spec at all is worth knowing even so.
+            _ = each.edition
+            errors.append(_first(each) if old is None else _missing(old, each))
+    found.left_out = [str(error) for error in errors]
+    found.gone = [_gone(each) for each in earlier if each not in known.values()]
+    if not found.pairs and not found.gone and (old, new) != (None, None):
         raise errors[0]
     return found
 
 
-def _at(revision: Revision, spec: Path) -> Source:
-    """Return the text that a spec of the project has at a revision."""
-    there = Revision(revision.name, _folder(spec))
-    return there.source(there.path_of(spec.name))
+def _gone(spec: Listed) -> Gone:
+    protocol = spec.protocol or Path(spec.file).stem
+    from_released = Path(spec.path).parent.name == RELEASED
+    path = f"{FOLDER}/{spec.file or f'{protocol}.yaml'}" if from_released else spec.path
+    try:
+        label, version = spec.edition.label, visible(spec.edition.version)
+    except Unusable:
+        # What cannot be read by now had users all the same.
+        label, version = visible(spec.path), ""
+    return Gone(visible(path), label, visible(protocol), version, from_released)
 
 
-def _folder(spec: Path) -> Path:
-    return spec.parent.resolve()
+def _at(revision: Revision, spec: Path) -> Edition:
+    """Return the edition that a revision has of a spec, under whatever path. Raises Unusable."""
+    there, later = Revision(revision.name, folder_of(spec)), specs_beside(spec)
+    (each,) = (each for each in later if each.file == spec.name)
+    found = partners(specs_at(there), later)
+    if each in found:
+        return found[each].edition
+    raise _missing(there, each)
+
+
+def _missing(revision: Revision, spec: Listed) -> Unusable:
+    """Return what is wrong where a revision has no edition of a spec."""
+    path = revision.path_of(spec.file)
+    try:
+        revision.source(path)
+    except Unusable as error:
+        return error
+    protocol, name = visible(spec.protocol), visible(revision.name)
+    return NotInRevision(
+        f"{visible(path)} is of another protocol in `{name}`, which has none of `{protocol}`",
+        hint="name two editions of one protocol",
+    )
 
 
 def _project_folder() -> Path:
+    spec = _any_spec()
+    return Path() if spec is None else folder_of(spec)
+
+
+def _any_spec() -> Path | None:
     try:
-        return _folder(all_specs()[0])
+        return all_specs()[0]
     except Unusable:
-        return Path()
+        return None

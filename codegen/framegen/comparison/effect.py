@@ -25,6 +25,7 @@ class Witness:
 
     `sender` is the edition of who sends, `message` and `values` are in its words. `reading` is what
     the receiver, who has the other edition, understands instead, or why it refuses the frame.
+    `read_as` are the other messages that the receiver takes it for.
     """
 
     sender: Which
@@ -33,6 +34,7 @@ class Witness:
     values: Mapping[str, Any]
     outcome: Outcome
     reading: str
+    read_as: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.accepted import places
 from framegen.comparison.due import due, next_version, version_finding
 from framegen.comparison.entry import sentences
 from framegen.comparison.removed import reservations
@@ -102,9 +103,12 @@ def _accepted(effects: Sequence[Effect], reason: str | None) -> dict[str, str]:
     left = [each for each in effects if each.breaks and not each.accepted]
     if not left:
         return {}
-    paths = list(dict.fromkeys(dotted(each.path) for each in left))
+    first: dict[str, Effect] = {}
+    for effect in left:
+        for place in places(effect):
+            first.setdefault(dotted(place), effect)
+    paths = [*first]
     if reason is None or not reason.strip():
-        first = {dotted(each.path): each for each in reversed(left)}
         shown = [f"  {path}: {_without_name(first[path])}" for path in paths[:_NAMED]]
         more = [f"  and {len(paths) - _NAMED} more"] if len(paths) > _NAMED else []
         what = "nothing says why this breaks" if reason is None else "the reason is empty"

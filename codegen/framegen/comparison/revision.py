@@ -70,6 +70,15 @@ class Revision:
         prefix = self._git("rev-parse", "--show-prefix") or b""
         return os.fsdecode(prefix.rstrip(b"\r\n")) + name
 
+    def files(self, folder: str) -> list[str]:
+        """Return the paths of the files right in a folder, which is from the root and ends in `/`.
+
+        A folder that it does not have has none.
+        """
+        listing = self._git("ls-tree", "-z", "--full-tree", f"{self.name}:{folder}") or b""
+        rows = (row.partition(b"\t") for row in listing.split(b"\0") if row)
+        return [folder + os.fsdecode(name) for kind, _, name in rows if b" blob " in kind]
+
     def check(self) -> None:
         """Raise Unusable, with the way out, unless git has such a revision here."""
         if self.name.startswith("-"):

@@ -20,7 +20,7 @@ from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.comparison.effect import Outcome, Which
     from framegen.comparison.meaning import Difference
@@ -143,8 +143,12 @@ class Trial:
 
     def run(self) -> Trials:
         """Try out the message at its edges."""
+        return self.found_in(self.frames())
+
+    def found_in(self, frames: Iterable[tuple[Witness, bool]]) -> Trials:
+        """Return what became of these frames of the message."""
         found = Trials(self.sender, self.message, self.message.direction)
-        for witness, breaks in self.frames():
+        for witness, breaks in frames:
             found.add(witness, breaks=breaks)
         found.all_tried = not self.cut_short
         if self.other is not None and found.counts.keys() == {"refused"}:
@@ -180,8 +184,9 @@ class Trial:
         """Return what becomes of a frame with these values, and whether that breaks anything."""
         data = encode(self.message, values)
 
-        def witness(outcome: Outcome, reading: str) -> Witness:
-            return Witness(self.sender, data, self.message.name, values, outcome, reading)
+        def witness(outcome: Outcome, reading: str, *read_as: str) -> Witness:
+            name = self.message.name
+            return Witness(self.sender, data, name, values, outcome, reading, read_as)
 
         if self.way is None:
             return witness("refused", "there is no such end"), self._was_understood(values)
@@ -191,13 +196,15 @@ class Trial:
         if verdict.message is None:
             inside = self._read_inside(self.way, data)
             if inside:
-                return witness("misread", f"is read as {inside}"), True
+                rest = ", with noise beside it" if inside == self._other_name else ""
+                return witness("misread", f"is read as {', '.join(inside)}{rest}", *inside), True
             return witness("refused", f"is refused, {verdict.refusal}"), self._was_understood(
                 values
             )
         read = values_of(verdict.message, data)
         if self.other is None or verdict.message is not self.other:
-            return witness("misread", f"is read as {verdict.message.name}"), True
+            other = verdict.message.name
+            return witness("misread", f"is read as {other}", other), True
         outcome, reading, breaks = self._compared(self.other, values, read)
         return witness(outcome, reading), breaks
 
@@ -239,11 +246,15 @@ class Trial:
             return False
         return True
 
-    def _read_inside(self, way: Direction, data: bytes) -> str:
+    def _read_inside(self, way: Direction, data: bytes) -> list[str]:
         """Return the messages that the other end finds in a frame that it refuses as a whole."""
         events = ReferenceDecoder(self.theirs, [way]).decode(data)
         found = [each.message.name for each in events if each.message is not None]
-        return ", ".join(dict.fromkeys(found))
+        return [*dict.fromkeys(found)]
+
+    @property
+    def _other_name(self) -> list[str]:
+        return [] if self.other is None else [self.other.name]
 
     def _fields(self, other: MessageLayout) -> Any:
         if self.sender == "old":

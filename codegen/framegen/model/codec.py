@@ -45,7 +45,10 @@ class Unencodable(ValueError):  # noqa: N818 - says what the values are
 
 
 def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
-    """Decode exactly one frame, of any direction if none is given. Raises NotAFrame."""
+    """Decode exactly one frame, of any direction if none is given, the client's before others.
+
+    Raises NotAFrame.
+    """
     directions = model.directions if direction is None else [direction]
     verdict = weigh_whole(model, directions, data)
     if verdict.message is None:

@@ -37,7 +37,9 @@ def table_for(direction: Direction | None, max_frame: int | None = None) -> Tabl
             raise TypeError(
                 f"a Direction expected, such as {next(iter(Direction))}, not {direction!r}"
             )
-        kinds = [kind for kind in MESSAGES if direction in (None, kind.DIRECTION)]
+        # One direction after the other: of equal frames, that of the first is preferred.
+        ways = Direction if direction is None else [direction]
+        kinds = [kind for way in ways for kind in MESSAGES if kind.DIRECTION is way]
         table = _tables[direction] = Table(kinds, largest_of(kinds))
     if max_frame is None or index(max_frame) >= table.largest:
         return table

@@ -58,7 +58,8 @@ def verdicts(table: Table, client: Which, exchange: Exchange) -> Iterator[Verdic
         if verdict is not None:
             found[play.kind].append(verdict)
     worst = _worst(found["reply"])
-    if worst is not None and not worst.breaks and _is_dead(table, client, exchange, plays):
+    is_known = table.other(client, exchange) is not None and not table.is_linked_first(exchange)
+    if worst is not None and not worst.breaks and is_known and _is_dead(plays):
         worst = replace(worst, breaks=True)
     if worst is not None:
         yield worst
@@ -70,11 +71,10 @@ def verdicts(table: Table, client: Which, exchange: Exchange) -> Iterator[Verdic
             yield other
 
 
-def _is_dead(table: Table, client: Which, exchange: Exchange, plays: Sequence[Play]) -> bool:
-    """Tell whether nothing of a question works any more that both editions know."""
+def _is_dead(plays: Sequence[Play]) -> bool:
+    """Tell whether nothing of a question works any more."""
     tried = [play for play in plays if play.kind == "reply" and play.ending != "unasked"]
-    known = table.other(client, exchange) is not None
-    return known and bool(tried) and all(play.ending == "timeout" for play in tried)
+    return bool(tried) and all(play.ending == "timeout" for play in tried)
 
 
 def _worst(found: Sequence[Verdict]) -> Verdict | None:
@@ -94,7 +94,7 @@ def _judged(table: Table, play: Play) -> Verdict | None:
         return None
     before = play.before
     if outcome == "unawaited":
-        if before is not None and before.rest == play.seen.rest:
+        if before is not None and before.seen.rest == play.seen.rest:
             return None
         mistaken = _mistaken(table, play)
         said = f"{why}, and may be taken for the reply to {mistaken}" if mistaken else why
@@ -102,7 +102,17 @@ def _judged(table: Table, play: Play) -> Verdict | None:
     if before is not None and before.ending == play.ending:
         return None
     worked = before is not None and before.ending in WANTED[play.kind]
+    if play.read_as and not play.answered and table.is_linked_first(play.exchange):
+        return Verdict(outcome, _linked_first(play.exchange), False, play)
     return Verdict(outcome, why, worked, play)
+
+
+def _linked_first(exchange: Exchange) -> str:
+    """Return what a question gets whose answer was known, and was said to answer nothing."""
+    answer = "" if exchange.reply is None else exchange.reply.name
+    return (
+        f"gets no reply unless {answer} has always followed it, which the old edition does not say"
+    )
 
 
 def _mistaken(table: Table, play: Play) -> str:
@@ -141,10 +151,17 @@ def effect_on(
 
 
 def ends_of(table: Table, client: Which) -> str:
-    """Return who speaks with whom: `old host, new controller`."""
+    """Return who speaks with whom: `old host, new controller`.
+
+    The other end is the same one, whichever of them asks by its own edition.
+    """
+    roles = table.clients[client].model.roles
+    ends = (
+        table.pair.ends if client == "old" else {new: old for old, new in table.pair.ends.items()}
+    )
     device = OTHER[client]
-    asks, answers = table.clients[client].model.roles, table.devices[device].model.roles
-    return f"{client} {asks.client}, {device} {answers.device}"
+    there = ends.get(roles.device, table.devices[device].model.roles.device)
+    return f"{client} {roles.client}, {device} {there}"
 
 
 def _witness(verdict: Verdict) -> Witness:

@@ -55,11 +55,17 @@ def outcome_of(table: Table, play: Play) -> tuple[str, str]:
         outcome, text = _OTHERWISE[play.kind, play.ending]
         return outcome, text.format(answer)
     if play.kind != "reply":
-        said = (
-            f"is refused by {answer}, which" if play.kind == "refusal" else f"fails, and {answer}"
-        )
-        return "no error", f"{said} {_unheard(play)}"
+        return "no error", _unnoticed(play, answer)
     return _lost(table, play, answer)
+
+
+def _unnoticed(play: Play, answer: str) -> str:
+    """Return why a refusal or a failure is not noticed."""
+    if not answer:
+        said = "is refused" if play.kind == "refusal" else "fails"
+        return f"{said}, of which nothing is said: {_unsaid(play)}"
+    said = f"is refused by {answer}, which" if play.kind == "refusal" else f"fails, and {answer}"
+    return f"{said} {_unheard(play)}"
 
 
 def _lost(table: Table, play: Play, answer: str) -> tuple[str, str]:
@@ -71,8 +77,10 @@ def _lost(table: Table, play: Play, answer: str) -> tuple[str, str]:
         ours = "" if other is None else other.request.name
         others = [name for name in play.read_as if name != ours]
         read = f"the request is read as {', '.join(others)}, and " if others else ""
-        why = ", ".join(dict.fromkeys(each.why for each in play.answers))
-        return "no reply", f"gets no reply: {read}{why} in the {OTHER[play.client]} edition"
+        return (
+            "no reply",
+            f"gets no reply: {read}{_unsaid(play)} in the {OTHER[play.client]} edition",
+        )
     if not play.seen.came:
         return "no reply", f"gets no reply: {answer} {_unheard(play)}"
     came = ", ".join(play.seen.came)
@@ -82,6 +90,11 @@ def _lost(table: Table, play: Play, answer: str) -> tuple[str, str]:
             return "other reply", f"is answered by {answer}, and not by {wanted}"
         return "other reply", f"is answered by {answer}, which is read as {came}"
     return "not recognized", f"is answered by {came}, which is not what was asked, or of whom"
+
+
+def _unsaid(play: Play) -> str:
+    """Return why a device that reads a request sends nothing back."""
+    return ", ".join(dict.fromkeys(each.why for each in play.answers))
 
 
 def _unasked(play: Play) -> str:

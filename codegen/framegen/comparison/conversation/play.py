@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice
+from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
 from framegen.comparison.conversation.client import Client
@@ -12,6 +12,7 @@ from framegen.comparison.conversation.device import Answer, Device, answers_to_t
 from framegen.comparison.edges import values_to_try
 from framegen.comparison.meaning import translated
 from framegen.model.codec import Unencodable, encode
+from framegen.model.slots import Number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from framegen.comparison.effect import Which
     from framegen.comparison.pair import Pair
     from framegen.model.exchanges import Exchange
+    from framegen.model.slots import Items
 
 OTHER: dict[Which, Which] = {"old": "new", "new": "old"}
 # So many requests of a message are tried at most; of an exchange that no edition changed, so many.
@@ -33,8 +35,8 @@ class Play:
     """One request of a client, answered by a device of the other edition.
 
     `values` and `data` are the request, `read_as` the requests that the device makes of it, and
-    `refusal` why it makes none. `kind` is how the device answers, if it can. `before` is how the
-    same ended between two ends of the old edition: None where they could not say it.
+    `refusal` why it makes none. `kind` is how the device answers, if it can. `before` is the same
+    between two ends of the old edition: None where they could not say it.
     """
 
     client: Which
@@ -46,7 +48,7 @@ class Play:
     kind: Kind
     answers: tuple[Answer, ...]
     seen: Experience
-    before: Experience | None
+    before: Play | None = None
 
     @property
     def answered(self) -> bytes:
@@ -57,6 +59,29 @@ class Play:
     def ending(self) -> Ending:
         """How it ends."""
         return self.seen.ending
+
+
+def _in_many(exchange: Exchange, other: Exchange | None) -> Iterator[dict[str, Any]]:
+    """Yield values of a request for as much as a reply has room for, in the one edition or other.
+
+    They are all different, so that it shows which of them a reply lacks.
+    """
+    items = exchange.request.items
+    if other is None or items is None or items.text is not None or exchange.most == other.most:
+        return
+    given = next(values_to_try(exchange.request, None, {}, pairs=False))
+    for count in sorted(each for each in (exchange.most, other.most) if each):
+        if count in exchange.request.counts:
+            yield {**given, items.name: [_nth(items, at) for at in range(count)]}
+
+
+def _nth(items: Items, at: int) -> Any:
+    """Return an element of a list that no other is like, as far as there are others."""
+    values = {
+        each.name: min(each.low + at, each.high) if isinstance(each, Number) else ""
+        for each in items.fields
+    }
+    return values if items.element is not None else next(iter(values.values()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +106,24 @@ class Table:
         name = pairing.to_new.get(exchange.request.name, "")
         return self.clients[OTHER[client]].exchanges.get(name)
 
+    def is_linked_first(self, exchange: Exchange) -> bool:
+        """Tell whether the new edition is the first to say what a request and a message have to do.
+
+        Both were known, the one as a command, the other as a report of which nothing says when it
+        comes: then the author may have written down what devices always did, and that is
+        documentation.
+        """
+        if exchange is not self.clients["new"].exchanges.get(exchange.request.name):
+            return False
+        other, old = self.other("new", exchange), self.clients["old"]
+        name = (
+            None if exchange.reply is None else self.pair.messages.to_old.get(exchange.reply.name)
+        )
+        if other is None or other.reply is not None or name is None:
+            return False
+        awaited = {each.acknowledged for each in old.exchanges.values()}
+        return not (name in old.answers or name in old.reports or name in awaited)
+
     def plays(self, client: Which, exchange: Exchange) -> Iterator[Play]:
         """Yield what becomes of a request: at its edges, then for each answer at the edges of it.
 
@@ -95,7 +138,7 @@ class Table:
             for kind in kinds:
                 # All answers are tried once, where there are any.
                 for at in range(1 if answered else self._most(client, there, kind)):
-                    yield self._play(client, exchange, values, data, kind, at)
+                    yield self.play(client, exchange, values, data, kind, at)
             silent = self.clients[client].is_silent(exchange, values)
             answered = answered or (bool(there) and not silent)
 
@@ -112,7 +155,8 @@ class Table:
             )
             names = dict(fields.to_new)
         most = _FEW if self._alike(exchange, other) else _MOST
-        for values in islice(values_to_try(request, theirs, names, pairs=False), most):
+        usual = islice(values_to_try(request, theirs, names, pairs=False), most)
+        for values in chain(usual, _in_many(exchange, other)):
             # The client numbers what it sends.
             counter = request.frame.counter
             numbered = values if counter is None else {**values, counter.name: 0}
@@ -153,15 +197,16 @@ class Table:
     def _tried(self) -> dict[tuple[Which, str, Kind], list[Any]]:
         return {}
 
-    def _play(
+    def play(
         self,
         client: Which,
         exchange: Exchange,
         values: dict[str, Any],
         data: bytes,
         kind: Kind,
-        at: int,
+        at: int = 0,
     ) -> Play:
+        """Return what becomes of a request that a device answers in its nth way of a kind."""
         device: Which = OTHER[client]
         here = self.devices[device]
         there, refusal = here.reads(data)
@@ -182,7 +227,10 @@ class Table:
         return tuple(answers)
 
     def before(self, client: Which, exchange: Exchange, values: dict[str, Any]) -> bytes | None:
-        """Return how the old edition says a request; None where it cannot say that."""
+        """Return how the old edition says a request; None where it cannot say that.
+
+        What it says in parts, since a reply has no room for all, begins with the first of them.
+        """
         was, said = exchange, values
         if client == "new":
             other = self.other("new", exchange)
@@ -193,6 +241,8 @@ class Table:
             if old is None:
                 return None
             was, said = other, old
+        if was.split is not None and not self.clients["old"].fits(was, said):
+            said = {**said, was.split.name: said[was.split.name][: was.most]}
         try:
             return encode(was.request, said)
         except (Unencodable, OverflowError):
@@ -200,8 +250,8 @@ class Table:
 
     def _before(
         self, client: Which, exchange: Exchange, values: dict[str, Any], kind: Kind, at: int
-    ) -> Experience | None:
-        """Return how the same ends between two ends of the old edition, if they can say it."""
+    ) -> Play | None:
+        """Return the same between two ends of the old edition, if they can say it."""
         data = self.before(client, exchange, values)
         if data is None:
             return None
@@ -214,4 +264,6 @@ class Table:
         back = self._answered("old", data, kind, at if client == "new" else 0)
         asker = self.clients["old"]
         was = asker.exchanges[sent.message.name]
-        return asker.experience(was, sent.values, b"".join(each.data for each in back))
+        seen = asker.experience(was, sent.values, b"".join(each.data for each in back))
+        read_as = tuple(each.message.name for each in there)
+        return Play("old", was, sent.values, data, read_as, "", kind, back, seen)

@@ -14,6 +14,7 @@ from framegen.model.codec import Unencodable, encode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framegen.comparison.conversation.client import Client
     from framegen.comparison.conversation.line import Received
     from framegen.comparison.conversation.play import Table
     from framegen.comparison.effect import Effect, Which
@@ -111,8 +112,24 @@ def _dropped(table: Table, client: Which) -> Iterator[Effect]:
         if theirs.becomes(message.name) != "report" or ours is None:
             continue
         if here.becomes(ours.name) == "dropped":
-            text = "is dropped where it comes by itself, as a reply that nothing asks for"
+            text = _taken(client, here, ours)
             yield effect_on(table, client, ours, "no report", text, breaks=client == "new")
+
+
+def _taken(client: Which, here: Client, message: MessageLayout) -> str:
+    """Return what becomes of a report that a client takes for an answer.
+
+    Where the edition that links them is the new one, programs that were given it as a report are
+    given it no longer, even if devices only do what they always did.
+    """
+    asks = ", ".join(here.answers[message.name])
+    end = f"the {client} {here.model.roles.client}"
+    if client == "new":
+        return (
+            f"is reported no longer: {end} takes it for the answer to {asks}, "
+            "returns it to a program that asks, and drops it where none does"
+        )
+    return f"is not reported: {end} takes it for the answer to {asks}, and drops it where none asks"
 
 
 def _messages(table: Table, client: Which) -> Pairing:

@@ -6,32 +6,64 @@ names do follows from the two models.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from framegen.comparison.effect import Effect
 from framegen.comparison.programs.behaviour import preference_effects, value_effects
 from framegen.comparison.programs.exchanges import exchange_effects
+from framegen.comparison.programs.folding import folded
 from framegen.comparison.programs.libraries import Libraries
 from framegen.comparison.programs.library import library_effects
-from framegen.comparison.programs.rendered import rendered
+from framegen.comparison.programs.rendered import NoLibrary, rendered
 from framegen.comparison.surface import read_surface
+from framegen.language.paths import NoPath, read_path
 from framegen.targets.python.names import package_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.comparison.pair import Pair
+    from framegen.reading.findings import Finding
+    from framegen.reading.yamltree import KeyPath
 
 
 def program_effects(pair: Pair) -> Iterator[Effect]:
     """Yield what programs notice: names that are gone, changed or new, then what names do."""
-    old, new = rendered(pair.old), rendered(pair.new)
+    yield from folded(_effects(pair))
+
+
+def _effects(pair: Pair) -> Iterator[Effect]:
     yield from _of_package(pair)
-    if old is not None and new is not None and old != new:
-        yield from library_effects(Libraries(pair, read_surface(old), read_surface(new)))
+    yield from _of_names(pair)
     yield from exchange_effects(pair)
     yield from value_effects(pair)
     yield from preference_effects(pair)
+
+
+def _of_names(pair: Pair) -> Iterator[Effect]:
+    """Yield what becomes of names and arguments; that they cannot be compared is uncertain."""
+    files: list[dict[str, str]] = []
+    for edition in (pair.old, pair.new):
+        try:
+            files.append(rendered(edition))
+        except NoLibrary as error:
+            yield _uncompared(error.finding, edition.label, is_old=edition is pair.old)
+            return
+    old_files, new_files = files
+    if old_files != new_files:
+        surfaces = read_surface(old_files), read_surface(new_files)
+        yield from library_effects(Libraries(pair, *surfaces))
+
+
+def _uncompared(finding: Finding, label: str, *, is_old: bool) -> Effect:
+    path: KeyPath = ("protocol",)
+    with suppress(NoPath):
+        path = read_path(finding.path)
+    why = f"no library can be made of {label}, {finding.path}: {finding.message}"
+    text = f"names could not be compared: {why}"
+    old, new = (path, None) if is_old else (None, path)
+    return Effect("programs", "not compared", old, new, text, certain=False)
 
 
 def _of_package(pair: Pair) -> Iterator[Effect]:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _INDEX = re.compile(r"\[\d+\]")
 # So many frames of a message are decoded without saying which way they went.
-_FEW = 12
+_FEW = 100
 # What is shown of a value, at most.
 _LONG = 60
 _SHORT = 3
@@ -36,7 +36,8 @@ _SHORT = 3
 def value_effects(pair: Pair) -> Iterator[Effect]:
     """Yield an effect for each field whose values are refused, or mean another thing."""
     for name, other in pair.messages.to_new.items():
-        if pair.old.model.messages[name].slots != pair.new.model.messages[other].slots:
+        old, new = pair.old.model.messages[name], pair.new.model.messages[other]
+        if (old.slots, old.counts) != (new.slots, new.counts):
             yield from _Values(pair, name, other).effects()
 
 
@@ -49,7 +50,8 @@ def preference_effects(pair: Pair) -> Iterator[Effect]:
     for name, other in pair.messages.to_new.items():
         old, new = models[0].messages[name], models[1].messages[other]
         for one, another in _preferred(pair, old, new):
-            if pair.messages.to_new.get(one, one) != another:
+            # That a message is gone is told by itself.
+            if pair.messages.to_new.get(one, another) != another:
                 text = f"makes {another} of {other}; it made {one} of {name}"
                 paths = ("messages", name), ("messages", other)
                 yield Effect("programs", "order", *paths, f"`decode(frame, None)` {text}")
@@ -64,20 +66,16 @@ def _preferred(pair: Pair, old: MessageLayout, new: MessageLayout) -> Iterator[t
         frame = _written(old, values)
         again = _written(new, _whole(fields, old, new, values, usual))
         if frame is not None and again is not None:
-            one = _first(pair.old.model, frame)
-            another = _first(pair.new.model, again)
+            one = _taken_for(pair.old.model, frame)
+            another = _taken_for(pair.new.model, again)
             if one and another:
                 yield one, another
 
 
-def _first(model: Model, frame: bytes) -> str:
-    """Return the message that a frame is taken for: the first in the spec that it may be."""
-    found = {
-        verdict.message.name
-        for way in model.directions
-        if (verdict := weigh_whole(model, [way], frame)).message is not None
-    }
-    return next((name for name in model.messages if name in found), "")
+def _taken_for(model: Model, frame: bytes) -> str:
+    """Return the message that a frame is taken for where no direction is given; "" for none."""
+    message = weigh_whole(model, model.directions, frame).message
+    return "" if message is None else message.name
 
 
 def _written(message: MessageLayout, values: Mapping[str, Any]) -> bytes | None:

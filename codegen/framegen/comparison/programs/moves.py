@@ -13,6 +13,7 @@ from framegen.model.slots import Items
 if TYPE_CHECKING:
     from framegen.comparison.pair import Pair
     from framegen.comparison.pairing import Pairing
+    from framegen.model.envelope import Envelope
     from framegen.model.slots import MessageSlot
     from framegen.reading.yamltree import KeyPath
 
@@ -25,9 +26,22 @@ class Moves:
 
     def origin(self, origin: Origin) -> Origin | None:
         """Return the origin in the new edition; None where it is gone."""
-        path = self.path(origin.path)
+        path = self._in_frame_of(origin.owner, origin.path) or self.path(origin.path)
         owner = self.path(origin.owner)
         return None if path is None or owner is None else Origin(origin.role, path, owner)
+
+    def _in_frame_of(self, owner: KeyPath, path: KeyPath) -> KeyPath | None:
+        """Return where a part of a message's frame is, whichever kind of frame it has now."""
+        if path[0] not in ("frame", "frames") or owner[:1] != ("messages",):
+            return None
+        name = str(owner[1])
+        other = self.pair.messages.to_new.get(name)
+        if other is None:
+            return None
+        models = self.pair.old.model, self.pair.new.model
+        frames = models[0].messages[name].frame, models[1].messages[other].frame
+        rest = path[1:] if path[0] == "frame" else path[2:]
+        return self._in_envelope(*frames, rest)
 
     def path(self, path: KeyPath) -> KeyPath | None:
         """Return the path in the new edition; None where it is gone."""
@@ -60,10 +74,12 @@ class Moves:
         other = self.pair.frames.to_new.get(name)
         if other is None:
             return None
-        here = frame_path(models[1], other)
         if not rest:
-            return here
-        old, new = models[0].envelopes[name], models[1].envelopes[other]
+            return frame_path(models[1], other)
+        return self._in_envelope(models[0].envelopes[name], models[1].envelopes[other], rest)
+
+    def _in_envelope(self, old: Envelope, new: Envelope, rest: KeyPath) -> KeyPath | None:
+        here = frame_path(self.pair.new.model, new.name)
         for part in ("address", "counter"):
             one, another = getattr(old, part), getattr(new, part)
             if one is not None and one.name == rest[0] and another is not None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from framegen.checks import EVIDENCE_RULES
 from framegen.comparison.edges import values_to_try
 from framegen.language.spec import Example
 from framegen.model.codec import encode
@@ -16,19 +17,33 @@ if TYPE_CHECKING:
     from framegen.comparison.edition import Edition
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+    from framegen.reading.findings import Finding
+
+# What examples and documents say is not in the way of a library.
+_BESIDE = frozenset(rule.id for rule in EVIDENCE_RULES)
+
+
+class NoLibrary(Exception):  # noqa: N818 - says what cannot be made
+    """An edition contradicts itself, so that no library can be made of it; `finding` says how."""
+
+    def __init__(self, finding: Finding) -> None:
+        super().__init__(finding.message)
+        self.finding = finding
 
 
 @lru_cache(maxsize=2)
-def rendered(edition: Edition) -> dict[str, str] | None:
-    """Return the files of an edition's library, by path below its package.
-
-    None where an edition contradicts itself so that nothing can be made of it.
-    """
+def rendered(edition: Edition) -> dict[str, str]:
+    """Return the files of an edition's library, by path below its package. Raises NoLibrary."""
     try:
         model = _with_examples(edition.model)
         files = render_target(python.TARGET, replace(edition.compiled, findings=[], derived=model))
-    except Exception:  # noqa: BLE001 - whatever a spec that breaks rules runs into
-        return None
+    except Exception as error:
+        # What a rule is there to prevent may have any consequence; nothing else may.
+        tolerated = edition.compiled.tolerated
+        finding = next((each for each in tolerated if each.rule not in _BESIDE), None)
+        if finding is None:
+            raise
+        raise NoLibrary(finding) from error
     (folder,) = python.TARGET.folders(model)
     return {path.removeprefix(f"{folder}/"): text for path, text in files.items()}
 
@@ -43,10 +58,9 @@ def _with_examples(model: Model) -> Model:
 
 def _with_example(layout: MessageLayout) -> MessageLayout:
     values = next(values_to_try(layout, None, {}, pairs=False))
-    given = {name: value for name, value in values.items() if value is not None}
     shown = encode(layout, values).hex(" ")
     example = Example.model_validate(
-        {"title": "One", "hex": shown, "values": given, "constructed": "its edges"}
+        {"title": "One", "hex": shown, "values": values, "constructed": "its edges"}
     )
     message = layout.message.model_copy(update={"examples": [example]})
     return replace(layout, message=message)

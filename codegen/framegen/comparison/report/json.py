@@ -6,6 +6,7 @@ edition has no such thing; places are `file:line:column`.
     shape      1
     protocol   the name in the new edition
     old, new   of each edition: `edition`, where it is from; `version`; `findings`, by today's rules
+               (`new` and the findings are null where the spec is gone)
     upgrade    which end is upgraded first; "" where nothing breaks between them
     version    `due`: "major", "minor", "patch" or null; `finding`: what is wrong with it, or null
     verdicts   of each axis and each two ends: `axis`, `ends` (null for programs), and `counts` of

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.comparison.accepted import places
 from framegen.comparison.report.verdict import AXES, standing
 from framegen.comparison.report.words import between, effect_text, hex_of
 from framegen.pluralize import pluralize
@@ -12,7 +13,7 @@ from framegen.reading.yamltree import dotted
 from framegen.targets.docs.escape import code, markdown, verbatim
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from framegen.comparison.effect import Effect
     from framegen.comparison.report.view import View
@@ -36,7 +37,7 @@ def render(view: View) -> str:
         blocks += ["### What breaks", "\n".join(_breaks(breaking))]
     if view.sentences:
         blocks += ["### What changed", "\n".join(_changes(view))]
-        blocks += ["For `history` in the spec:", _entry(view)]
+        blocks += _for_history(view)
     return "\n\n".join(blocks) + "\n"
 
 
@@ -107,13 +108,31 @@ def _inner(text: str) -> str:
     return f"{' ' * text[:1].isspace()}{markdown(text)}{' ' * text[-1:].isspace()}"
 
 
-def _entry(view: View) -> str:
-    """Return the entry in YAML; what breaks and is not accepted yet waits there for its reason."""
-    entry = {"version": view.next_version, "changes": view.sentences}
-    lines = [f"  {line}" for line in block([entry])]
-    places = [dotted(each.path) for each in view.effects if each.breaks and not each.accepted]
-    if places:
-        lines += ["    # What is meant to break, each with its reason:", "    # breaks:"]
-        lines += [f"    #   {scalar(place)}: REASON" for place in dict.fromkeys(places)]
+def _left(view: View) -> list[str]:
+    """Return where something breaks that is not accepted yet."""
+    left = [each for each in view.effects if each.breaks and not each.accepted]
+    return [*dict.fromkeys(dotted(place) for each in left for place in places(each))]
+
+
+def _for_history(view: View) -> Iterator[str]:
+    """Yield the entry in YAML; what breaks and is not accepted yet waits there for its reason.
+
+    Where the history has the version, only that is left to write.
+    """
+    left = [f"#   {scalar(place)}: REASON" for place in _left(view)]
+    if any(each.version == view.next_version for each in view.new.spec.history):
+        if left:
+            yield f"For `breaks` of {markdown(view.next_version)} in `history`:"
+            yield _yaml(["# What is meant to break, each with its reason:", *left])
+        return
+    lines = [*block([{"version": view.next_version, "changes": view.sentences}])]
+    if left:
+        about = ["# What is meant to break, each with its reason:", "# breaks:"]
+        lines += [f"  {line}" for line in (*about, *left)]
+    yield "For `history` in the spec:"
+    yield _yaml([f"  {line}" for line in lines])
+
+
+def _yaml(lines: Sequence[str]) -> str:
     text = "\n".join(lines)
     return f"```yaml\n{verbatim(text)}\n```"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.comparison.accepted import ignored_breaks
 from framegen.comparison.report.verdict import AXES, standing
 from framegen.comparison.report.view import rule_of
 from framegen.comparison.report.words import between, call_of, effect_text, hex_of
@@ -62,18 +63,22 @@ def _table(view: View) -> list[str]:
 
 
 def _notes(view: View) -> Iterator[str]:
-    for each in (view.old, view.new):
-        if each.compiled.tolerated:
-            found = pluralize(len(each.compiled.tolerated), "finding")
-            yield f"  note: {each.label} has {found} by today's rules, and is compared all the same"
+    old, new = (each.compiled.tolerated for each in (view.old, view.new))
+    if old:
+        found = pluralize(len(old), "finding")
+        yield f"  note: {view.old.label} has {found} by today's rules, and is compared all the same"
+    if new:
+        found = pluralize(len(new), "finding")
+        yield f"  note: {view.new.label} is not right yet: `framegen check` shows {found}"
     if view.capped:
         yield f"  note: at most {view.most_tried} frames a message are tried out, of " + (
             _names(view.capped)
         )
+    for line, why in ignored_breaks(view.pair):
+        yield f"  note: version {visible(line.version)} accepts nothing by `breaks`: {visible(why)}"
     for line in view.idle:
-        yield f"  note: version {visible(line.version)} accepts what breaks nothing: " + (
-            visible(line.path)
-        )
+        what = f"  note: version {visible(line.version)} accepts what breaks nothing: "
+        yield f"{what}{visible(line.path)}{view.meant(line)}"
 
 
 def _group(view: View, group: Sequence[Section], explained: set[str]) -> Iterator[str]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.checks.breaks import known_messages, named_message
 from framegen.comparison.accepted import accepted_breaks
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.due import due, next_version, tells_versions, version_finding
@@ -14,7 +15,9 @@ from framegen.comparison.entry import sentences
 from framegen.comparison.explained import explain, is_documentation
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
+from framegen.console import visible
 from framegen.language.version import NoVersion
+from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -152,6 +155,15 @@ class View:
         lines = accepted_breaks(self.pair)
         return [each for each in lines if not any(each.covers(*both) for both in paths)]
 
+    def meant(self, line: Accepted) -> str:
+        """Return which message was meant where neither edition has the one that is named."""
+        name = named_message(line.path)
+        known = {**known_messages(self.new.spec), **known_messages(self.old.spec)}
+        if name is None or name in known:
+            return ""
+        hint = did_you_mean(name, known, otherwise=" ").strip()
+        return f"; there is no message `{visible(name)}`" + (f", {hint}" if hint else "")
+
     @cached_property
     def bump(self) -> Bump | None:
         """The part of the version that is to be raised."""
@@ -174,8 +186,8 @@ class View:
 
     @property
     def sentences(self) -> list[str]:
-        """The changes as the history of the spec tells them."""
-        return sentences(self.comparison)
+        """The changes as the history of the spec tells them; its examples follow them."""
+        return sentences(self.comparison, examples=False)
 
     def places(self, change: Change) -> str:
         """Return where a change is, in both editions: `old.yaml:9:5 -> spec/new.yaml:9:5`."""

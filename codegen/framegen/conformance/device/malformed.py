@@ -8,17 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.cases.malformed import MALFORMED
 from framegen.conformance.device.queries import requests
 from framegen.conformance.device.step import Malformed, Step
-from framegen.explanation.refusals import (
-    BAD_CHECKSUM,
-    BAD_TRAILER,
-    COUNT_MISMATCH,
-    LENGTH_MISMATCH,
-    OUT_OF_RANGE,
-    TOO_SHORT,
-    UNKNOWN_COMMAND,
-)
 from framegen.model.slots import Constant, Number
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh
@@ -35,8 +27,8 @@ if TYPE_CHECKING:
 
 def malformed_steps(permission: Permission, after: Request) -> Iterator[Step]:
     """Yield a step for each way to be malformed; none where no query can be malformed so."""
-    for about, reason, make in _WAYS:
-        found = _first(permission, after, about, reason, make)
+    for about, reason in MALFORMED.items():
+        found = _first(permission, after, about, reason, _MAKERS[about])
         if found is not None and after.message.frame.header:
             yield Step(f"{about}, and {after.message.name} at once", ((found, after),))
         elif found is not None:
@@ -138,15 +130,15 @@ def _with(request: Request, placed: Placed, slot: Number, value: int) -> Iterato
         yield data if slot.role == "id" else request.message.sealed(data)
 
 
-_WAYS: tuple[tuple[str, str, Maker], ...] = (
-    ("a query cut short in its fields", TOO_SHORT, _cut_in_fields),
-    ("a query cut short before its fields", TOO_SHORT, _cut_before),
-    ("a length that is one too many", LENGTH_MISMATCH, _changed("length", 1)),
-    ("a length that is one too few", LENGTH_MISMATCH, _changed("length", -1)),
-    ("a count that is one too many", COUNT_MISMATCH, _changed("count", 1)),
-    ("a count that is one too few", COUNT_MISMATCH, _changed("count", -1)),
-    ("a value out of its range", OUT_OF_RANGE, _outside),
-    ("an id that nobody has", UNKNOWN_COMMAND, _unknown),
-    ("a checksum that is wrong", BAD_CHECKSUM, _checksum),
-    ("an end that is another", BAD_TRAILER, _trailer),
-)
+_MAKERS: dict[str, Maker] = {
+    "a query cut short in its fields": _cut_in_fields,
+    "a query cut short before its fields": _cut_before,
+    "a length that is one too many": _changed("length", 1),
+    "a length that is one too few": _changed("length", -1),
+    "a count that is one too many": _changed("count", 1),
+    "a count that is one too few": _changed("count", -1),
+    "a value out of its range": _outside,
+    "an id that nobody has": _unknown,
+    "a checksum that is wrong": _checksum,
+    "an end that is another": _trailer,
+}

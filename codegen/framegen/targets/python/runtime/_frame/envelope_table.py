@@ -8,7 +8,6 @@ this alone.
 from __future__ import annotations
 
 from .bytes_like import as_bytes
-from .direction import Direction
 from .envelope import Constant
 from .envelopes import ENVELOPES, PROVEN_IN_PLACE
 from .errors import DecodeError, Reason
@@ -71,10 +70,8 @@ class Table(dict[bytes, "Entry"]):
         super().__init__()
         self.messages = messages
         self.largest = largest
-        # The envelopes that there may be, each with its messages, one direction after the other.
-        ways = list(Direction)
-        ordered = sorted(messages, key=lambda kind: ways.index(kind.DIRECTION))
-        every = [(frame, [each for each in ordered if each.FRAME is frame]) for frame in ENVELOPES]
+        # The envelopes that there may be, each with its messages.
+        every = [(frame, [each for each in messages if each.FRAME is frame]) for frame in ENVELOPES]
         self.frames = [(frame, kinds) for frame, kinds in every if kinds and frame.least <= largest]
         # How many bytes of an illegal frame may look legal, where no checksum proves it.
         self.reach = max((_reach(kind, largest) for kind in messages), default=0)
