@@ -224,12 +224,13 @@ CASES: dict[str, Case] = {
     "a board without a port is new": Case(
         BOARDLESS, SERVO, [Said(_OLD_HOST, "not found", "link.usb_hid", breaks=False)]
     ),
+    # And the others, of which nobody asks.
     "both ends ask": Case(
         SERVO,
         TURNED,
         [
             Said("old host, new controller", "no reply", "endpoints"),
-            Said("new controller, old host", "no reply", "endpoints"),
+            Said("new host, old controller", "no reply", "endpoints"),
         ],
     ),
     "all is written down": Case(SERVO, with_(SERVO, *BATTERY, "summary", "Ask."), []),

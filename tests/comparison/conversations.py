@@ -56,7 +56,10 @@ def _said(pair: Pair, *, swapped: bool = False) -> set[tuple[Any, ...]]:
     return {
         (
             each.outcome,
-            re.sub(r"\b(?:old|new)\b", lambda found: other.get(found[0], found[0]), each.ends),
+            frozenset(
+                re.sub(r"^(?:old|new)\b", lambda found: other.get(found[0], found[0]), end)
+                for end in each.ends.split(", ")
+            ),
             (each.new, each.old) if swapped else (each.old, each.new),
         )
         for each in conversation_effects(pair)

@@ -43,13 +43,22 @@ def conversation_effects(pair: Pair) -> Iterator[Effect]:
     for client in clients:
         yield from link_effects(table, client)
         if not _are_client_and_device(table, client):
-            text = "nobody answers: both ends ask"
-            path = ("endpoints",)
-            ends = ends_of(table, client)
-            yield Effect("conversation", "no reply", path, path, text, ends)
+            yield _of_turned_ends(table, client)
         elif not _alike(pair):
             yield from exchange_effects(table, client)
             yield from report_effects(table, client)
+
+
+def _of_turned_ends(table: Table, client: Which) -> Effect:
+    """Return the effect of ends that have changed their parts: two clients, or two devices."""
+    path = ("endpoints",)
+    if client == "old":
+        text, ends = "nobody answers: both ends ask", ends_of(table, "old")
+    else:
+        was, names = table.clients["old"].model.roles, table.pair.ends
+        text = "nobody asks: both ends answer"
+        ends = f"new {names.get(was.client, was.client)}, old {was.device}"
+    return Effect("conversation", "no reply", path, path, text, ends)
 
 
 def _are_client_and_device(table: Table, client: Which) -> bool:

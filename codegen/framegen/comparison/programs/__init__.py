@@ -36,6 +36,7 @@ def program_effects(pair: Pair) -> Iterator[Effect]:
 def _effects(pair: Pair) -> Iterator[Effect]:
     yield from _of_package(pair)
     yield from _of_names(pair)
+    yield from _warnings(pair)
     yield from exchange_effects(pair)
     yield from value_effects(pair)
     yield from preference_effects(pair)
@@ -54,6 +55,17 @@ def _of_names(pair: Pair) -> Iterator[Effect]:
     if old_files != new_files:
         surfaces = read_surface(old_files), read_surface(new_files)
         yield from library_effects(Libraries(pair, *surfaces))
+
+
+def _warnings(pair: Pair) -> Iterator[Effect]:
+    """Yield which messages warn whoever makes them, and which do so no longer."""
+    for old, new in pair.messages.to_new.items():
+        was = pair.old.model.messages[old].message.deprecated
+        now = pair.new.model.messages[new].message.deprecated
+        if bool(was) != bool(now):
+            text = f"making `{new}` warns now: {now}" if now else f"making `{new}` warns no longer"
+            paths = ("messages", old), ("messages", new)
+            yield Effect("programs", "deprecated", *paths, text, breaks=False)
 
 
 def _uncompared(finding: Finding, label: str, *, is_old: bool) -> Effect:

@@ -51,6 +51,12 @@ def _raises(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
 
 
 def _results(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
+    if new.acknowledged and not old.acknowledged:
+        text = f"tells whether it `started`, by {new.acknowledged}"
+        yield _effect(old, new, "added", text, breaks=False)
+    if new.lasts is not None and old.lasts is None:
+        text = f"tells how long it lasts, by `{new.lasts.name}`, and takes `latest=`"
+        yield _effect(old, new, "added", text, breaks=False)
     named = pair.messages.to_new.get(old.acknowledged or "")
     if old.acknowledged and new.acknowledged and named != new.acknowledged:
         text = f"is `started` by {new.acknowledged}; it was by {old.acknowledged}"
@@ -102,6 +108,8 @@ def _limits(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
             )
 
 
-def _effect(old: Exchange, new: Exchange, outcome: str, text: str) -> Effect:
+def _effect(
+    old: Exchange, new: Exchange, outcome: str, text: str, *, breaks: bool = True
+) -> Effect:
     paths = ("messages", old.request.name), ("messages", new.request.name)
-    return Effect("programs", outcome, *paths, f"`{new.method.name}()` {text}")
+    return Effect("programs", outcome, *paths, f"`{new.method.name}()` {text}", breaks=breaks)
