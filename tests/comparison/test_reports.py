@@ -30,6 +30,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.comparison.edits import EDITS, SPECS, edition, pair_of, with_
+from tests.factories import renamed
 from tests.few_each import few_each
 
 HOUSE = SPECS["greenhouse"]
@@ -174,6 +175,23 @@ def test_a_frame_is_shown_as_a_whole() -> None:
     view = view_of([Effect("wire", "misread", path, path, "It.", "", witness=witness)])
     for name, render in FORMATS.items():
         assert bytes(range(256)).hex(" ").upper() in render(view), name
+
+
+def test_a_guess_is_no_fact_in_a_title() -> None:
+    data = renamed(HOUSE, "VentsOpen", "VentsTurn")
+    said = with_(data, "messages", "VentsTurn", "was", "VentsOpen")
+    for new, title in ((data, "VentsTurn (may be VentsOpen)"), (said, "VentsTurn (was VentsOpen)")):
+        view = View(Comparison(BEFORE, edition(new)))
+        assert title in FORMATS["text"](view).splitlines()
+
+
+def test_a_unit_that_may_be_another_is_told_with_the_way_to_settle_it() -> None:
+    field = ("messages", "VentsOpen", "fields", "ramp_s")
+    plain = with_(HOUSE, *field, {"type": "u8", "about": "How long."})
+    specs = (with_(plain, *field, "unit", each) for each in ("knots", "kn"))
+    shown = FORMATS["text"](View(Comparison(*map(edition, specs))))
+    assert "ramp_s = 1 knots is read as 1 kn, which may be another unit" in shown
+    assert "`breaks` of the `history`" in shown
 
 
 def test_what_is_reserved_is_no_documentation_and_each_change_has_its_place() -> None:

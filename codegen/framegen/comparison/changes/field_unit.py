@@ -35,8 +35,7 @@ RULE = ChangeRule(
     ),
     do=(
         "Where the meaning changes, add a field or a message: no end can tell which is meant. "
-        "Where only the spelling of a unit does that is not known here, say so in `breaks` of the "
-        "`history`."
+        "Where an uncertain unit is only spelt otherwise, say so in `breaks` of the `history`."
     ),
     at="messages.LampRead.fields",
     before="time: {type: u16, unit: ms}",

@@ -110,7 +110,10 @@ def _title(view: View, group: Sequence[Section]) -> str:
         return f"{title} (new)"
     if title not in view.new.spec.messages:
         return f"{title} (gone)"
-    return title if before in (None, title) else f"{title} (was {before})"
+    if before in (None, title):
+        return title
+    was = "may be" if before in view.pair.messages.guessed else "was"
+    return f"{title} ({was} {before})"
 
 
 def _names(names: Sequence[str]) -> str:
