@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 from tests.comparison.authors import parts_of
 from tests.comparison.quantities import judge_numbers, said_again
-from tests.comparison.things import Match, arguments_of, match_bits, match_fields, match_messages
+from tests.comparison.things import (
+    Match,
+    arguments_of,
+    match_bits,
+    match_fields,
+    match_messages,
+    worked_out,
+)
 from tests.protocols.libraries import direction_of, made_of, values_in
 
 if TYPE_CHECKING:
@@ -192,8 +199,13 @@ class Oracle:
         match = self._matched(before, after)
         ours, theirs = arguments_of(before), arguments_of(after)
         known = {match.to_new[name] for name in ours if match.to_new.get(name) in theirs}
+        told, heard = worked_out(before, sent), worked_out(after, read)
+        back = {new: old for old, new in match.to_new.items()}
         for name, field in ours.items():
             other = match.to_new.get(name)
+            if other in heard:
+                yield ("same", False) if sent[name] == heard[other] else ("misread", True)
+                continue
             if other not in theirs:
                 if sent[name] is not None:
                     yield "in part", self.sender == "old"
@@ -203,7 +215,9 @@ class Oracle:
             if name in match.guessed:
                 yield "uncertain", True
         for name in theirs:
-            if name not in known and read[name] is not None:
+            if back.get(name) in told:
+                yield ("same", False) if told[back[name]] == read[name] else ("misread", True)
+            elif name not in known and read[name] is not None:
                 yield "in part", self.sender == "new"
 
     def _values(self, ours: Data, theirs: Data, sent: Any, read: Any) -> Iterator[Any]:

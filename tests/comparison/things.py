@@ -153,3 +153,18 @@ def arguments_of(fields: Data) -> Data:
         for name, each in fields.items()
         if name not in counting and "always" not in each and "reserved" not in each
     }
+
+
+def worked_out(fields: Data, values: Mapping[str, Any]) -> dict[str, int]:
+    """Return what stands in a frame though nobody gives it: how long a list is, and constants."""
+    found: dict[str, int] = {}
+    for name, field in fields.items():
+        if "always" in field:
+            found[name] = int(str(field["always"]), 0)
+        if "counted_by" in field:
+            found[field["counted_by"]] = len(values[name])
+        if "sized_by" in field:
+            one = {key: value for key, value in field.items() if key not in ("count", "sized_by")}
+            one.pop("counted_by", None)
+            found[field["sized_by"]] = len(values[name]) * size_of(one)
+    return found

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from framegen.comparison.pair import element_fields, named_bits, named_values
 from framegen.comparison.units import is_known, quantity
-from framegen.model.slots import Items, Number, Packed, Text
+from framegen.model.slots import Constant, Items, Number, Packed, Text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.comparison.effect import Outcome
     from framegen.comparison.pairing import Pairing
     from framegen.language.spec import Bits, NumberField
     from framegen.model.layout import MessageLayout
-    from framegen.model.slots import Field
+    from framegen.model.slots import Field, MessageSlot
 
 End: TypeAlias = Literal["sender", "receiver"]
 
@@ -47,8 +47,7 @@ def differences(
     `pairing` is that of the fields, from the sender to the receiver. What is absent on both ends is
     nothing.
     """
-    theirs = {slot.name: slot for slot in receiver.arguments}
-    yield from _of_slots(pairing, sender.arguments, theirs, sent, read, "")
+    yield from _of_slots(pairing, _Said.by(sender, sent), _Said.by(receiver, read), "")
 
 
 def translated(
@@ -136,31 +135,72 @@ def _bare_field(slot: Packed | Items) -> NumberField:
     return slot.field if isinstance(slot, Packed) else slot.fields[0].field
 
 
-def _of_slots(
-    pairing: Pairing,
-    ours: tuple[Field, ...],
-    theirs: Mapping[str, Field],
-    sent: Mapping[str, Any],
-    read: Mapping[str, Any],
-    around: str,
-) -> Iterator[Difference]:
+@dataclass(frozen=True, slots=True)
+class _Said:
+    """What one end says, or reads: the values of its arguments, and what follows from them.
+
+    `derived` are the counts, sizes and constants, which nobody gives and both ends know.
+    """
+
+    slots: Mapping[str, Field]
+    values: Mapping[str, Any]
+    derived: Mapping[str, float]
+
+    @classmethod
+    def by(cls, layout: MessageLayout, values: Mapping[str, Any]) -> _Said:
+        """Return what a message says."""
+        arguments = {slot.name: slot for slot in layout.arguments}
+        return cls(arguments, values, dict(_derived(layout.body, values)))
+
+    @classmethod
+    def of_element(cls, items: Items, values: Mapping[str, Any]) -> _Said:
+        """Return what an element of a list says."""
+        fields = {slot.name: slot for slot in items.fields}
+        return cls(fields, values, dict(_derived(items.slots, values)))
+
+
+def _derived(
+    slots: Iterable[MessageSlot], values: Mapping[str, Any]
+) -> Iterator[tuple[str, float]]:
+    for slot in slots:
+        match slot:
+            case Items():
+                for counter in slot.counters:
+                    yield counter.name, slot.counted(counter, len(values[slot.name]))
+            case Constant() if slot.field is not None and slot.field.always is not None:
+                yield slot.name, slot.field.always
+
+
+def _of_slots(pairing: Pairing, ours: _Said, theirs: _Said, around: str) -> Iterator[Difference]:
     met: set[str] = set()
-    for slot in ours:
-        path = f"{around}{slot.name}"
-        other = theirs.get(pairing.to_new.get(slot.name, ""))
-        if other is None:
-            if sent[slot.name] is not None:
-                yield Difference("in part", path, f"{path} is not read", "sender")
+    for name, slot in ours.slots.items():
+        path, value = f"{around}{name}", ours.values[name]
+        called = pairing.to_new.get(name, "")
+        other = theirs.slots.get(called)
+        if other is not None:
+            met.add(called)
+            yield from _values(slot, other, value, theirs.values[called], path)
+            if name in pairing.guessed:
+                text = f"{path} is read as {called}, which may be another thing"
+                yield Difference("uncertain", path, text)
+        elif called in theirs.derived:
+            yield from _same(path, value, theirs.derived[called])
+        elif value is not None:
+            yield Difference("in part", path, f"{path} is not read", "sender")
+    for name, value in theirs.values.items():
+        path, called = f"{around}{name}", pairing.to_old.get(name, "")
+        if name in met:
             continue
-        met.add(other.name)
-        yield from _values(slot, other, sent[slot.name], read[other.name], path)
-        if slot.name in pairing.guessed:
-            text = f"{path} is read as {other.name}, which may be another thing"
-            yield Difference("uncertain", path, text)
-    for name in theirs:
-        if name not in met and read[name] is not None:
-            path = f"{around}{name}"
+        if called in ours.derived:
+            yield from _same(path, ours.derived[called], value)
+        elif value is not None:
             yield Difference("in part", path, f"{path} is read, and not sent", "receiver")
+
+
+def _same(path: str, sent: Any, read: Any) -> Iterator[Difference]:
+    """Compare a value with one that follows from the rest of the frame at the other end."""
+    if sent != read:
+        yield Difference("misread", path, f"{path} = {sent} is read as {read}")
 
 
 def _values(ours: Field, theirs: Field, sent: Any, read: Any, path: str) -> Iterator[Difference]:
@@ -219,9 +259,9 @@ def _lists(
         )
         return
     pairing = element_fields(ours, theirs)
-    named = {slot.name: slot for slot in theirs.fields}
     for index, (one, other) in enumerate(zip(sent, read, strict=True)):
-        yield from _of_slots(pairing, ours.fields, named, one, other, f"{path}[{index}].")
+        said, heard = _Said.of_element(ours, one), _Said.of_element(theirs, other)
+        yield from _of_slots(pairing, said, heard, f"{path}[{index}].")
 
 
 def _numbers(
