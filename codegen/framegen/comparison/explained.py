@@ -26,7 +26,9 @@ _SHARED = ("frame", "frames", "byte_order", "endpoints", "link")
 # The steps of the path to a message.
 _WHOLE = 2
 # Words of texts that are names of nothing.
-_COMMON = frozenset(("is", "it", "of", "new", "now", "gone", "from", "became", "renamed"))
+_COMMON = frozenset(
+    ("is", "new", "now", "gone", "became", "renamed", "from", "messages", "it", "of", "list")
+)
 _NAME = re.compile(r"[A-Za-z_]\w+", re.ASCII)
 
 
@@ -103,9 +105,3 @@ def _message(change: Change) -> set[str]:
 def _named(effect: Effect) -> set[str]:
     reading = "" if effect.witness is None else effect.witness.reading
     return {*_NAME.findall(effect.text), *_NAME.findall(reading)}
-
-
-# Words of the texts of effects that are names of nothing.
-_COMMON = frozenset(
-    ("is", "new", "gone", "became", "renamed", "from", "messages", "it", "of", "list")
-)

@@ -25,7 +25,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="message-deprecated",
     title="A message is deprecated, or not any more",
-    subject="document",
+    subject="program",
     why="The library warns whoever sends a deprecated message. Nothing on the wire changes.",
     do="Its reason says what to use instead. Remove it no earlier than with the next break.",
     at="messages.LampRead",
