@@ -60,9 +60,9 @@ quick: $(TO_TEST)  ## Run the tests with fewer examples
 test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest --all -n $(WORKERS)
 
-# `make packages` runs all of those.
+# `make packages` runs all of those, and each of the guide to changes is all tests once more.
 sample: $(TO_TEST) $(TO_LINT)  ## Run some of the slow tests: make sample SAMPLE=5 SEED=7
-	$(IN)/python -m pytest -n $(WORKERS) --ignore tests/all/test_packages.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
+	$(IN)/python -m pytest -n $(WORKERS) --ignore tests/all/test_packages.py --ignore tests/all/test_afternoon.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
