@@ -94,7 +94,7 @@ _GIT = {
 _GENERATED = {"spec", "codegen", "generated"}
 _MADE_OF = {"busservo": _GENERATED, "framegen": {"codegen"}, "lxservo": _GENERATED}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-_TIMED = re.compile(r"(?:^.*\(\d+\.\d+ s\)\n)+", re.MULTILINE)
+_TIMED = re.compile(r"(?:^.*\((?:\d+\.\d+ s(?:, )?)+\)\n)+", re.MULTILINE)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
 
