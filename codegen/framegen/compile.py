@@ -121,3 +121,9 @@ def _unbounded(field: AnyField) -> AnyField:
         inner = {name: _unbounded(each) for name, each in field.fields.items()}
         return field.model_copy(update={"fields": inner, "count": count})
     return field.model_copy(update={"range": None, "always": None, "count": count})
+
+
+def placed(error: Unusable, source: Source) -> Unusable:
+    """Return why a text is no spec, with its name and with the place, where there is one."""
+    place = "" if error.finding is None else f"\n{error.finding.render(source)}"
+    return Unusable(f"{source.name}: {error}{place}", hint=error.hint)

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.console import visible
-from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Sequence
 
     from framegen.audit.recording import Recording
-    from framegen.language.values import Direction
     from framegen.model.model import Model
 
 SUMMARY = "Hold recordings against a spec: what they cover, what does not fit, what they settle."
@@ -76,12 +72,13 @@ def run(arguments: Namespace) -> int:
     from framegen.audit.audit import audit  # noqa: PLC0415
     from framegen.audit.plain import as_json  # noqa: PLC0415
     from framegen.audit.text import as_markdown, as_text  # noqa: PLC0415
+    from framegen.commands.capture_argument import directions_from  # noqa: PLC0415
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
 
     model = compiled(arguments.spec).model
     if arguments.evidence:
         return _evidence(model, arguments)
-    ways = _ways(model, arguments.direction)
+    ways = directions_from(model, arguments.direction)
     recordings = _recordings(model, arguments)
     tolerated = _tolerated(arguments.tolerate, sum(each.size for each in recordings))
     found = audit(model, recordings, ways, tolerated)
@@ -110,6 +107,7 @@ def _evidence(model: Model, arguments: Namespace) -> int:
 def _recordings(model: Model, arguments: Namespace) -> list[Recording]:
     """Read every file. Raises Unusable for one that cannot be read, or holds nothing."""
     from framegen.audit.recording import read_recording  # noqa: PLC0415
+    from framegen.commands.capture_argument import content  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     hint = "record the line, as with `busservo monitor --log line.hex`"
@@ -121,34 +119,10 @@ def _recordings(model: Model, arguments: Namespace) -> list[Recording]:
     found: list[Recording] = []
     for file in arguments.captures:
         name = "standard input" if file == "-" else visible(file)
-        recording = read_recording(name, _content(file), ends, model.roles, arguments.input)
+        recording = read_recording(name, content(file), ends, model.roles, arguments.input)
         if not recording.size:
             raise Unusable(f"{name} holds no bytes of a line", hint=hint)
         found.append(recording)
-    return found
-
-
-def _content(file: str) -> bytes:
-    """Return the bytes of a file. Raises Unusable."""
-    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-
-    try:
-        return sys.stdin.buffer.read() if file == "-" else Path(file).read_bytes()
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        raise Unusable(f"cannot read {visible(file)}: {why}") from None
-
-
-def _ways(model: Model, sender: str | None) -> Sequence[Direction]:
-    """Return the directions of bytes of which nobody says who sent them. Raises Unusable."""
-    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-
-    if sender is None:
-        return model.directions
-    found = [way for way in model.directions if way.sender == sender]
-    if not found:
-        senders = list(dict.fromkeys(way.sender for way in model.directions))
-        raise Unusable(f"no endpoint {sender!r} sends anything", hint=did_you_mean(sender, senders))
     return found
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.hextext import HexError, read_hex
-from framegen.reading.findings import did_you_mean
 from framegen.reading.text import shown
 
 if TYPE_CHECKING:
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from framegen.explanation.explanation import Explanation
-    from framegen.language.values import Direction
     from framegen.model.model import Model
 
 # Enough of a text to find a place by; a long paste is cut around it.
@@ -69,6 +67,7 @@ def run(arguments: Namespace) -> int:
 
 def _closest(models: Sequence[Model], data: bytes, sender: str | None) -> Explanation:
     """Explain bytes by the protocol of which they are a frame, or come closest to one."""
+    from framegen.commands.capture_argument import directions_from  # noqa: PLC0415
     from framegen.explain import explain  # noqa: PLC0415
 
     senders = {way.sender for model in models for way in model.directions}
@@ -78,7 +77,7 @@ def _closest(models: Sequence[Model], data: bytes, sender: str | None) -> Explan
         # A sender that none of them has is reported as one of the first.
         if sender not in senders or sender in {way.sender for way in model.directions}
     ]
-    explanations = [explain(each, data, _directions(each, sender)) for each in asked]
+    explanations = [explain(each, data, directions_from(each, sender)) for each in asked]
     return max(explanations, key=_rows)
 
 
@@ -106,16 +105,3 @@ def _is_spec(word: str) -> bool:
         return Path(word).is_file() or named_spec(word) is not None
     except (OSError, ValueError):  # longer than a path can be, or with a NUL in it: bytes
         return False
-
-
-def _directions(model: Model, sender: str | None) -> list[Direction]:
-    """Return the directions of one sender, or all of them. Raises Unusable."""
-    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-
-    if sender is None:
-        return model.directions
-    chosen = [direction for direction in model.directions if direction.sender == sender]
-    if not chosen:
-        senders = list(dict.fromkeys(direction.sender for direction in model.directions))
-        raise Unusable(f"no endpoint {sender!r} sends anything", hint=did_you_mean(sender, senders))
-    return chosen

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.console import visible
@@ -34,6 +33,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the spec. 0 for one, 1 where nothing shows what frames are. Raises Unusable."""
+    from framegen.commands.capture_argument import content  # noqa: PLC0415
     from framegen.guess.capture import read_capture  # noqa: PLC0415
     from framegen.guess.explained import explained  # noqa: PLC0415
     from framegen.guess.guess import guess  # noqa: PLC0415
@@ -41,7 +41,7 @@ def run(arguments: Namespace) -> int:
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     name = "standard input" if arguments.file == "-" else visible(arguments.file)
-    capture = read_capture(_content(arguments.file))
+    capture = read_capture(content(arguments.file))
     if not capture.data:
         raise Unusable(f"{name} is empty", hint="record some 200 frames of the line")
     found = guess(capture)
@@ -51,14 +51,3 @@ def run(arguments: Namespace) -> int:
     share = explained(spec_text(found, name), capture)
     print(spec_text(found, name, share), end="")
     return 0
-
-
-def _content(file: str) -> bytes:
-    """Return the bytes of a file. Raises Unusable."""
-    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-
-    try:
-        return sys.stdin.buffer.read() if file == "-" else Path(file).read_bytes()
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        raise Unusable(f"cannot read {visible(file)}: {why}") from None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from framegen.compile import compile_spec
+from framegen.compile import compile_spec, placed
 from framegen.language.load import read_source
 from framegen.pluralize import pluralize
 from framegen.project import default_spec, named_spec
@@ -31,8 +31,7 @@ def compiled(file: Path | None) -> Compiled:
     try:
         return compile_spec(source)
     except Unusable as error:
-        place = "" if error.finding is None else f"\n{error.finding.render(source)}"
-        raise Unusable(f"{source.name}: {error}{place}", hint=error.hint) from None
+        raise placed(error, source) from None
 
 
 def print_findings(specs: Sequence[Compiled]) -> bool:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from framegen.comparison.edition import Edition
 from framegen.comparison.partners import Listed
 from framegen.comparison.revision import NotInRevision, Revision
-from framegen.compile import compile_leniently
+from framegen.compile import compile_leniently, placed
 from framegen.language.load import read_source
 from framegen.language.version import Version
 from framegen.project import FOLDER, all_specs
@@ -28,8 +28,7 @@ def edition_of(source: Source) -> Edition:
     try:
         compiled = compile_leniently(source)
     except Unusable as error:
-        place = "" if error.finding is None else f"\n{error.finding.render(source)}"
-        raise Unusable(f"{source.name}: {error}{place}", hint=error.hint) from None
+        raise placed(error, source) from None
     model = compiled.model
     # So that what is made of two editions does not differ by where they are from.
     path = f"spec/{model.spec.protocol.name}.yaml"

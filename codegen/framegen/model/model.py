@@ -154,6 +154,11 @@ class Model:
         return exchanges(self.messages, self.roles)
 
     @cached_property
+    def exchanges_by_request(self) -> dict[str, Exchange]:
+        """The exchanges of the client, by the name of their request."""
+        return {each.request.name: each for each in self.exchanges}
+
+    @cached_property
     def answers(self) -> dict[str, list[str]]:
         """The requests that each reply answers, by the name of the reply."""
         named = {name: [message.reply or ""] for name, message in self.spec.messages.items()}

@@ -42,10 +42,10 @@ class Client:
 
     model: Model
 
-    @cached_property
+    @property
     def exchanges(self) -> dict[str, Exchange]:
         """The exchanges by the name of their request."""
-        return {each.request.name: each for each in self.model.exchanges}
+        return self.model.exchanges_by_request
 
     @cached_property
     def answers(self) -> dict[str, list[str]]:

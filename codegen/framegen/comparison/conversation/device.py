@@ -43,10 +43,10 @@ class Device:
 
     model: Model
 
-    @cached_property
+    @property
     def exchanges(self) -> dict[str, Exchange]:
         """The exchanges by the name of their request."""
-        return {each.request.name: each for each in self.model.exchanges}
+        return self.model.exchanges_by_request
 
     def reads(self, data: bytes) -> tuple[list[Received], str]:
         """Return the requests that the device reads in bytes, and why the rest is none."""

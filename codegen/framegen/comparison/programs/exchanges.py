@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from framegen.comparison.effect import Effect
 from framegen.comparison.programs.origins import frame_path
-from framegen.model.exchanges import exchanges
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,18 +16,13 @@ if TYPE_CHECKING:
 
 def exchange_effects(pair: Pair) -> Iterator[Effect]:
     """Yield what becomes of what the methods of a client return, raise and refuse."""
-    news = {each.request.name: each for each in _exchanges(pair, "new")}
-    for old in _exchanges(pair, "old"):
+    news = pair.new.model.exchanges_by_request
+    for old in pair.old.model.exchanges:
         new = news.get(pair.messages.to_new.get(old.request.name, ""))
         if new is not None:
             yield from _raises(pair, old, new)
             yield from _results(pair, old, new)
             yield from _limits(pair, old, new)
-
-
-def _exchanges(pair: Pair, which: str) -> list[Exchange]:
-    model = pair.old.model if which == "old" else pair.new.model
-    return exchanges(model.messages, model.roles)
 
 
 def _raises(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
