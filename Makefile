@@ -12,7 +12,6 @@ IN := $(VENV)/bin
 # lints is added to it when it is first called for: each is a group in pyproject.toml.
 READY := $(VENV)/.ready
 TO_BUILD := $(VENV)/.ready-build
-TO_DOCUMENT := $(VENV)/.ready-docs
 TO_TEST := $(VENV)/.ready-test
 TO_LINT := $(VENV)/.ready-lint
 # All of ours in one command, so that pip looks for none of them elsewhere.
@@ -33,8 +32,8 @@ TESTS =
 # How many slow tests of each file are a sample; others on each day, or those of a SEED.
 SAMPLE = 3
 SEED =
-# Where the pages of the reference go.
-REFERENCE = build/reference
+# Where the pages go.
+SITE = build/site
 # What a release is called.
 VERSION =
 # Which mutants, and how many of them: make mutants ONLY='busservo._client.*' SAMPLE=60 SEED=7
@@ -43,7 +42,7 @@ ONLY =
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
-.PHONY: all test quick test-all sample coverage lint style types current diff format fuzz soak mutants bench docs reference docs-tools wheel packages release newcomer pins venv clean help
+.PHONY: all test quick test-all sample coverage lint style types current diff format fuzz soak mutants bench docs docs-tools wheel packages release newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -99,15 +98,9 @@ bench:  ## Measure the library against its peers
 	@command -v npm >/dev/null && npm install --silent --no-package-lock --prefix benchmarks/peers/kaitai || true
 	$(BENCH_VENV)/bin/python -m benchmarks
 
-docs: $(TO_DOCUMENT)  ## Build build/site: the reference and the guides, ready to be served
-	rm -rf build/site
-	$(IN)/framegen docs --out build/site/reference
-	$(IN)/python docs/site.py build/site
-	@echo "Open build/site/index.html"
-
-reference: $(READY)  ## Build the pages of the reference alone: make reference REFERENCE=html
-	rm -rf $(REFERENCE)
-	$(IN)/framegen docs --out $(REFERENCE)
+docs: $(READY)  ## Build the site: the guides and the reference: make docs SITE=html
+	rm -rf $(SITE)
+	$(IN)/framegen docs --out $(SITE)
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node

@@ -30,7 +30,7 @@ LAYERS = [
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},
-    {"render", "skeleton"},
+    {"render", "skeleton", "site"},
     {"comparison"},
     {"writing"},
     {"commands"},

@@ -22,8 +22,9 @@ from busservo._frame.element import Element
 from framegen.cli import main
 from framegen.model.exchanges import snake_case
 from framegen.render import render, render_target, snippets
+from framegen.site.project import Project
+from framegen.site.site import render_site
 from framegen.targets.docs import TARGET as DOCS
-from framegen.targets.docs.html_pages import render_site
 from framegen.targets.filenames import DEVICES, file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of, strategy_name
@@ -494,8 +495,8 @@ def test_every_file_can_be_checked_out_on_windows() -> None:
         crowd.command(name, ["level"])
     spec = compiled_of(crowd.data)
     output = render(spec)
-    paths = [*output.files, output.manifest, *render_site([spec], snippets())]
-    assert {"docs/reference/con_/messages/Nul_.md", "con_/messages/Nul_.html"} <= {*paths}
+    paths = [*output.files, output.manifest, *render_site(Project([spec]), snippets())]
+    assert {"docs/reference/con_/messages/Nul_.md", "reference/con_/messages/Nul_.html"} <= {*paths}
     stems = {part.partition(".")[0].lower() for path in paths for part in path.split("/")}
     assert stems & DEVICES == set()
     assert len({path.lower() for path in paths}) == len(paths)
@@ -506,7 +507,7 @@ def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
     crowd.report("Nul", ["level"])
     crowd.command("Con", ["level"], reply="Nul")
     spec = compiled_of(crowd.data)
-    files = {**render(spec).files, **render_site([spec], snippets())}
+    files = {**render(spec).files, **render_site(Project([spec]), snippets())}
     pages = {path: text for path, text in files.items() if path.endswith((".md", ".html"))}
     write_files(pages, tmp_path)
     links = 0

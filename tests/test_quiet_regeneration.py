@@ -14,8 +14,9 @@ from framegen.cli import main
 from framegen.compile import Compiled, compile_spec
 from framegen.reading.source import Source
 from framegen.render import render, render_target, snippets
+from framegen.site.project import Project
+from framegen.site.site import render_site
 from framegen.targets import docs, python
-from framegen.targets.docs.html_pages import render_site
 
 from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, Data, Steps, data_of
 
@@ -103,8 +104,8 @@ def test_a_comment_changes_no_file(name: str) -> None:
 @pytest.mark.parametrize("name", SPECS)
 def test_a_comment_changes_only_the_page_that_shows_the_spec(name: str) -> None:
     text = text_of(name)
-    pages = [render_site([compiled(each)], snippets()) for each in (text, commented(text))]
-    assert changed(*pages) == {f"{name}/spec.html"}
+    pages = [render_site(Project([compiled(each)]), snippets()) for each in (text, commented(text))]
+    assert changed(*pages) == {f"reference/{name}/spec.html"}
 
 
 def test_a_comment_changes_the_manifest_alone(
@@ -130,7 +131,7 @@ def test_how_values_are_spelt_changes_no_file(name: str) -> None:
 def test_no_file_knows_the_digest_of_the_spec_or_who_generated_it_when(name: str) -> None:
     source = Source(PATH, text_of(name))
     words = [source.digest, f"framegen {framegen.__version__}"]
-    pages = render_site([compiled(source.text)], snippets())
+    pages = render_site(Project([compiled(source.text)]), snippets())
     for path, text in (files(source.text) | pages).items():
         assert [word for word in words if word in text] == [], path
 

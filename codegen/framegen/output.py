@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 # Nothing else of a path: a comment of any language must be able to hold it, and none to be ended
 # by it; and what follows `coding:` would change how Python reads a file.
@@ -31,7 +35,8 @@ class Output:
 
     `spec` is the path of the spec below its own project, "" for what is framegen's own, and
     `digest` that of its text. `folders` hold nothing but these files. `others` are wanted as well,
-    and left as they are: what the other targets make, in a run for one.
+    and left as they are: what the other targets make, in a run for one. `data` are files that
+    are no text.
     """
 
     manifest: str
@@ -40,3 +45,9 @@ class Output:
     folders: tuple[str, ...] = ()
     digest: str = ""
     others: dict[str, str] = field(default_factory=dict)
+    data: Mapping[str, bytes] = field(default_factory=dict)
+
+    @property
+    def contents(self) -> dict[str, str | bytes]:
+        """All files, text or not."""
+        return {**self.files, **self.data}

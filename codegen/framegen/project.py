@@ -9,6 +9,7 @@ from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 
 FOLDER = "spec"
+GUIDES = "docs"
 # A key that every spec has, and hardly another file.
 _LIKE_A_SPEC = re.compile(rb"^framegen:", re.MULTILINE)
 _HEAD = 4_000
@@ -55,6 +56,12 @@ def project_root(spec: Path) -> Path:
     """Return the root of output paths: the folder above `spec/`, or that of the spec."""
     folder = spec.parent.resolve()
     return folder.parent if folder.name == FOLDER else folder
+
+
+def guides_folder(spec: Path) -> Path | None:
+    """Return the folder of the guides of a project, if it has a README that lists them."""
+    folder = project_root(spec) / GUIDES
+    return folder if (folder / "README.md").is_file() else None
 
 
 def _remedy(here: Path) -> str:

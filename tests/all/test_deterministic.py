@@ -21,10 +21,11 @@ from pathlib import Path
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
 from framegen.render import render, render_shared, snippets
-from framegen.targets.docs.html_pages import render_site
+from framegen.site.project import Project
+from framegen.site.site import render_site
 
 specs = [compile_spec(read_source(Path(name))) for name in sys.argv[1:]]
-files = {f"site/{path}": text for path, text in render_site(specs, snippets()).items()}
+files = {f"site/{path}": text for path, text in render_site(Project(specs), snippets()).items()}
 for compiled in specs:
     files |= render(compiled).files | render_shared(compiled).files
 for path, text in files.items():

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.render import snippets
-from framegen.targets.docs.html_pages import render_site
+from framegen.site.project import Project
+from framegen.site.site import render_site
 
 from tests.conformance.harness import run
 from tests.docs.reference import NODE
@@ -36,8 +37,8 @@ def of_the_page(compiled: Compiled, folder: Path, questions: Sequence[str]) -> l
 def page_command(compiled: Compiled, folder: Path) -> list[str]:
     """Write the page with the decoder to `folder`; return the command that runs its script."""
     page = folder / "decoder.html"
-    path = f"{compiled.spec.protocol.name}/{page.name}"
-    page.write_text(render_site([compiled], snippets())[path], encoding="utf-8")
+    path = f"reference/{compiled.spec.protocol.name}/{page.name}"
+    page.write_text(render_site(Project([compiled]), snippets())[path], encoding="utf-8")
     return [str(NODE), str(ANSWER), str(page)]
 
 

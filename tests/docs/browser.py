@@ -50,7 +50,7 @@ def launched() -> Iterator[Browser]:
 def site_on_disk(root: Path) -> Path:
     """Build the reference below `root`, as `framegen docs` does, and return its folder."""
     assert main(["docs", str(SPECS["busservo"]), "--out", str(root)]) == 0
-    return root / "busservo"
+    return root / "reference" / "busservo"
 
 
 class Visit:

@@ -14,8 +14,9 @@ from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
 from framegen.reading.source import Source
 from framegen.render import render_target, snippets
+from framegen.site.project import Project
+from framegen.site.site import render_site
 from framegen.targets import docs
-from framegen.targets.docs.html_pages import render_site
 
 if TYPE_CHECKING:
     from framegen.model.model import Model
@@ -134,13 +135,23 @@ class Reference:
 
     @cached_property
     def pages(self) -> dict[str, Page]:
-        """Each page."""
-        root = f"{self.compiled.spec.protocol.name}/"
+        """Each page, by path below the root of the reference."""
         return {
-            (name := path.removeprefix(root)): Page(name, text)
-            for path, text in render_site([self.compiled], snippets()).items()
-            if path.startswith(root)
+            path.removeprefix(self.folder): page
+            for path, page in self.site.items()
+            if path.startswith(self.folder)
         }
+
+    @property
+    def folder(self) -> str:
+        """Where its pages are in the site."""
+        return f"reference/{self.compiled.spec.protocol.name}/"
+
+    @cached_property
+    def site(self) -> dict[str, Page]:
+        """Each page of the site that has this reference alone, by path below its root."""
+        rendered = render_site(Project([self.compiled]), snippets())
+        return {path: Page(path, text) for path, text in rendered.items() if isinstance(text, str)}
 
 
 def reference_of(source: Source) -> Reference:

@@ -7,14 +7,14 @@ import subprocess
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from framegen.targets import docs
+from framegen import site
 
 from tests.docs.reference import NODE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-STATIC = Path(docs.__file__).parent / "static"
+STATIC = Path(site.__file__).parent / "static" / "js"
 
 # What JSON cannot say goes as an object: {"number": "9007199254740993"}.
 _BEGIN = """

@@ -1,4 +1,4 @@
-"""`framegen docs`: the reference alone, in a folder to look at."""
+"""`framegen docs`: a site in a folder to look at."""
 
 import webbrowser
 from pathlib import Path
@@ -20,12 +20,11 @@ def test_it_writes_the_pages_and_the_way_to_them(
 ) -> None:
     folder = tmp_path / "site"
     assert main(["docs", SPEC, "--out", str(folder)]) == 0
-    assert capsys.readouterr().out.strip() == str(folder / "busservo" / "index.html")
+    assert capsys.readouterr().out.strip() == str(folder / "index.html")
     site = reference("busservo")
-    pages = {f"busservo/{path}" for path in site.pages}
-    assert written(folder) == {"index.html", "site.manifest", *pages}
-    for path, page in site.pages.items():
-        assert (folder / "busservo" / path).read_bytes() == page.text.encode()
+    assert written(folder) == {"site.manifest", *site.site}
+    for path, page in site.site.items():
+        assert (folder / path).read_bytes() == page.text.encode()
 
 
 def test_it_opens_the_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -37,7 +36,7 @@ def test_it_opens_the_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr(webbrowser, "open", note)
     assert main(["docs", SPEC, "--open", "--out", str(tmp_path / "a b")]) == 0
-    assert opened == [(tmp_path / "a b" / "busservo" / "index.html").as_uri()]
+    assert opened == [(tmp_path / "a b" / "index.html").as_uri()]
 
 
 def test_a_missing_browser_is_reported(

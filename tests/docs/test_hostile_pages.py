@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from framegen.compile import compile_spec
 from framegen.reading.yamltree import read_tree
-from framegen.targets.docs.escape import linked, script_json
+from framegen.site.escape import linked, script_json
 
 from tests.docs.reference import Page, Reference, reference, reference_of, respelled
 

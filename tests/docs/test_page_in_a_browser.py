@@ -43,7 +43,7 @@ def test_what_the_encoder_offers_is_the_first_example_of_each_message(tmp_path: 
     spec = FILES["everything"]
     assert main(["docs", str(spec), "--out", str(tmp_path)]) == 0
     with launched() as browser:
-        visit = Visit(browser.new_context(), tmp_path / "everything")
+        visit = Visit(browser.new_context(), tmp_path / "reference" / "everything")
         tab = visit.open("decoder.html")
         for name, layout in messages_of("everything").items():
             example = layout.message.examples[0]

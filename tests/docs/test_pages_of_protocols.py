@@ -21,7 +21,7 @@ def site_of(name: str) -> Reference:
 @pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
 def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
-    pages = site_of(name).pages
+    pages = site_of(name).site
     for path, page in pages.items():
         assert sorted(page.ids) == sorted(set(page.ids)), path
         for link in page.links:

@@ -11,11 +11,12 @@ from framegen.commands.output_arguments import add_force, add_spec
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-SUMMARY = "Build the reference of a spec as HTML pages, with a search, a decoder and a cheat sheet."
+SUMMARY = "Build the site of a project: its guides, and the reference of each spec, as HTML pages."
 EXAMPLES = (
-    ("framegen docs --open", "the reference of spec/*.yaml, in your browser"),
-    ("framegen docs SPEC.yaml --open", "that of another spec"),
-    ("framegen docs --out site", "build it in site/NAME, ready to be served"),
+    ("framegen docs --open", "the guides and the reference of spec/*.yaml, in your browser"),
+    ("framegen docs SPEC.yaml --open", "the reference of another spec"),
+    ("framegen docs --out site", "build it in site/, ready to be served"),
+    ("framegen docs --out site --base https://example.org/", "with a sitemap and whole addresses"),
 )
 
 
@@ -25,6 +26,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--open", action="store_true", help="open the index in a browser")
     parser.add_argument(
         "--out", type=Path, metavar="FOLDER", help="write here instead of into a temporary folder"
+    )
+    parser.add_argument(
+        "--base", default="", metavar="ADDRESS", help="where the site will be, such as https://…/"
     )
     add_force(parser)
 
@@ -36,10 +40,10 @@ def run(arguments: Namespace) -> int:
 
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.output import Output  # noqa: PLC0415
-    from framegen.project import all_specs  # noqa: PLC0415
+    from framegen.project import all_specs, guides_folder  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
-    from framegen.targets.docs.html_pages import render_site  # noqa: PLC0415
-    from framegen.targets.filenames import file_stem  # noqa: PLC0415
+    from framegen.site.project import read_project  # noqa: PLC0415
+    from framegen.site.site import render_site  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
@@ -47,12 +51,14 @@ def run(arguments: Namespace) -> int:
     if print_findings(specs):
         return 1
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
+    docs = None if arguments.spec else guides_folder(files[0])
+    project = read_project(specs, docs, arguments.base)
     # All pages are one output: which of the specs they come from, each of them says.
-    site = Output("site.manifest", "", render_site(specs, snippets()))
+    pages = render_site(project, snippets())
+    site = Output("site.manifest", "", pages, data=project.files)
     for notice in write(folder, [site], force=arguments.force).notices:
         print(notice, file=sys.stderr)
-    folders = [file_stem(spec.spec.protocol.name) for spec in specs]
-    index = Path(folder, *folders, "index.html") if len(folders) == 1 else folder / "index.html"
+    index = folder / "index.html"
     print(index)
     if arguments.open and not open_in_browser(index.resolve().as_uri()):
         print("no browser was found; open the file yourself", file=sys.stderr)

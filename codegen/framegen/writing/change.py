@@ -25,7 +25,7 @@ class Change:
     path: str
     why: Why
     old: str | None
-    new: str | None
+    new: str | bytes | None
 
     @property
     def ours(self) -> bool:
@@ -33,9 +33,11 @@ class Change:
         return self.why not in ("edited by hand", "foreign")
 
     def diff(self) -> str:
-        """Return the change as a unified diff."""
+        """Return the change as a unified diff; of what is no text, that it differs."""
         before = "/dev/null" if self.old is None else f"a/{visible(self.path)}"
         after = "/dev/null" if self.new is None else f"b/{visible(self.path)}"
+        if isinstance(self.new, bytes):
+            return f"Binary files {before} and {after} differ\n"
         old, new = (list(StringIO(text or "")) for text in (self.old, self.new))
         shown = "".join(
             line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"

@@ -27,14 +27,19 @@ def file_digest(data: bytes) -> str:
     return sha256(_with_lf(data)).hexdigest()
 
 
-def text_digest(text: str) -> str:
-    """Return the SHA-256 of text that is to be written."""
-    return file_digest(text.encode())
+def as_data(content: str | bytes) -> bytes:
+    """Return what a file holds, of text in UTF-8."""
+    return content.encode() if isinstance(content, str) else content
 
 
-def is_text(data: bytes, text: str) -> bool:
-    """Tell whether a file holds a text, whatever its line ends: whether their digests are one."""
-    wanted = text.encode()
+def content_digest(content: str | bytes) -> str:
+    """Return the SHA-256 of what is to be written."""
+    return file_digest(as_data(content))
+
+
+def holds(data: bytes, content: str | bytes) -> bool:
+    """Tell whether a file holds that, whatever its line ends: whether their digests are one."""
+    wanted = as_data(content)
     return data == wanted or _with_lf(data) == _with_lf(wanted)
 
 

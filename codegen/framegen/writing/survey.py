@@ -10,7 +10,7 @@ from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 from framegen.writing.change import Change
 from framegen.writing.kept import is_kept
-from framegen.writing.manifest import Manifest, file_digest, is_text, read_manifest, text_digest
+from framegen.writing.manifest import Manifest, content_digest, file_digest, holds, read_manifest
 from framegen.writing.marks import is_blank, is_conflicted, is_former_page, is_generated
 from framegen.writing.places import Places
 
@@ -144,9 +144,10 @@ class _Surveyor:
         listed = {} if manifest is None else manifest.files
         rebuilt = manifest is None or not manifest.whole
         there = [
-            self._look_at_file(path, text, rebuilt=rebuilt) for path, text in output.files.items()
+            self._look_at_file(path, text, rebuilt=rebuilt)
+            for path, text in output.contents.items()
         ]
-        files = {path: frozenset([text_digest(text)]) for path, text in output.files.items()}
+        files = {path: frozenset([content_digest(text)]) for path, text in output.contents.items()}
         files |= self._others(output, rebuilt=rebuilt)
         for path, digests in listed.items():
             if output.others and not _below(path, output.folders):
@@ -161,13 +162,13 @@ class _Surveyor:
                 f"{output.manifest} {state}: files are recognised by their contents"
             )
 
-    def _look_at_file(self, path: str, text: str, *, rebuilt: bool) -> bool:
+    def _look_at_file(self, path: str, text: str | bytes, *, rebuilt: bool) -> bool:
         """Compare one wanted file; tell whether it is there and framegen's own."""
         standing = self._places.look(path)
         if standing is None:
             self._found.changes.append(Change(path, "missing", None, text))
             return False
-        same = standing.kind in ("", "a link") and is_text(standing.data, text)
+        same = standing.kind in ("", "a link") and holds(standing.data, text)
         # Where capitals tell no names apart, the orphan of this name is this very file.
         if same and path.casefold() not in self._folded:
             return True
@@ -221,7 +222,7 @@ class _Surveyor:
                 kept[path] = digests
             elif rebuilt and (standing := self._places.look(path)) and not standing.kind:
                 digest = file_digest(standing.data)
-                if digest == text_digest(text) or is_generated(standing.data):
+                if digest == content_digest(text) or is_generated(standing.data):
                     kept[path] = frozenset([digest])
         return kept
 
@@ -274,7 +275,7 @@ class _Surveyor:
             self._found.changes.append(Change(path, "missing", None, text))
         elif standing.kind:
             self._found.changes.append(Change(path, "foreign", None, text))
-        elif not is_text(standing.data, text):
+        elif not holds(standing.data, text):
             self._found.changes.append(Change(path, "stale", self._text(standing), text))
 
     @staticmethod
@@ -290,7 +291,7 @@ def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
     owners: dict[str, Output] = {}
     folded: dict[str, Output] = {}
     for output in outputs:
-        for path in (output.manifest, *output.files, *output.others):
+        for path in (output.manifest, *output.contents, *output.others):
             other = folded.setdefault(path.casefold(), output)
             if other is not output:
                 raise Unusable(

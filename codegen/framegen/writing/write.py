@@ -18,6 +18,7 @@ from framegen.reading.yamltree import Unusable
 from framegen.writing import disk
 from framegen.writing.change import Change, describe
 from framegen.writing.kept import kept_place
+from framegen.writing.manifest import as_data
 from framegen.writing.places import Places
 from framegen.writing.survey import Survey, survey
 from framegen.writing.workshop import is_left_over, workshop
@@ -156,9 +157,9 @@ class _Writer:
         done, all_of_them = len(self.done.changes), len(self._found.changes)
         return f"{done} of {all_of_them} changes were made; run this again to finish"
 
-    def _stage(self, path: str, text: str) -> Path:
+    def _stage(self, path: str, content: str | bytes) -> Path:
         flush = path in self._found.manifests
-        return self._at.stage(text.encode(), self._places.at(path), flush=flush)
+        return self._at.stage(as_data(content), self._places.at(path), flush=flush)
 
     def _remove(self, path: str) -> None:
         self._begun = True

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.targets.docs.markdown_pages import markdown_files
-from framegen.targets.docs.site import SiteView
+from framegen.targets.docs.reference import ReferenceView
 from framegen.targets.filenames import file_stem
 from framegen.targets.target import Comment, Target
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def render(compiled: Compiled, snippets: Snippets) -> dict[str, str]:
     """Render the reference in Markdown, by path below the project's root."""
     (root,) = folders(compiled.model)
-    files = markdown_files(SiteView(compiled, snippets))
+    files = markdown_files(ReferenceView(compiled, snippets))
     return {f"{root}/{path}": text for path, text in files.items()}
 
 

@@ -12,19 +12,19 @@ from framegen.targets.templates import environment
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-    from framegen.targets.docs.site import SiteView
+    from framegen.targets.docs.reference import ReferenceView
 
 _TEMPLATES = Path(__file__).parent / "templates"
 
 
-def markdown_files(site: SiteView) -> dict[str, str]:
+def markdown_files(reference: ReferenceView) -> dict[str, str]:
     """Render every page that is there in Markdown, by path below the root."""
     templates = _environment()
     return {
         page.markdown: templates.get_template(f"{page.template}.md.jinja").render(
-            site=site, page=page, message=page.message
+            reference=reference, page=page, message=page.message
         )
-        for page in [*site.pages, *site.message_pages]
+        for page in [*reference.pages, *reference.message_pages]
         if page.in_markdown
     }
 

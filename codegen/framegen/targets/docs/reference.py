@@ -14,7 +14,6 @@ from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.examples import ExampleSequence, example_sequences
 from framegen.targets.docs.lookalikes import LookalikeEntry, lookalike_views
 from framegen.targets.docs.message import MessagePage
-from framegen.targets.docs.spec_listing import SpecLine, listing
 from framegen.targets.docs.stream_examples import StreamExample, stream_examples
 from framegen.targets.docs.stream_rules import StreamRules
 from framegen.targets.docs.timing import (
@@ -40,16 +39,13 @@ _TO_ROOT = "../../../"
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """One page: its name below the root, its template, title, link text and scripts.
-
-    Each script is made of files.
-    """
+    """One page: its name below the root, its template, title, link text and what it is about."""
 
     name: str
     template: str
     title: str
     label: str
-    scripts: tuple[tuple[str, ...], ...] = (("page",),)
+    about: str
     in_markdown: bool = True
     message: MessagePage | None = None
 
@@ -98,7 +94,7 @@ class ReservedView:
 
 
 @dataclass(frozen=True)
-class SiteView:
+class ReferenceView:
     """The content of all pages."""
 
     compiled: Compiled
@@ -285,37 +281,92 @@ class SiteView:
         """The history, the latest version first."""
         return self.model.spec.history[::-1]
 
-    @property
-    def listing(self) -> list[SpecLine]:
-        """The text of the spec."""
-        return listing(self.compiled.source, self.compiled.tree)
-
     @cached_property
     def pages(self) -> list[PageView]:
         """The pages in the navigation."""
+        title = self.protocol.title
         # The decoder needs a script, the cheat sheet paper, and the spec is YAML: HTML alone.
-        proven = any(frame.checksums for frame in self.model.envelopes.values())
-        codec = ("checksums", "codec") if proven else ("codec",)
-        decoder = (codec, ("page",), ("decoder",))
         return [
-            PageView("index", "index", self.protocol.title, "Frames"),
-            PageView("examples", "examples", "Examples, byte by byte", "Examples"),
+            PageView("index", "index", title, "Frames", self.protocol.summary),
             PageView(
-                "decoder", "decoder", "Decoder and encoder", "Decoder", decoder, in_markdown=False
+                "examples",
+                "examples",
+                "Examples, byte by byte",
+                "Examples",
+                f"Every documented frame of the {title}, with what comes back.",
             ),
-            PageView("stream", "stream", "How the stream is decoded", "Stream"),
-            PageView("sequences", "sequences", "Sequences and timing", "Sequences"),
-            PageView("errata", "errata", "Errata and unknowns", "Errata"),
-            PageView("lookalikes", "lookalikes", "Is this your protocol?", "Look-alikes"),
-            PageView("cheatsheet", "cheatsheet", "Cheat sheet", "Cheat sheet", in_markdown=False),
-            PageView("changelog", "changelog", "Changelog", "Changelog"),
-            PageView("spec", "spec", "The spec", "Spec", (), in_markdown=False),
+            PageView(
+                "decoder",
+                "decoder",
+                "Decoder and encoder",
+                "Decoder",
+                f"Decode bytes of the {title}, and make frames of values. Nothing leaves the page.",
+                in_markdown=False,
+            ),
+            PageView(
+                "stream",
+                "stream",
+                "How the stream is decoded",
+                "Stream",
+                f"How frames of the {title} are told from noise.",
+            ),
+            PageView(
+                "sequences",
+                "sequences",
+                "Sequences and timing",
+                "Sequences",
+                f"Which messages of the {title} follow which, and how long they take.",
+            ),
+            PageView(
+                "errata",
+                "errata",
+                "Errata and unknowns",
+                "Errata",
+                f"Where the documents of the {title} are wrong, and what they leave open.",
+            ),
+            PageView(
+                "lookalikes",
+                "lookalikes",
+                "Is this your protocol?",
+                "Look-alikes",
+                f"Protocols that are easily taken for the {title}.",
+            ),
+            PageView(
+                "cheatsheet",
+                "cheatsheet",
+                "Cheat sheet",
+                "Cheat sheet",
+                f"The {title} on paper.",
+                in_markdown=False,
+            ),
+            PageView(
+                "changelog",
+                "changelog",
+                "Changelog",
+                "Changelog",
+                f"What changed from version to version of the {title}.",
+            ),
+            PageView(
+                "spec",
+                "spec",
+                "The spec",
+                "Spec",
+                f"The {title} as data, of which all these pages are made.",
+                in_markdown=False,
+            ),
         ]
 
     @cached_property
     def message_pages(self) -> list[PageView]:
         """A page for each message."""
         return [
-            PageView(message.page, "message", message.name, message.name, message=message)
+            PageView(
+                message.page,
+                "message",
+                message.name,
+                message.name,
+                message.said.summary,
+                message=message,
+            )
             for message in self.messages
         ]

@@ -1,0 +1,1 @@
+"""The site: the guides and references of a project as static pages."""

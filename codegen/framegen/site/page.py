@@ -1,0 +1,43 @@
+"""One page of the site: its address, what is said of it elsewhere, and what its template shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A page by its path below the root of the site.
+
+    `label` stands in the navigation, `about` in search results and previews. `folder` is the root
+    of the reference that it belongs to, if it does to any. Each of `scripts` is made of files,
+    and `context` is what the template gets besides.
+    """
+
+    path: str
+    template: str
+    title: str
+    label: str
+    about: str
+    folder: str = ""
+    scripts: tuple[tuple[str, ...], ...] = (("page",),)
+    context: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def top(self) -> str:
+        """The path from the page to the root of the site."""
+        return "../" * self.path.count("/")
+
+    @property
+    def root(self) -> str:
+        """The path from the page to the root of its reference."""
+        return "../" * self.path.removeprefix(self.folder).count("/")
+
+    @property
+    def name(self) -> str:
+        """The path within its reference, without its suffix."""
+        return self.path.removeprefix(self.folder).removesuffix(".html")

@@ -1,0 +1,68 @@
+"""The pages of one reference: the protocol, and each of its messages."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from framegen.site.escape import script_json
+from framegen.site.page import Page
+from framegen.site.protocol_data import protocol_data
+from framegen.site.spec_listing import listing
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from framegen.targets.docs.reference import ReferenceView
+
+# The scripts of a page by its template; all others have the first alone.
+_PAGE = (("page",),)
+_NONE: tuple[tuple[str, ...], ...] = ()
+
+
+class ReferencePages:
+    """A reference below `folder`, which ends with a slash."""
+
+    def __init__(self, reference: ReferenceView, folder: str) -> None:
+        """Take what is to be shown, and where."""
+        self.reference = reference
+        self.folder = folder
+
+    @cached_property
+    def pages(self) -> list[Page]:
+        """The pages about the protocol, and then those of its messages."""
+        return list(self._made())
+
+    def _made(self) -> Iterator[Page]:
+        reference = self.reference
+        for view in (*reference.pages, *reference.message_pages):
+            yield Page(
+                path=f"{self.folder}{view.html}",
+                template=view.template,
+                title=view.title,
+                label=view.label,
+                about=view.about,
+                folder=self.folder,
+                scripts=self._scripts(view.template),
+                context={
+                    "reference": reference,
+                    "message": view.message,
+                    **self._data(view.template),
+                },
+            )
+
+    def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
+        if template != "decoder":
+            return _NONE if template == "spec" else _PAGE
+        proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
+        return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
+
+    def _data(self, template: str) -> dict[str, object]:
+        match template:
+            case "decoder":
+                return {"data": script_json(protocol_data(self.reference.model))}
+            case "spec":
+                compiled = self.reference.compiled
+                return {"listing": listing(compiled.source, compiled.tree)}
+            case _:
+                return {}
