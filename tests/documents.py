@@ -176,9 +176,7 @@ class _Bench(contextlib.ExitStack):
     @cached_property
     def board(self) -> VirtualController:
         """A board with the stored groups."""
-        return self.enter_context(
-            VirtualController(via="tcp", groups=GROUPS, clock=self._clock)
-        )
+        return self.enter_context(VirtualController(via="tcp", groups=GROUPS, clock=self._clock))
 
     @cached_property
     def bus(self) -> VirtualBus:
