@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
@@ -54,8 +55,8 @@ class ReferencePages:
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
             return _NONE if template == "spec" else _PAGE
-        proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
+        codec = codec_scripts(self.reference.model)
+        return (codec, ("page",), ("decoder",))
 
     def _data(self, template: str) -> dict[str, object]:
         match template:
