@@ -19,6 +19,28 @@ if TYPE_CHECKING:
 # The scripts of a page by its template; all others have the first alone.
 _PAGE = (("page",),)
 _NONE: tuple[tuple[str, ...], ...] = ()
+_WORKBENCH = (
+    "elements",
+    "columns",
+    "capture_place",
+    "hex_text",
+    "code_text",
+    "line_text",
+    "csv_text",
+    "capture_text",
+    "capture",
+    "notation",
+    "event_words",
+    "virtual_list",
+    "workbench_input",
+    "workbench_export",
+    "workbench_address",
+    "workbench_detail",
+    "workbench_list",
+    "stub",
+    "workbench_encode",
+    "workbench",
+)
 
 
 class ReferencePages:
@@ -55,8 +77,7 @@ class ReferencePages:
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
             return _NONE if template == "spec" else _PAGE
-        codec = codec_scripts(self.reference.model)
-        return (codec, ("page",), ("decoder",))
+        return (codec_scripts(self.reference.model), ("page",), _WORKBENCH)
 
     def _data(self, template: str) -> dict[str, object]:
         match template:

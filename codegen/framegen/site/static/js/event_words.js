@@ -11,10 +11,7 @@ function valueInWords(slot, value) {
   const plain = writeField(slot, value);
   if (Array.isArray(value) || typeof value === "string") return plain;
   const named = Object.keys(slot.names || {}).filter((name) => String(slot.names[name]) === String(value));
-  for (const [name, [low, high]] of Object.entries(slot.bits || {})) {
-    const found = BigInt.asUintN(high - low + 1, BigInt(value) >> BigInt(low));
-    if (found) named.push(low === high ? name : `${name} ${found}`);
-  }
+  if (slot.bits) named.push(...setBits(value, slot.bits));
   return `${plain} ${slot.unit || ""}`.trimEnd() + (named.length ? ` (${named.join(", ")})` : "");
 }
 
@@ -32,14 +29,9 @@ function inJson(value, slot = {}) {
   return `{${Object.entries(value).map(([name, each]) => `${asciiJson(name)}: ${inJson(each, within(name))}`).join(", ")}}`;
 }
 
+// What JSON cannot say is a text.
 function floatInJson(value) {
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? '"nan"' : `"${value < 0 ? "-" : ""}inf"`;
-  if (Object.is(value, -0)) return "-0.0";
-  const size = Math.abs(value);
-  if (size >= 1e16 || (size > 0 && size < 1e-4)) {
-    return value.toExponential().replace(/e([-+])(\d)$/, "e$10$2").replace("e+", "e+");
-  }
-  return Number.isInteger(value) ? `${value}.0` : String(value);
+  return Number.isFinite(value) ? floatInWords(value) : `"${floatInWords(value)}"`;
 }
 
 const asciiJson = (text) => JSON.stringify(text).replace(/[^ -~]/g,

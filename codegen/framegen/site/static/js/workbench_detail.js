@@ -10,7 +10,7 @@ function makeDetail(element, { codec, protocol, take, edit }) {
   const wayOf = (key) => protocol.directions.find((each) => each.key === key);
 
   function show(event) {
-    const explained = codec.explain(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
+    const explained = stubExplain(codec)(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
     element.replaceChildren(heading(event), ...(event.kind ? readings(event, explained) : refused(event, explained)));
     element.hidden = false;
   }
@@ -47,8 +47,8 @@ function makeDetail(element, { codec, protocol, take, edit }) {
 
   function strip(rows, at) {
     return make("ol", { class: "strip", "aria-label": "The bytes" }, ...rows.map((row) => make("li", { class: row.role },
-      make("span", { class: "offset" }, String(at + row.offset)), " ",
-      make("span", { class: "bytes" }, row.hex), " ", make("span", { class: "name" }, row.path), " ",
+      make("span", { class: "offset" }, String(at + row.at)), " ",
+      make("span", { class: "bytes" }, toHex(row.bytes)), " ", make("span", { class: "name" }, row.path), " ",
       make("span", { class: "value" }, row.text))));
   }
 
