@@ -87,11 +87,15 @@ function makeLayout(protocol) {
     return sizeOf(kind, count) === size ? frameWith(kind, count) : null;
   }
 
-  // The slots that a frame has, with its lists whole, and where they stand.
+  // The slots that a frame has, with its lists whole, where they stand, and the bytes that each must
+  // have there.
   function slotsIn(frame) {
     const { kind, size } = frame, end = size - kind.envelope.tailSize;
     frame.placed ??= kind.slots.filter((slot) => !slot.optional || slot.at < end)
-      .map((slot) => ({ path: slot.name, at: slot.at < 0 ? size + slot.at : slot.at, slot }));
+      .map((slot) => ({
+        path: slot.name, at: slot.at < 0 ? size + slot.at : slot.at, slot,
+        expected: countsList(slot) ? due(slot, frame) : fixed(slot),
+      }));
     return frame.placed;
   }
 

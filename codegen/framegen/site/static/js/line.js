@@ -32,8 +32,7 @@ function makeLine({ protocol, kinds, envelopes, sizeOf, frameOf, idNumber }, dir
   // Those that frames may begin with at all.
   const begins = new Uint8Array(256).fill(protocol.begins.length ? 0 : 1);
   for (const byte of protocol.begins) begins[byte] = 1;
-  return { largest, begins, listeners, found: [] };
-
+  return { largest, begins, listeners, found: [], count: 0 };
 }
 
 // The frames of so many bytes of the messages of a branch.

@@ -12,7 +12,7 @@ function lookAt(bytes, base = 0) {
 }
 
 function makeVerdicts(layout) {
-  const { frameWith, frameOf, slotsIn, due } = layout, Reason = layout.protocol.reasons;
+  const { frameWith, frameOf, slotsIn } = layout, Reason = layout.protocol.reasons;
 
   const verdict = (frame, reason, offset, claim, provable, proven) => (
     { frame, reason, offset, claim, provable, proven });
@@ -77,25 +77,32 @@ function makeVerdicts(layout) {
   // has a `claim`, the size that it says it has, and a checksum may prove it.
   function weigh(line, look, at, limit) {
     if (at < limit && !line.begins[look.bytes[at]]) return otherwise;
-    const { found } = line;
-    found.length = 0;
+    line.count = 0;
     for (const listener of line.listeners) weighIn(listener, line, look, at, limit);
-    if (found.length === 1) return found[0];
-    return found.length ? best(found, limit - at) : otherwise;
+    if (line.count === 1) return line.found[0];
+    return line.count ? best(line, limit - at) : otherwise;
   }
 
-  // Of verdicts on so many bytes, that on the smallest frame, whatever follows it; or else the one
-  // that came furthest, of what may still become a frame if there is any.
-  function best(verdicts, size) {
-    const sizeOfFrame = ({ frame, claim }) => (frame ? frame.size : claim);
-    const certain = verdicts.filter(({ frame, proven }) => frame || proven);
-    const smallest = Math.min(...certain.map(sizeOfFrame));
-    const found = certain.filter((each) => sizeOfFrame(each) === smallest);
-    if (found.length) return found.find(({ frame }) => frame) || found[0];
-    const waiting = verdicts.filter((each) => waits(each, size));
-    const possible = waiting.length ? waiting : verdicts;
-    const furthest = Math.max(...possible.map(({ offset }) => offset));
-    return possible.find(({ offset }) => offset === furthest);
+  // Of the verdicts of a line on so many bytes, that on the smallest frame, whatever follows it; or
+  // else the one that came furthest, of what may still become a frame if there is any. Of equals, the
+  // first.
+  function best({ found, count }, size) {
+    let certain = null, waiting = null, furthest = null;
+    for (let i = 0; i < count; i++) {
+      const each = found[i];
+      if ((each.frame || each.proven) && (!certain || precedes(each, certain))) certain = each;
+      if (waits(each, size) && (!waiting || each.offset > waiting.offset)) waiting = each;
+      if (!furthest || each.offset > furthest.offset) furthest = each;
+    }
+    return certain || waiting || furthest;
+  }
+
+  const sizeOfFrame = ({ frame, claim }) => (frame ? frame.size : claim);
+
+  // Whether a certain frame is smaller than another, or is that of a message, and the other is none.
+  function precedes(one, other) {
+    const sizes = sizeOfFrame(one) - sizeOfFrame(other);
+    return sizes < 0 || (sizes === 0 && one.frame !== null && other.frame === null);
   }
 
   // Whether more than so many bytes could still make a certain frame of it.
@@ -103,37 +110,38 @@ function makeVerdicts(layout) {
     return reason === Reason.tooShort || (provable && claim > size);
   }
 
+  const add = (line, found) => { line.found[line.count++] = found; };
+
   // The same for frames of one envelope: a verdict for each message that may be meant.
   function weighIn({ envelope, messages }, line, look, at, limit) {
-    const { found } = line;
     if (envelope.least > line.largest) return;
     let size = -1, meant = messages, idsLeft = envelope.headIds.length, frames = null;
     for (const slot of envelope.head) {
       const wrong = misfit(slot, slot.at, fixed(slot), look, at, limit);
-      if (wrong) return void found.push(wrong);
+      if (wrong) return add(line, wrong);
       if (slot.role === "length") {
         size = Number(readNumber(slot, look.bytes, at + slot.at)) + envelope.uncounted;
         if (size < envelope.least || size > line.largest) {
-          return void found.push(refused(Reason.length, slot.at));
+          return add(line, refused(Reason.length, slot.at));
         }
       }
       if (slot.role === "id") {
         meant = meant.next.get(Number(readNumber(slot, look.bytes, at + slot.at)));
-        if (!meant) return void found.push(weighUnknown(envelope, slot.at, line, look, at, limit));
+        if (!meant) return add(line, weighUnknown(envelope, slot.at, line, look, at, limit));
         idsLeft--;
       }
       if (size >= 0 && !idsLeft && !frames) {
         frames = framesOf(meant, size, frameOf);
-        if (!frames.length) return void found.push(refused(Reason.length, envelope.lengthSlot.at));
+        if (!frames.length) return add(line, refused(Reason.length, envelope.lengthSlot.at));
       }
     }
     if (frames) {
-      for (const frame of frames) found.push(weighFields(frame, look, at, limit));
+      for (const frame of frames) add(line, weighFields(frame, look, at, limit));
       return;
     }
     for (const kind of meant.kinds) {
       const frame = frameAt(kind, line, look, at, limit);
-      found.push(frame.reason ? frame : weighFields(frame, look, at, limit));
+      add(line, frame.reason ? frame : weighFields(frame, look, at, limit));
     }
   }
 
@@ -141,9 +149,10 @@ function makeVerdicts(layout) {
   function frameAt(kind, line, look, at, limit) {
     const least = frameWith(kind, kind.counts.low);
     if (!kind.counter) return least;
-    for (const { slot, at: offset } of slotsIn(least).slice(kind.envelope.head.length)) {
+    for (const placed of slotsIn(least).slice(kind.envelope.head.length)) {
+      const { slot, at: offset } = placed;
       if (slot !== kind.counter) {
-        const wrong = misfitOf(slot, offset, least, look, at, limit);
+        const wrong = misfitOf(placed, least, look, at, limit);
         if (wrong) return wrong;
         continue;
       }
@@ -156,18 +165,16 @@ function makeVerdicts(layout) {
     return least;
   }
 
-  function misfitOf(slot, offset, frame, look, at, limit) {
-    if (slot.role === "list") {
-      return misfitOfList(slot, offset, slot.count ?? frame.count, look, at, limit);
-    }
-    return misfit(slot, offset, countsList(slot) ? due(slot, frame) : fixed(slot), look, at, limit);
+  function misfitOf({ slot, at: offset, expected }, frame, look, at, limit) {
+    if (slot.role !== "list") return misfit(slot, offset, expected, look, at, limit);
+    return misfitOfList(slot, offset, slot.count ?? frame.count, look, at, limit);
   }
 
   // What follows the head, as the rest of one frame. The checksums are the last test.
   function weighFields(frame, look, at, limit) {
     const { kind, size } = frame, slots = slotsIn(frame);
     for (let i = kind.envelope.head.length; i < slots.length; i++) {
-      const wrong = misfitOf(slots[i].slot, slots[i].at, frame, look, at, limit);
+      const wrong = misfitOf(slots[i], frame, look, at, limit);
       if (wrong) return wrong;
     }
     const wrong = misproof(kind.envelope, kind.ids, size, look, at);
