@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
     from framegen.targets.docs.reference import ReferenceView
 
-# The scripts of a page by its template; all others have the first alone.
-_PAGE = (("page",),)
-_NONE: tuple[tuple[str, ...], ...] = ()
+# The files of the workbench, in the order in which they are joined.
 _WORKBENCH = (
     "elements",
     "columns",
@@ -76,8 +74,8 @@ class ReferencePages:
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
-            return _NONE if template == "spec" else _PAGE
-        return (codec_scripts(self.reference.model), ("page",), _WORKBENCH)
+            return ()
+        return (codec_scripts(self.reference.model), _WORKBENCH)
 
     def _data(self, template: str) -> dict[str, object]:
         match template:

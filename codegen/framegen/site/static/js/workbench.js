@@ -11,9 +11,8 @@ window.workbench = (() => {
   // What is decoded: a file, a pasted text that is too long for the field, or what the field holds.
   let file = null, capture = null, seen = null, isLive = false, isReading = false, addressTimer = 0, drawn = 0;
 
-  const announce = (text) => { byId("announced").textContent = text; };
   const detail = makeDetail(byId("event"), { codec, protocol, take: takeFrame, edit: editEvent });
-  const list = makeEventList({ codec, protocol, detail, announce });
+  const list = makeEventList({ codec, protocol, detail });
   const input = makeInput({ says, progress: showProgress });
   const encoder = makeEncoder({ codec, changed: keepAddress, decode: (frame) => setText(toHex(frame), "push") });
 

@@ -6,9 +6,7 @@
 const DETAIL_ENDS = 32, DETAIL_MORE = 4096, DETAIL_EXPLAINED = 2048;
 
 // `take(event, frame)` puts a frame in the place of an event, and `edit(event)` shows it in the encoder.
-function makeDetail(element, { codec, protocol, take, edit }) {
-  const wayOf = (key) => protocol.directions.find((each) => each.key === key);
-
+function makeDetail(element, { codec, take, edit }) {
   function show(event) {
     const explained = stubExplain(codec)(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
     element.replaceChildren(heading(event), ...(event.kind ? readings(event, explained) : refused(event, explained)));
@@ -120,5 +118,5 @@ function makeDetail(element, { codec, protocol, take, edit }) {
     return shown;
   }
 
-  return { show, clear: () => { element.hidden = true; element.replaceChildren(); }, wayOf };
+  return { show, clear: () => { element.hidden = true; element.replaceChildren(); } };
 }

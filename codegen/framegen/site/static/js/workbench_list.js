@@ -3,7 +3,7 @@
 
 const LIST_NOISE_ENDS = 6, LIST_SHORT = 20;
 
-function makeEventList({ codec, protocol, detail, announce }) {
+function makeEventList({ codec, protocol, detail }) {
   const box = byId("events"), tally = byId("tally");
   let capture = null, filter = null, found = null, scanned = 0;
 
