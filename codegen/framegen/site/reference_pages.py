@@ -16,10 +16,6 @@ if TYPE_CHECKING:
 
     from framegen.targets.docs.reference import ReferenceView
 
-# The scripts of a page by its template; all others have the first alone.
-_PAGE = (("page",),)
-_NONE: tuple[tuple[str, ...], ...] = ()
-
 
 class ReferencePages:
     """A reference below `folder`, which ends with a slash."""
@@ -54,9 +50,8 @@ class ReferencePages:
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
-            return _NONE if template == "spec" else _PAGE
-        codec = codec_scripts(self.reference.model)
-        return (codec, ("page",), ("decoder",))
+            return ()
+        return (codec_scripts(self.reference.model), ("decoder",))
 
     def _data(self, template: str) -> dict[str, object]:
         match template:
