@@ -19,48 +19,9 @@ function cell(role, offset, bytes, name, value) {
     make("span", { class: "name" }, name), make("span", { class: "value" }, value));
 }
 
-// A value in its larger unit, exactly: 7500 steps of 0.001 V are 7.500 V.
-function scaled(value, { step, unit, offset = "0" }) {
-  if (!Number.isInteger(value) && typeof value !== "bigint") {
-    return `${value * Number(step) + Number(offset)} ${unit}`.trimEnd();
-  }
-  const places = (text) => (text.split(".")[1] || "").length;
-  const digits = Math.max(places(step), places(offset));
-  const whole = (text) => BigInt(text.replace(".", "") + "0".repeat(digits - places(text)));
-  const steps = BigInt(value) * whole(step) + whole(offset);
-  const shown = String(steps < 0 ? -steps : steps).padStart(digits + 1, "0");
-  const point = shown.length - digits;
-  const text = digits ? `${shown.slice(0, point)}.${shown.slice(point)}` : shown;
-  return `${steps < 0 ? "-" : ""}${text} ${unit}`.trimEnd();
-}
-
-// The named bits of a number that are set, those of several bits with their value.
-function setBits(value, bits = {}) {
-  return Object.entries(bits).flatMap(([name, [low, high]]) => {
-    const found = BigInt.asUintN(high - low + 1, BigInt(value) >> BigInt(low));
-    return found ? [low === high ? name : `${name} ${found}`] : [];
-  });
-}
-
-// A value as people say it: `7500 mV = 7.500 V`, `0 (unlimited)`.
-function inWords(value, { unit, scale, names, bits }) {
-  if (value === null) return "";
-  if (typeof value === "string") return `“${value}”`;
-  if (Array.isArray(value)) return value.join(" ");
-  const larger = scale ? ` = ${scaled(value, scale)}` : "";
-  const found = bits ? setBits(value, bits) : [];
-  const name = Object.keys(names).find((key) => BigInt(names[key]) === asWhole(value));
-  return `${value} ${unit}`.trimEnd() + larger + (found.length ? ` (${found.join(", ")})` : "")
-    + (name ? ` (${name})` : "");
-}
-
-function asWhole(value) {
-  return typeof value === "bigint" || Number.isInteger(value) ? BigInt(value) : null;
-}
-
 function strip(event) {
-  return make("ol", { class: "strip" }, ...event.rows.map(({ path, at, slot, bytes, value }) =>
-    cell(slot.role, event.at + at, bytes, path, inWords(value, slot))));
+  return make("ol", { class: "strip" }, ...event.rows.map(({ path, at, slot, bytes, text }) =>
+    cell(slot.role, event.at + at, bytes, path, text)));
 }
 
 function shown(event) {
