@@ -42,7 +42,8 @@ class Guide:
         return page_of(self.path)
 
     @cached_property
-    def _tokens(self) -> list[Token]:
+    def tokens(self) -> list[Token]:
+        """The tokens of its Markdown: headings have ids, and links lead to pages."""
         tokens = parser().parse(self.text)
         for before, token in pairwise(tokens):
             if before.type == "heading_open":
@@ -69,13 +70,13 @@ class Guide:
         """All of it as HTML, the title included; markdown-it has escaped what it says."""
         markdown = parser()
         markdown.add_render_rule("fence", _fence)
-        body = str(markdown.renderer.render(self._tokens, markdown.options, {}))
+        body = str(markdown.renderer.render(self.tokens, markdown.options, {}))
         # Tables scroll in boxes of their own, which the keyboard reaches.
         body = body.replace("<table>", '<div class="scroll" tabindex="0"><table>')
         return Markup(body.replace("</table>", "</table></div>"))  # noqa: S704 - escaped
 
     def _found_headings(self) -> Iterator[tuple[int, str, str]]:
-        for before, token in pairwise(self._tokens):
+        for before, token in pairwise(self.tokens):
             if before.type == "heading_open":
                 yield int(before.tag[1:]), str(before.attrGet("id")), plain_text(token)
 

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.output import banner
-from framegen.site.escape import anchor, linked
+from framegen.site.escape import anchor, linked, script_json
 from framegen.site.guide import Guide
 from framegen.site.page import Page
 from framegen.site.plan import README, Plan, Section
 from framegen.site.policy import assets
 from framegen.site.reference_pages import ReferencePages
+from framegen.site.search.index import SearchIndex
 from framegen.site.sidebar import Group, Link, SidebarSection
 from framegen.targets.docs.reference import ReferenceView
 from framegen.targets.templates import environment
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from framegen.targets.target import Snippets
 
 _HERE = Path(__file__).parent
+# The script that every page has besides its own.
+_ON_EVERY_PAGE = ("search_box",)
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
@@ -107,6 +110,20 @@ class Site:
             yield Page(guide.page, "guide", guide.title, guide.title, "", context={"guide": guide})
         for reference in self.references:
             yield from reference.pages
+        yield self._search_page()
+
+    def _search_page(self) -> Page:
+        about = f"Search {self.title}: names, ids, words and bytes, without a network."
+        scripts = (("page",), ("checksums", "codec"), ("ranking", "bytes_found"), ("search",))
+        data = script_json(self.search.data)
+        context = {"data": data}
+        return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
+
+    @cached_property
+    def search(self) -> SearchIndex:
+        """All that can be found."""
+        abouts = {entry.link: entry.about for section in self._sections for entry in section.entries}
+        return SearchIndex(self.references, self.guides, abouts)
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
@@ -144,7 +161,7 @@ def _rendered(site: Site, page: Page) -> str:
                 "before": before,
                 "after": after,
                 "banner": banner("" if reference is None else reference.spec),
-                "assets": assets(page.scripts),
+                "assets": assets((*page.scripts, _ON_EVERY_PAGE)),
                 **page.context,
             }
         )

@@ -1,4 +1,4 @@
-// What every page can do: copy bytes, and find a frame in the index.
+// What every page can do: copy bytes.
 "use strict";
 
 async function copyText(text) {
@@ -27,19 +27,3 @@ document.addEventListener("click", async (event) => {
 // What needs a script is hidden until there is one, and what stands in for it afterwards.
 for (const element of document.querySelectorAll("[data-script]")) element.hidden = false;
 for (const element of document.querySelectorAll("[data-no-script]")) element.hidden = true;
-
-const searchField = document.getElementById("search");
-if (searchField) {
-  const rows = [...document.querySelectorAll("[data-words]")];
-  const search = () => {
-    const words = searchField.value.toLowerCase().split(/\s+/).filter(Boolean);
-    for (const row of rows) {
-      const ids = row.dataset.ids.split(" ");
-      row.hidden = !words.every((word) => row.dataset.words.includes(word) || ids.includes(word));
-    }
-    const found = rows.filter((row) => !row.hidden).length;
-    document.getElementById("found").textContent = `${found} of ${rows.length} frames`;
-  };
-  searchField.addEventListener("input", search);
-  search();
-}
