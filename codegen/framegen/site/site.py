@@ -122,7 +122,9 @@ class Site:
     @cached_property
     def search(self) -> SearchIndex:
         """All that can be found."""
-        abouts = {entry.link: entry.about for section in self._sections for entry in section.entries}
+        abouts = {
+            entry.link: entry.about for section in self._sections for entry in section.entries
+        }
         return SearchIndex(self.references, self.guides, abouts)
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:

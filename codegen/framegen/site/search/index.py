@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -73,10 +74,15 @@ class SearchIndex:
         """The entries by their first letters; what begins with none comes first."""
         found: dict[str, list[Entry]] = {}
         listed = (entry for entry in self.entries if entry.kind not in _UNLISTED)
-        for entry in sorted(listed, key=lambda entry: (entry.title.lower(), entry.where)):
-            first = entry.title[:1].upper()
+        for entry in sorted(listed, key=lambda entry: (_sorted_by(entry.title), entry.where)):
+            first = _sorted_by(entry.title)[:1].upper()
             found.setdefault(first if "A" <= first <= "Z" else "", []).append(entry)
         return [
-            Letter(letter or "0–9", f"letter-{letter or 'other'}", (*entries,))
+            Letter(letter or "0 to 9", f"letter-{letter or 'other'}", (*entries,))
             for letter, entries in sorted(found.items())
         ]
+
+
+def _sorted_by(title: str) -> str:
+    """Return a title without the number that a section may have, in lower case."""
+    return re.sub(r"^\d+\.\s+", "", title).lower()

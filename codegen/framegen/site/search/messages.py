@@ -45,7 +45,11 @@ def message_entries(reference: ReferenceView, folder: str) -> Iterator[Entry]:
 def _message(reference: ReferenceView, message: MessagePage, page: str) -> Entry:
     said = message.said
     ids = [word for each in message.ids for word in spellings(each.number, len(each.hex) // 2 - 1)]
-    code = f" {message.hex}" if reference.id_name == message.kind else f", {reference.id_name} {message.hex}"
+    code = (
+        f" {message.hex}"
+        if reference.id_name == message.kind
+        else f", {reference.id_name} {message.hex}"
+    )
     method = said.method.name if said.method is not None else ""
     return Entry(
         "message",

@@ -34,7 +34,10 @@ def _pages(reference: ReferenceView, folder: str) -> Iterator[Entry]:
             f"{reference.link}, {reference.byte_order}-endian",
             *(board.text for board in reference.hid_boards),
         ],
-        "stream": [reference.stream.gist, *(rule.gist + rule.rest for rule in reference.stream.rules)],
+        "stream": [
+            reference.stream.gist,
+            *(rule.gist + rule.rest for rule in reference.stream.rules),
+        ],
         "sequences": [drawing.caption for drawing in reference.drawings],
     }
     for page in reference.pages:
@@ -87,9 +90,9 @@ def _lookalike(reference: ReferenceView, other: LookalikeEntry, folder: str) -> 
     about = sentences(*other.about)
     yield Entry("lookalike", other.title, path, "Look-alike", about, name, names=(other.key,))
     for command in other.commands:
-        title = f"{command.id}: {command.there}"
-        numbers = spellings(command.id)
-        yield Entry("lookalike", title, path, f"Command of {other.title}", "", name, numbers)
+        title = f"{command.there[:1].upper()}{command.there[1:]}"
+        where = f"Command {command.id} of {other.title}"
+        yield Entry("lookalike", title, path, where, "", name, spellings(command.id))
     for frame in other.frames:
         where = f"Frame of {other.title}"
         yield Entry("frame", frame.title, path, where, "", name, hex=frame.hex)
@@ -98,13 +101,15 @@ def _lookalike(reference: ReferenceView, other: LookalikeEntry, folder: str) -> 
 def _reserved(reference: ReferenceView, reserved: ReservedView, folder: str) -> Entry:
     said = reserved.said
     number = None if said.id is None else said.id.one
-    title = " ".join(part for part in (str(said.id or ""), said.name or "", reserved.way) if part)
+    what = "" if said.id is None else str(said.id)
     return Entry(
         "lookalike",
-        title,
+        said.why.rstrip("."),
         f"{folder}index.html#reserved",
-        "Reserved",
-        said.why,
+        ", ".join(
+            part for part in (f"Reserved {what}".rstrip(), said.name or "", reserved.way) if part
+        ),
+        "",
         reference.protocol.name,
         names=() if number is None else spellings(number),
     )

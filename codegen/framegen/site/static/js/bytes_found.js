@@ -8,8 +8,8 @@ const MOST_ITEMS = 3;
 // The bytes that a query consists of, if it can be read so: `certain` where it can hardly be anything
 // else, `left` half a byte at the end, and `problem` why what looks like bytes is none.
 function bytesIn(query) {
-  const text = query.replace(/bytes\.fromhex|bytearray|bytes|\bb(?=["'])/g, " ").replace(/[[\](){}"'“”]/g, " ")
-    .replace(/\b([0-9a-f]{2})h\b/gi, "$1").trim();
+  const text = query.replace(/bytes\.fromhex|bytearray|bytes|\bb(?=["'])/g, " ")
+    .replace(/[[\](){}"'“”]/g, " ").replace(/\b([0-9a-f]{2})h\b/gi, "$1").trim();
   const words = text.split(/[\s,:;_-]+/).filter(Boolean);
   const isMarked = (word) => /^(?:0x|\\x)/i.test(word);
   const isHex = (word) => /^(?:0x|\\x)?[0-9a-f]+$/i.test(word) || /^(?:\\x[0-9a-f]{1,2})+$/i.test(word);
@@ -58,8 +58,10 @@ function makeBytesSearch({ protocols, entries }) {
   function wholeFrames(bytes) {
     return codecs.flatMap((protocol) => protocol.data.directions.flatMap((way) => {
       const said = codecOf(protocol).decodeFrame(bytes, way.key);
-      return said.message === undefined ? [] : [shown(protocol, bytes, way, said.message,
-        `A frame of the ${protocol.title}, ${way.text}`, inShort(said), protocol.folder + said.kind.page + ".html")];
+      if (said.message === undefined) return [];
+      const where = `A frame of the ${protocol.title}, ${way.text}`;
+      const page = `${protocol.folder}${said.kind.page}.html`;
+      return [shown(protocol, bytes, way, said.message, where, inShort(said), page)];
     }));
   }
 
@@ -68,7 +70,8 @@ function makeBytesSearch({ protocols, entries }) {
     return codecs.flatMap((protocol) => {
       const ways = protocol.data.directions.map((way) => {
         const events = codecOf(protocol).makeStream({ direction: way.key }).flush(bytes);
-        return { way, names: events.filter(({ type }) => type === "message").map(({ message }) => message) };
+        const messages = events.filter(({ type }) => type === "message");
+        return { way, names: messages.map(({ message }) => message) };
       });
       const { way, names } = ways.reduce((so, each) => (each.names.length > so.names.length ? each : so));
       if (!names.length) return [];
@@ -79,19 +82,23 @@ function makeBytesSearch({ protocols, entries }) {
     });
   }
 
-  // Why bytes with the header of a frame are none: the direction that believes them for longest.
+  // Why bytes with the header of a frame are none, in the direction that knows their id, or else
+  // believes them for longest.
   function refusals(bytes) {
     return codecs.flatMap((protocol) => {
       const { data } = protocol;
       const headed = data.frames.some(({ header }) => header.length
         && header.every((byte, at) => bytes[at] === byte || (at > 0 && at >= bytes.length)));
       if (!headed) return [];
-      const said = data.directions.map((way) => ({ way, ...codecOf(protocol).decodeFrame(bytes, way.key) }));
-      const { reason, offset } = said.reduce((so, each) => (each.offset > so.offset ? each : so));
+      const said = data.directions.map((way) => codecOf(protocol).decodeFrame(bytes, way.key));
+      const known = said.filter(({ reason }) => reason !== data.reasons.unknown);
+      const { reason, offset } = (known.length ? known : said)
+        .reduce((so, each) => (each.offset > so.offset ? each : so));
       const begun = reason === data.reasons.tooShort;
       const text = begun ? "A frame may begin like this; its end is missing."
         : `No whole frame: ${reason} at byte ${offset}.`;
-      return [shown(protocol, bytes, null, begun ? "The beginning of a frame" : "No frame", protocol.title, text)];
+      const title = begun ? "The beginning of a frame" : "No frame";
+      return [shown(protocol, bytes, null, title, protocol.title, text)];
     });
   }
 
@@ -100,7 +107,8 @@ function makeBytesSearch({ protocols, entries }) {
     return frames.flatMap(([entry, all]) => {
       const last = all.length - bytes.length;
       for (let at = 0; at <= last; at++) {
-        if (bytes.every((byte, place) => byte === all[at + place])) return [{ ...entry, at, size: bytes.length }];
+        const isHere = bytes.every((byte, place) => byte === all[at + place]);
+        if (isHere) return [{ ...entry, at, size: bytes.length }];
       }
       return [];
     });
@@ -116,7 +124,8 @@ function makeBytesSearch({ protocols, entries }) {
     if (whole.length) return { judged: whole, known, whole: true };
     const among = framesAmong(bytes);
     if (among.length) return { judged: among, known, whole: true };
-    return { judged: known.length && known.every(({ at }) => at) ? [] : refusals(bytes), known, whole: false };
+    const isPart = known.length > 0 && known.every(({ at }) => at > 0);
+    return { judged: isPart ? [] : refusals(bytes), known, whole: false };
   }
 
   return { find };

@@ -4,7 +4,7 @@
 const WORD = /[\p{L}\p{N}]+(?:[-_.][\p{L}\p{N}]+)*/gu;
 // How much it is worth where a word stands.
 const PLACES = { title: 8, names: 8, also: 7, where: 3, text: 2 };
-const EXACT_TITLE = 100, EXACT_NAME = 90, EXACT_HEADING = 60, TITLE_BEGINS = 20;
+const EXACT_TITLE = 100, EXACT_NAME = 90, EXACT_HEADING = 60, TITLE_BEGINS = 6;
 const LEAST_TO_CORRECT = 4, LEAST_STEM = 3, MOST_SUGGESTIONS = 3;
 
 // A name as it is compared: "LX-16A", "lx_16a" and "lx16a" are one.
@@ -54,17 +54,20 @@ function makeSearch(index) {
   const whole = entries.map((entry) => [entry.title, ...(entry.names ?? []), ...(entry.also ?? []),
     entry.where, entry.text ?? ""].join("\n").toLowerCase());
   const titles = entries.map(({ title }) => glued(title));
-  const exact = new Map(), vocabulary = new Map();
+  // What is called so, what has such words, and how names of several parts are written.
+  const exact = new Map(), vocabulary = new Map(), written = new Map();
 
   entries.forEach((entry, number) => {
     const places = { ...entry, names: (entry.names ?? []).join("\n"), also: (entry.also ?? []).join("\n") };
     const seen = new Map();
     for (const [place, worth] of Object.entries(PLACES)) {
       for (const [word] of (places[place] ?? "").matchAll(WORD)) {
+        if (keysOf(word).length > 1 && !written.has(glued(word))) written.set(glued(word), word);
         for (const key of keysOf(word)) {
           const before = seen.get(key) ?? 0;
-          // What is said again and again counts a little more.
-          seen.set(key, Math.max(before && Math.min(before + 0.2, PLACES.where), worth));
+          // What prose says again and again counts a little more.
+          if (!before) seen.set(key, worth);
+          else if (before < PLACES.where) seen.set(key, before + 0.2);
         }
       }
     }
@@ -144,7 +147,7 @@ function makeSearch(index) {
         const named = exact.get(key)?.get(number) ?? 0;
         const begins = titles[number].startsWith(key) ? TITLE_BEGINS * key.length / titles[number].length : 0;
         const score = had.reduce((sum, { found }) => sum + found[number], named + begins)
-          - 0.4 * ranks.indexOf(entry.kind) - number / entries.length;
+          - ranks.indexOf(entry.kind) - number / entries.length;
         hits.push({ entry, score, number });
       });
       return hits.sort((one, other) => other.score - one.score || one.number - other.number);
@@ -166,7 +169,8 @@ function makeSearch(index) {
     if (!choices.every((each) => each.length)) return [];
     return choices[0].map((_, place) => [...query.matchAll(WORD)].map(([word]) => {
       const at = wrong.indexOf(glued(word));
-      return at < 0 ? word : choices[at][place] ?? choices[at][0];
+      const right = choices[at]?.[place] ?? choices[at]?.[0];
+      return at < 0 ? word : written.get(right) ?? right;
     }).join(" "));
   }
 

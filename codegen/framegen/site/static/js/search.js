@@ -77,12 +77,11 @@
       make("p", { class: "found-title" },
         make("a", { href: entry.path }, ...marked(entry.title, sought)), " ",
         make("span", { class: "small quiet" }, ...marked(where, sought))));
-    if (entry.hex) item.append(make("p", {}, make("code", { class: "bytes" }, ...bytesShown(entry))));
-    if (also.length) item.append(make("p", { class: "small" }, "Also called: ", ...marked(also.join(", "), sought)));
-    if (entry.text) item.append(make("p", { class: "snippet" }, ...marked(snippetOf(entry.text, sought), sought)));
-    if (entry.decoder) {
-      item.append(make("p", {}, make("a", { href: entry.decoder }, "Decode it in the workbench")));
-    }
+    const add = (kind, ...children) => item.append(make("p", { class: kind }, ...children));
+    if (entry.hex) add("small", make("code", { class: "bytes" }, ...bytesShown(entry)));
+    if (also.length) add("small", "Also called: ", ...marked(also.join(", "), sought));
+    if (entry.text) add("snippet", ...marked(snippetOf(entry.text, sought), sought));
+    if (entry.decoder) add("small", make("a", { href: entry.decoder }, "Decode it in the workbench"));
     return item;
   }
 
@@ -91,13 +90,13 @@
   const counted = (many, what) => `${many} ${many === 1 ? what : `${what}s`}`;
 
   function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions }) {
-    if (!query) return `${counted(index.entries.length, "entry").replace("entrys", "entries")} to search.`;
+    if (!query) return `${index.entries.length} places to find.`;
     const half = left ? ` The last digit, ${left}, is half a byte.` : "";
     const what = bytes ? counted(bytes.length, "byte") : `“${query}”`;
     const of = kind ? ` in ${index.kinds[kind].toLowerCase()}` : "";
     if (problem && !hits.length) return `${problem}.`;
     if (suggestions.length) return `Nothing found for “${query}”. Did you mean:`;
-    if (loose) return `Nothing has all of these words. ${counted(hits.length, "entry").replace("entrys", "entries")} with some of them:`;
+    if (loose) return `Nothing has all of these words. With some of them: ${hits.length}.`;
     return `${hits.length || "Nothing"} found for ${what}${of}.${half}`;
   }
 
@@ -125,6 +124,10 @@
     byId("search-count").replaceChildren(summary(request, answer), " ", ...suggested(suggestions));
     byId("search-more").hidden = !request.query || instead.hits.length <= shown;
     byId("search-advice").hidden = !request.query || hits.length > 0;
+    for (const link of byId("search-advice").querySelectorAll("[data-workbench]")) {
+      link.search = answer.bytes ? `?hex=${toHex(answer.bytes).replace(/ /g, "").toLowerCase()}` : "";
+    }
+    byId("search-widely").hidden = !request.kind && !request.protocol;
     byId("search-letters").hidden = Boolean(request.query);
     byId("search-kinds").hidden = !request.query || !hits.length && !request.kind;
     byId("search-protocols").hidden = byId("search-kinds").hidden || index.protocols.length < 2;
