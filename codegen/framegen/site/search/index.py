@@ -69,6 +69,12 @@ class SearchIndex:
             "entries": [entry.data for entry in self.entries],
         }
 
+    @cached_property
+    def titles(self) -> dict[str, str]:
+        """What people call each protocol, by its name."""
+        protocols = [each.reference.protocol for each in self.references]
+        return {protocol.name: protocol.title for protocol in protocols}
+
     @property
     def letters(self) -> list[Letter]:
         """The entries by their first letters; what begins with none comes first."""
