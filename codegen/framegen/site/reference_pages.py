@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
@@ -15,9 +16,29 @@ if TYPE_CHECKING:
 
     from framegen.targets.docs.reference import ReferenceView
 
-# The scripts of a page by its template; all others have the first alone.
-_PAGE = (("page",),)
-_NONE: tuple[tuple[str, ...], ...] = ()
+# The files of the workbench, in the order in which they are joined.
+_WORKBENCH = (
+    "elements",
+    "columns",
+    "capture_place",
+    "hex_text",
+    "code_text",
+    "line_text",
+    "csv_text",
+    "capture_text",
+    "capture",
+    "notation",
+    "event_words",
+    "virtual_list",
+    "workbench_input",
+    "workbench_export",
+    "workbench_address",
+    "workbench_detail",
+    "workbench_list",
+    "stub",
+    "workbench_encode",
+    "workbench",
+)
 
 
 class ReferencePages:
@@ -53,9 +74,8 @@ class ReferencePages:
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
-            return _NONE if template == "spec" else _PAGE
-        proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
+            return ()
+        return (codec_scripts(self.reference.model), _WORKBENCH)
 
     def _data(self, template: str) -> dict[str, object]:
         match template:

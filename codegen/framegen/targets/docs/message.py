@@ -16,6 +16,7 @@ from framegen.targets.docs.examples import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
+from framegen.targets.docs.way import Way, way
 
 if TYPE_CHECKING:
     from framegen.language.spec import Message
@@ -95,6 +96,11 @@ class MessagePage:
     def direction(self) -> str:
         """The sender and the receiver."""
         return f"{self.layout.direction.sender} to {self.layout.direction.receiver}"
+
+    @property
+    def way(self) -> Way:
+        """The direction, as it is shown."""
+        return way(self.model, self.layout.direction)
 
     @property
     def kind(self) -> str:
@@ -222,20 +228,3 @@ class MessagePage:
     def drawing(self) -> Drawing | None:
         """The sequence diagram of what follows it."""
         return drawing(self.model, self.name)
-
-    @property
-    def words(self) -> str:
-        """The words that a search finds it by, in lower case."""
-        names = [field.path.replace("[i]", "") for field in self.fields]
-        return " ".join(
-            [self.name, self.said.vendor_name, self.kind, self.direction, *names]
-        ).lower()
-
-    @property
-    def id_spellings(self) -> str:
-        """The ids as people may write them in a search."""
-        spellings: list[str] = []
-        for each in self.ids:
-            digits = each.hex.removeprefix("0x").lower()
-            spellings += [str(each.number), digits, f"0x{digits}", f"0x{each.number:x}"]
-        return " ".join(dict.fromkeys(spellings))
