@@ -38,7 +38,7 @@ def in_bash(line: str) -> str:
     """Return a line of `bat` as bash writes it."""
     for old, new in IN_BASH.items():
         line = line.replace(old, new)
-    return f". {line}" if line.endswith("/activate") else line
+    return f". {line}" if "/bin/activate" in line else line
 
 
 def run(script: Path, lines: list[str], *command: str) -> int:

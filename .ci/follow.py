@@ -168,6 +168,12 @@ class Reader:
         if waiting.wait() not in (0, INTERRUPTED) or not port:
             raise WrongError(f"it named the port {port!r}, and ended with {waiting.returncode}")
 
+    def deactivate(self) -> None:
+        """Leave the virtual environment: a function of the shell that has activated it."""
+        programs = str(Path(self.environment.pop("VIRTUAL_ENV"), "bin"))
+        path = self.environment["PATH"].split(os.pathsep)
+        self.environment["PATH"] = os.pathsep.join(each for each in path if each != programs)
+
     def leave(self) -> None:
         """End what still runs."""
         for process in (self._python, *(board for board, _ in self._boards.values())):
@@ -212,6 +218,9 @@ def _do(reader: Reader, block: Block, shown: str) -> str:
             command = line.partition("  #")[0]
             if command.startswith(WAITS):
                 reader.waits(command)
+                continue
+            if command == "deactivate":
+                reader.deactivate()
                 continue
             status, printed = reader.shell(command)
             if status != 0:
