@@ -212,19 +212,22 @@ def follow(page: Path, home: Path, first: Sequence[Block] = ()) -> None:
         reader.leave()
 
 
+def _run(reader: Reader, line: str) -> None:
+    command = line.partition("  #")[0]
+    if command == "deactivate":
+        reader.deactivate()
+    elif command.startswith(WAITS):
+        reader.waits(command)
+    else:
+        status, printed = reader.shell(command)
+        if status != 0:
+            raise WrongError(f"`{command}` ends with {status}:\n{printed}")
+
+
 def _do(reader: Reader, block: Block, shown: str) -> str:
     if block.kind == "sh":
         for line in block.text.splitlines():
-            command = line.partition("  #")[0]
-            if command.startswith(WAITS):
-                reader.waits(command)
-                continue
-            if command == "deactivate":
-                reader.deactivate()
-                continue
-            status, printed = reader.shell(command)
-            if status != 0:
-                raise WrongError(f"`{command}` ends with {status}:\n{printed}")
+            _run(reader, line)
     elif block.kind == "console":
         for part in re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]:
             command, _, expected = part.partition("\n")
