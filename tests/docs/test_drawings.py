@@ -1,4 +1,4 @@
-"""The drawings of the guides: small, described, inert, and shown where they belong."""
+"""The pictures of the guides: drawings that are small, described and inert, and screenshots."""
 
 import re
 from pathlib import Path
@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from tests.documents import ROOT
+from tests.screenshots import IMAGES, LARGEST, SCREENSHOTS, Screenshot
 
 DRAWINGS = sorted((ROOT / "docs" / "images").glob("*.svg"))
 GUIDES = "\n".join(file.read_text("utf-8") for file in (ROOT / "docs").glob("*.md"))
@@ -55,3 +56,15 @@ def test_a_guide_shows_the_drawing_and_says_in_words_what_is_on_it(drawing: Path
     alternatives = re.findall(rf"!\[([^]]+)\]\(images/{drawing.name}\)", GUIDES)
     assert alternatives
     assert all(len(words) > 40 for words in alternatives)
+
+
+@pytest.mark.parametrize("each", SCREENSHOTS, ids=lambda each: each.name)
+def test_the_readme_shows_a_screenshot_that_is_small(each: Screenshot) -> None:
+    readme = (ROOT / "README.md").read_text("utf-8")
+    assert f"docs/images/{each.name}" in readme
+    assert (IMAGES / each.name).stat().st_size <= LARGEST
+
+
+def test_there_are_no_other_pictures() -> None:
+    names = {drawing.name for drawing in DRAWINGS} | {each.name for each in SCREENSHOTS}
+    assert {file.name for file in IMAGES.iterdir()} == names
