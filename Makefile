@@ -139,7 +139,7 @@ release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: mak
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
 	$(IN)/python -m pytest tests/all/test_packages.py
 
-newcomer:  ## Follow README and getting-started in a new clone, with the system's own Python
+newcomer:  ## Follow README and guides in a new clone, with the system's own Python
 	.ci/newcomer
 
 # The oldest Python makes them: what it can install, all others can.
