@@ -18,6 +18,7 @@ from framegen.site.mark import icon, mark
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
+from framegen.site.publication import NOT_FOUND, robots, sitemap
 from framegen.site.reference_pages import ReferencePages
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
 from framegen.targets.docs.reference import ReferenceView
@@ -41,7 +42,13 @@ COMMON = ("page", "clipboard", "tabs")
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, by path below its root."""
     site = Site(project, snippets)
-    return {page.path: _rendered(site, page) for page in site.pages}
+    files = {page.path: _rendered(site, page) for page in site.pages}
+    if project.base:
+        # Where a page stands for another, or for none at all, it is not for search engines.
+        listed = [page.path for page in site.pages if not page.canonical and page.path != NOT_FOUND]
+        files["sitemap.xml"] = sitemap(project.base, listed)
+        files["robots.txt"] = robots(project.base)
+    return files
 
 
 @dataclass(frozen=True)
@@ -188,6 +195,17 @@ class Site:
             )
         for reference in self.references:
             yield from reference.pages
+
+        if self.project.base:
+            # It is shown at any address, so that its links are whole.
+            yield Page(
+                NOT_FOUND,
+                "404",
+                "There is no such page",
+                "",
+                "Nothing is at this address.",
+                base=self.project.base,
+            )
 
     @property
     def _about(self) -> str:
