@@ -46,7 +46,9 @@ def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     files = {page.path: _rendered(site, page) for page in site.pages}
     if project.base:
         # Where a page stands for another, or for none at all, it is not for search engines.
-        listed = [page.path for page in site.pages if not page.canonical and page.path != NOT_FOUND]
+        listed = [
+            page.address for page in site.pages if not page.canonical and page.path != NOT_FOUND
+        ]
         files["sitemap.xml"] = sitemap(project.base, listed)
         files["robots.txt"] = robots(project.base)
     return files
@@ -197,6 +199,16 @@ class Site:
         for reference in self.references:
             yield from reference.pages
         yield self._search_page()
+        if self.project.base:
+            # It is shown at any address, so that its links are whole.
+            yield Page(
+                NOT_FOUND,
+                "404",
+                "There is no such page",
+                "",
+                "Nothing is at this address.",
+                base=self.project.base,
+            )
 
     def _search_page(self) -> Page:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
@@ -209,17 +221,6 @@ class Site:
         """All that can be found."""
         abouts = {link: entry.about for link, entry in self._entries.items()}
         return SearchIndex(self.references, self.guides, abouts)
-
-        if self.project.base:
-            # It is shown at any address, so that its links are whole.
-            yield Page(
-                NOT_FOUND,
-                "404",
-                "There is no such page",
-                "",
-                "Nothing is at this address.",
-                base=self.project.base,
-            )
 
     @property
     def _about(self) -> str:
