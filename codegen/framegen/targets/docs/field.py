@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.language.spec import ListField, NumberField
 from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.targets.docs.cite import CiteView, Place, cite_view
+from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.strip import place_in_each
 
 if TYPE_CHECKING:
@@ -36,14 +37,6 @@ class BitsView:
     at: str
     name: str
     about: str
-
-
-@dataclass(frozen=True, slots=True)
-class NoteView:
-    """A further fact about a field, and its source."""
-
-    text: str
-    cite: CiteView
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +173,7 @@ class _Maker:
             ],
             beside=[*_on_the_wire(spec, field), *_beside(path.rpartition(".")[2], field)],
             bits=_bits(field),
-            notes=[NoteView(note.text, cite_view(spec, note.cite)) for note in field.notes],
+            notes=note_views(spec, field.notes),
             cite=cite_view(spec, field.cite or self.message.message.cite),
             place=Place(("messages", self.message.name, *key)),
             derived=derived,

@@ -14,6 +14,7 @@ from framegen.targets.docs.drawing import Drawing, drawing
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.examples import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
+from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
 
@@ -105,6 +106,21 @@ class MessagePage:
     def description(self) -> list[str]:
         """The description, a paragraph an item."""
         return paragraphs(self.said.description)
+
+    @property
+    def notes(self) -> list[NoteView]:
+        """What other sources know of it."""
+        return note_views(self.model.spec, self.said.notes)
+
+    @property
+    def receiver(self) -> str:
+        """Who receives it."""
+        return self.layout.direction.receiver
+
+    @property
+    def receiver_notes(self) -> list[NoteView]:
+        """What is known of who receives it, which holds for every message to that end."""
+        return note_views(self.model.spec, self.model.spec.endpoints[self.receiver].notes)
 
     @property
     def cite(self) -> CiteView:

@@ -9,6 +9,7 @@ from framegen.model.slots import Number
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, session
 from framegen.targets.python.list_view import given
 from framegen.targets.python.message_view import field_view
+from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import NumberView
 
 if TYPE_CHECKING:
@@ -118,7 +119,7 @@ class MethodView:
     def doc(self) -> list[str]:
         """The docstring: what it does, its arguments with units, its result, and its errors."""
         message = self.exchange.request.message
-        found = [message.summary, message.description]
+        found = [message.summary, message.description, *noted(message.notes, self.model.spec)]
         if message.deprecated:
             found.append(f"Deprecated: {message.deprecated}")
         for name in self._names:
