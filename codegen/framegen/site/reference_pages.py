@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
@@ -14,10 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.targets.docs.reference import ReferenceView
-
-# The scripts of a page by its template; all others have the first alone.
-_PAGE = (("page",),)
-_NONE: tuple[tuple[str, ...], ...] = ()
 
 
 class ReferencePages:
@@ -53,9 +50,8 @@ class ReferencePages:
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
-            return _NONE if template == "spec" else _PAGE
-        proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
+            return ()
+        return (codec_scripts(self.reference.model), ("decoder",))
 
     def _data(self, template: str) -> dict[str, object]:
         match template:
