@@ -315,13 +315,17 @@ class MethodView:
         return field_view(field, self.model, message)
 
     def _session(self, before: str) -> list[str]:
-        """Return a call in an interactive session: the first argument by place, others by name."""
+        """Return a call in an interactive session."""
+        return session(self.example_call(before), 8)
+
+    def example_call(self, before: str) -> Bracketed:
+        """Return a call with the values of an example: the first by place, the others by name."""
         values = self._example_values
         shown = [
             given(self._field(name), values[name], f"{name}=" if at else "")
             for at, name in enumerate(self._names)
         ]
-        return session(Bracketed(before, shown, ")"), 8)
+        return Bracketed(before, shown, ")")
 
     @property
     def _example_values(self) -> dict[str, Any]:
