@@ -16,6 +16,30 @@ if TYPE_CHECKING:
 
     from framegen.targets.docs.reference import ReferenceView
 
+# The files of the workbench, in the order in which they are joined.
+_WORKBENCH = (
+    "elements",
+    "columns",
+    "capture_place",
+    "hex_text",
+    "code_text",
+    "line_text",
+    "csv_text",
+    "capture_text",
+    "capture",
+    "notation",
+    "event_words",
+    "virtual_list",
+    "workbench_input",
+    "workbench_export",
+    "workbench_address",
+    "workbench_detail",
+    "workbench_list",
+    "stub",
+    "workbench_encode",
+    "workbench",
+)
+
 
 class ReferencePages:
     """A reference below `folder`, which ends with a slash."""
@@ -51,7 +75,7 @@ class ReferencePages:
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
             return ()
-        return (codec_scripts(self.reference.model), ("decoder",))
+        return (codec_scripts(self.reference.model), _WORKBENCH)
 
     def _data(self, template: str) -> dict[str, object]:
         match template:
