@@ -15,6 +15,7 @@ from framegen.site.headings import headings, with_permalinks
 from framegen.site.highlight import code_block
 from framegen.site.home import Introduction, specimen
 from framegen.site.mark import icon, mark
+from framegen.site.mentions import Mention, mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
@@ -241,6 +242,11 @@ class Site:
             "introduction": None if plan is None else Introduction(plan, self._published),
             "specimen": next(iter(shown), None),
         }
+
+    def mentions(self, page: Page) -> list[Mention]:
+        """Return where the guides speak of the message of a page."""
+        message = page.context["message"]
+        return [*mentions(self.guides, message, page.path)]
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""

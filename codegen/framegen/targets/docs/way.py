@@ -28,6 +28,13 @@ class Way:
         return f"{self.sender} to {self.receiver}"
 
 
+def in_prose(text: str, model: Model) -> str:
+    """Write directions as prose does, `host to controller`, and not as a spec does."""
+    for direction in model.directions:
+        text = text.replace(str(direction), f"{direction.sender} to {direction.receiver}")
+    return text
+
+
 def way(model: Model, direction: Direction) -> Way:
     """Return how a direction of a protocol is shown."""
     variant = "to" if direction.sender == model.roles.sent.sender else "from"
