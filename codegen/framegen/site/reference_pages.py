@@ -15,10 +15,6 @@ if TYPE_CHECKING:
 
     from framegen.targets.docs.reference import ReferenceView
 
-# The scripts of a page by its template; all others have the first alone.
-_PAGE = (("page",),)
-_NONE: tuple[tuple[str, ...], ...] = ()
-
 
 class ReferencePages:
     """A reference below `folder`, which ends with a slash."""
@@ -53,9 +49,9 @@ class ReferencePages:
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
-            return _NONE if template == "spec" else _PAGE
+            return ()
         proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
+        return (("checksums", "codec") if proven else ("codec",), ("decoder",))
 
     def _data(self, template: str) -> dict[str, object]:
         match template:

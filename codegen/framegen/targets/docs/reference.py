@@ -23,6 +23,7 @@ from framegen.targets.docs.timing import (
     round_trips,
     timings,
 )
+from framegen.targets.docs.way import Way, way
 from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
@@ -170,6 +171,11 @@ class ReferenceView:
     def envelopes(self) -> list[EnvelopeView]:
         """Every kind of frame."""
         return [EnvelopeView(self.model, name) for name in self.model.envelopes]
+
+    @property
+    def ways(self) -> list[Way]:
+        """The directions of its messages, as they are shown."""
+        return [way(self.model, direction) for direction in self.model.directions]
 
     @property
     def id_name(self) -> str:
