@@ -8,6 +8,18 @@ if TYPE_CHECKING:
     from framegen.model.exchanges import Exchange
     from framegen.model.model import Model
 
+# The files of the script that talks over a line, in order.
+LINE_SCRIPT = (
+    "serial_line",
+    "serial_echo",
+    "serial_replies",
+    "serial_recording",
+    "serial_session",
+    "line_words",
+    "line_log",
+    "line",
+)
+
 
 def line_data(model: Model) -> dict[str, Any]:
     """Return the link, the directions of the client, and its exchanges by the name of the request.

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.site.escape import script_json
+from framegen.site.line_data import LINE_SCRIPT, line_data
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
 from framegen.site.spec_listing import listing
@@ -51,12 +52,13 @@ class ReferencePages:
         if template != "decoder":
             return ()
         proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("decoder",))
+        return (("checksums", "codec") if proven else ("codec",), ("decoder",), LINE_SCRIPT)
 
     def _data(self, template: str) -> dict[str, object]:
         match template:
             case "decoder":
-                return {"data": script_json(protocol_data(self.reference.model))}
+                model = self.reference.model
+                return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}

@@ -133,6 +133,12 @@ function valueOf(slot, text) {
   });
 }
 
+function tellEncoded(bytes) {
+  const detail = { message: byId("message").value, bytes };
+  window.workbench.encoded = detail;
+  document.dispatchEvent(new CustomEvent("encoded", { detail }));
+}
+
 function chosen() {
   return codec.kinds.find((kind) => kind.name === byId("message").value);
 }
@@ -149,9 +155,11 @@ function encode() {
     report(byId("message"), status, "");
     status.textContent = button.dataset.copy = frame;
     button.disabled = false;
+    tellEncoded(parseHex(frame));
   } catch (error) {
     if (!(error instanceof Unusable)) throw error;
     button.disabled = true;
+    tellEncoded(null);
     report(byId("message"), status, error.message);
     inputs.forEach((input) => input.setAttribute("aria-invalid", error.message.startsWith(input.name)));
   }
@@ -192,6 +200,7 @@ function wayOf(word) {
   return ways.length === 1 ? ways[0].key : "";
 }
 
+window.workbench = {};
 const query = new URLSearchParams(location.search);
 byId("hex").value = query.get("hex") || byId("hex").value;
 byId("direction").value = wayOf(query.get("direction"));

@@ -16,9 +16,11 @@ function showLine(protocol, codec) {
 
   const line = makeSerialLine({ serial: navigator.serial, received, changed, failed, wait });
   const log = makeLineLog(byId("line-log"));
-  let session = null, recording = null, startedAt = 0, name = "a serial port", timer = 0, isSaving = false;
+  // The session at hand and the one before it, whose counters go on being shown.
+  let session = null, last = null, isCounting = false;
+  let recording = null, startedAt = 0, name = "a serial port", timer = 0, isSaving = false;
   // What the encoder has, and the state that was shown last.
-  let encoded = { message: "", bytes: null }, shownState = "";
+  let encoded = window.workbench?.encoded ?? { message: "", bytes: null }, shownState = "";
 
   const seconds = (at) => (at - startedAt) / 1000;
 
@@ -109,7 +111,6 @@ function showLine(protocol, codec) {
     window.workbench?.append?.([{ time, sender, event }]);
   }
 
-  let isCounting = false;
   function count() {
     if (isCounting) return;
     isCounting = true;
@@ -127,8 +128,6 @@ function showLine(protocol, codec) {
         : "";
     });
   }
-  let last = null;
-
   function failed(error) {
     if (session) session.counts.errors += 1;
     comment(wordsOfFault(error));
@@ -137,34 +136,38 @@ function showLine(protocol, codec) {
 
   // ---- Sending
 
+  function reply(text, look = "") {
+    byId("line-reply").textContent = text;
+    byId("line-reply").className = `line-reply ${look}`.trim();
+  }
+
   function answered(answer) {
-    byId("line-reply").textContent = wordsOfAnswer(answer);
+    reply(wordsOfAnswer(answer), answer.late || answer.missing.length ? "no" : "yes");
   }
 
   function unanswered(question) {
     session.counts.errors += 1;
-    const text = wordsOfSilence(question, session.counts);
-    byId("line-reply").textContent = text;
-    comment(text);
+    const [what, why] = wordsOfSilence(question, session.counts);
+    reply(`${what} ${why}`, "no");
+    comment(what);
   }
 
   async function send() {
     const { message, bytes } = encoded;
-    if (byId("line-send").getAttribute("aria-disabled") === "true" || !session) return;
+    if (!session || !bytes) return;
     if (session.waiting && data.exchanges[message].reply) {
-      byId("line-reply").textContent = "One question at a time: the reply to the one before is still waited for.";
+      reply("One question at a time: the reply to the one before is still waited for.");
       return;
     }
     const question = session.sent([...bytes], performance.now());
-    byId("line-reply").textContent = question
-      ? `${message} is sent; ${question.exchange.reply} is waited for.`
-      : `${message} is sent. ${wordsOfExchange(message, kindOf(message), data)}`;
+    reply(question ? `${message} is sent; ${question.exchange.reply} is waited for.`
+      : `${message} is sent. ${wordsOfExchange(message, kindOf(message), data)}`);
     tick(performance.now());
     try {
       await line.write(bytes);
     } catch (error) {
       if (session) session.counts.errors += 1;
-      byId("line-reply").textContent = `${message} was not sent.${reasonOf(error)}`;
+      reply(`${message} was not sent.${reasonOf(error)}`, "no");
       comment(`${message} was not sent`);
       count();
     }

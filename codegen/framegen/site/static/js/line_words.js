@@ -80,11 +80,12 @@ function wordsOfAnswer({ question, event, took, late, missing }) {
   return `${saysOf(event)}, ${milliseconds(took)} after ${question.event.message} was sent.${incomplete}`;
 }
 
+// What it may mean that nothing has come, in two sentences.
 function wordsOfSilence({ event, within }, counts) {
   const heard = counts.bytes
     ? "Something else was heard on this line, so that it is not dead: the board may be busy, or not know this question."
     : "Nothing was ever heard on this line: is the board on, are RX and TX crossed, are the grounds joined, is the rate right?";
-  return `No reply to ${event.message} within ${milliseconds(within)}. ${heard}`;
+  return [`No reply to ${event.message} within ${milliseconds(within)}.`, heard];
 }
 
 // A message on one line: its name, and its fields with their units.
