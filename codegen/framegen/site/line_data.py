@@ -15,9 +15,9 @@ LINE_SCRIPT = (
     "serial_replies",
     "serial_recording",
     "serial_session",
-    "line_words",
-    "line_log",
-    "line",
+    "serial_words",
+    "serial_log",
+    "serial_panel",
 )
 
 
