@@ -50,10 +50,7 @@ function makeFakeSerial(host, pause = (ms) => new Promise((resolve) => { setTime
         start: (controller) => { this.#sink = controller; },
         write: async (chunk, { signal }) => {
           if (!ArrayBuffer.isView(chunk) && !(chunk instanceof ArrayBuffer)) throw new TypeError("chunk");
-          const aborted = new Promise((_, reject) => {
-            signal.addEventListener("abort", () => reject(signal.reason ?? lost()));
-          });
-          const refused = await Promise.race([host.write(this.#id, [...new Uint8Array(chunk)]), aborted]);
+          const refused = await this.#unlessAborted(signal, host.write(this.#id, [...new Uint8Array(chunk)]));
           if (!refused) return;
           [this.#writable, this.#sink] = [null, null];
           throw new DOMException("The write has failed.", refused);
@@ -62,6 +59,14 @@ function makeFakeSerial(host, pause = (ms) => new Promise((resolve) => { setTime
         abort: () => { [this.#writable, this.#sink] = [null, null]; },
       });
       return this.#writable;
+    }
+
+    #unlessAborted(signal, result) {
+      return new Promise((resolve, reject) => {
+        const abort = () => reject(signal.reason ?? lost());
+        signal.addEventListener("abort", abort);
+        result.then(resolve, reject).finally(() => signal.removeEventListener("abort", abort));
+      });
     }
 
     async close() {

@@ -1,6 +1,9 @@
 // The board on the line, in the page: from the buttons to the port, and from the port to the list.
 "use strict";
 
+// So many entries of a line go to the list of the page, before it begins anew.
+const LISTED_BOUND = 500_000;
+
 function showLine(protocol, codec) {
   const byId = (id) => document.getElementById(id);
   const data = protocol.line, panel = byId("line-panel");
@@ -18,11 +21,17 @@ function showLine(protocol, codec) {
   const log = makeLineLog(byId("line-log"));
   // The session at hand and the one before it, whose counters go on being shown.
   let session = null, last = null, isCounting = false;
-  let recording = null, startedAt = 0, name = "a serial port", timer = 0, isSaving = false;
+  let recording = null, startedAt = 0, name = "a serial port", timer = 0, isSaving = false, listed = 0;
   // What the encoder has, and the state that was shown last.
-  let encoded = window.workbench?.encoded ?? { message: "", bytes: null }, shownState = "";
+  let encoded = encodedSoFar(), shownState = "";
 
   const seconds = (at) => (at - startedAt) / 1000;
+
+  // What the encoder has made before this script came; later it says so.
+  function encodedSoFar() {
+    const hex = byId("copy-frame").dataset.copy;
+    return { message: byId("message").value, bytes: hex ? parseHex(hex) : null };
+  }
 
   // ---- Settings
 
@@ -53,7 +62,8 @@ function showLine(protocol, codec) {
       codec, protocol, direction, baud: settings().baudRate, localEcho: byId("line-echo").checked,
       show, answered, unanswered,
     });
-    window.workbench?.begin?.(name);
+    window.workbench.begin(name);
+    listed = 0;
     comment(`connected to ${name}`);
     byId("line-traffic").hidden = false;
   }
@@ -107,9 +117,19 @@ function showLine(protocol, codec) {
     let says = isNoise ? `${event.type}: ${event.reason}` : saysOf(event);
     if (names.length > 1) says = says.replace(event.message, names.join(" or "));
     if (answer && !answer.late) says += ` (${milliseconds(answer.took)})`;
-    log.add({ time, sender: sender ?? either, says, bytes, isSent, isNoise });
-    window.workbench?.append?.([{ time, sender, event }]);
+    log.add({ time, way: wayOf(sender), says, bytes, isSent, isNoise });
+    // The list above grows as long as it can be searched with ease, and begins anew then.
+    if (listed === LISTED_BOUND) {
+      window.workbench.begin(name);
+      listed = 0;
+      comment(`the list above begins anew after ${LISTED_BOUND.toLocaleString("en")} entries`);
+    }
+    listed += 1;
+    window.workbench.append([{ time, sender, event }]);
   }
+
+  const wayOf = (sender) => protocol.directions.find((way) => way.sender === sender)?.text.replace(" to ", " → ")
+    ?? "either";
 
   function count() {
     if (isCounting) return;
@@ -322,7 +342,6 @@ function showLine(protocol, codec) {
     offerToSend();
   });
 
-  byId("line-load").hidden = !window.workbench?.openFile;
   if (data.received === null) byId("line-listen").value = "any";
   showSettings();
   changed("closed", null);

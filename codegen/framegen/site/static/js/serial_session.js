@@ -65,10 +65,9 @@ function makeSession({ codec, protocol, direction, baud, localEcho, show, answer
     sent(bytes, now) {
       const event = codec.decodeFrame(bytes, data.sent);
       counts.sent += 1;
-      const whole = { type: "message", bytes: Uint8Array.from(bytes), ...event };
       if (echo) echo.sent(bytes, now + (1000 * bytes.length * data.bitsPerByte) / baud + ECHO_MS);
-      show({ at: now, isSent: true, event: whole, names: [event.message], sender: senders.get(data.sent) });
-      return replies.sent({ ...event, bytes }, now);
+      show({ at: now, isSent: true, event, names: [event.message], sender: senders.get(data.sent) });
+      return replies.sent(event, now);
     },
 
     // So late is it now; all that came before has been received. Says whether half a frame was given up.
