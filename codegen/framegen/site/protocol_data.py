@@ -104,7 +104,7 @@ def _said(model: Model, name: str) -> dict[str, Any]:
         "means": {"length": formula, "id": named(plain)},
         "lengths": describe_range(plain.lengths),
         "facts": [*facts(model.plain, plain, b"")],
-        "frames": [
+        "documented": [
             {"hex": example["hex"], "text": example_in_words(example)}
             for example in plain.said["examples"]
         ],

@@ -8,7 +8,7 @@ const DETAIL_ENDS = 32, DETAIL_MORE = 4096, DETAIL_EXPLAINED = 2048;
 // `take(event, frame)` puts a frame in the place of an event, and `edit(event)` shows it in the encoder.
 function makeDetail(element, { codec, take, edit }) {
   function show(event) {
-    const explained = stubExplain(codec)(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
+    const explained = codec.explain(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
     element.replaceChildren(heading(event), ...(event.kind ? readings(event, explained) : refused(event, explained)));
     element.hidden = false;
   }
@@ -29,8 +29,7 @@ function makeDetail(element, { codec, take, edit }) {
 
   function readings(event, explained) {
     const shown = explained.readings.map((reading) => {
-      const kind = codec.kinds.find((each) => each.name === reading.message);
-      const link = make("a", { href: `${kind.page}.html` }, reading.message);
+      const link = make("a", { href: `${reading.kind.page}.html` }, reading.message);
       const rest = explained.readings.length > 1 ? make("h4", {}, link, ` ${reading.direction}`)
         : make("p", { class: "way-of" }, link, ` ${reading.direction}`);
       return make("section", {}, rest, make("p", {}, reading.summary), strip(reading.rows, event.at),
