@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from framegen.model.slots import Field, Slot
 
 # The reasons for which bytes are no frame, by what the script calls them.
-_REASONS = {
+REASONS = {
     "tooShort": refusals.TOO_SHORT,
     "trailing": refusals.TRAILING_BYTES,
     "header": refusals.BAD_HEADER,
@@ -52,7 +52,7 @@ def protocol_data(model: Model, messages: Collection[str] | None = None) -> dict
     return {
         "name": model.spec.protocol.name,
         "title": model.spec.protocol.title,
-        "reasons": _REASONS,
+        "reasons": REASONS,
         "directions": [_direction(model, way) for way in model.directions],
         # Empty where any byte may begin a frame.
         "begins": sorted(model.first_bytes) if len(model.first_bytes) < _ANY_BYTE else [],
