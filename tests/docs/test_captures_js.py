@@ -55,8 +55,9 @@ const answers = asked.texts.map(([text, direction, form]) => {{
   const capture = makeCapture(codec, asked.protocol, direction);
   readCaptureText(text, says, capture.add);
   capture.end();
-  const lines = Array.from({{ length: capture.size }}, (_, i) => written[form].line(capture.event(i)));
-  return written[form].head + lines.map((line) => `${{line}}\\n`).join("");
+  const {{ head, line }} = written[form];
+  const events = Array.from({{ length: capture.size }}, (_, i) => capture.event(i));
+  return head + events.map((event) => `${{line(event)}}\\n`).join("");
 }});
 """
 SAVERS = [*READERS, "columns", "capture", "notation", "event_words", "workbench_export"]

@@ -1,4 +1,4 @@
-"""The words of the command in the page, under node: what is read, and what is refused with its place."""
+"""The words of the command in the page, under node: what is read, and what is refused where."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import pytest
 from busservo import ActionGroupRun, ActionGroupSpeed, ServoMove, ServoUnload
 from busservo._cli.usage_error import UsageError
 from busservo._cli.values import message_from_text
-from framegen.compile import Compiled
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.protocol_data import protocol_data
 
@@ -19,6 +18,8 @@ from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from framegen.compile import Compiled
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
