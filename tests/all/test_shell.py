@@ -243,7 +243,7 @@ def test_every_link_and_button_is_reached_by_the_tabulator(visit: Visit, path: s
         ".filter((each) => each.checkVisibility({ visibilityProperty: true }) && each.tabIndex >= 0"
         "  && !each.disabled).length"
     )
-    reached = set()
+    reached: set[int] = set()
     for _ in range(expected + 200):
         tab.keyboard.press("Tab")
         place = tab.evaluate(
