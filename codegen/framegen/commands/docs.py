@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,6 +20,9 @@ EXAMPLES = (
     ("framegen docs --out site --base https://example.org/", "with a sitemap and whole addresses"),
 )
 
+# The characters of addresses, RFC 3986; others must be written as %XX.
+_PLAIN = re.compile(r"[\w.~:/?#\[\]@!$&'()*+,;=%-]+", re.ASCII)
+
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
@@ -33,12 +37,32 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
+def _base(text: str) -> str:
+    """Return the address of a site, which ends with a slash. Raises Unusable."""
+    from urllib.parse import urlsplit  # noqa: PLC0415
+
+    from framegen.console import visible  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+
+    try:
+        parts = urlsplit(text)
+        is_address = parts.scheme in ("http", "https") and bool(parts.hostname)
+    except ValueError:
+        is_address = False
+    if text and (not is_address or parts.query or parts.fragment or not _PLAIN.fullmatch(text)):
+        raise Unusable(
+            f"--base: `{visible(text)}` is not the address of a site",
+            hint="write all of it, such as https://example.org/ or https://example.org/docs/",
+        )
+    return text if text.endswith("/") or not text else f"{text}/"
+
+
 def run(arguments: Namespace) -> int:
     """Build the pages, and print where their index is. 1 where a spec has findings."""
     from tempfile import mkdtemp  # noqa: PLC0415
     from webbrowser import open as open_in_browser  # noqa: PLC0415
 
-    from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled, print_findings, spec_file  # noqa: PLC0415
     from framegen.output import Output  # noqa: PLC0415
     from framegen.project import all_specs, guides_folder  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
@@ -46,13 +70,14 @@ def run(arguments: Namespace) -> int:
     from framegen.site.site import render_site  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 
-    files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
-    specs = [compiled(file) for file in files]
-    if print_findings(specs):
+    base = _base(arguments.base)
+    files = [spec_file(arguments.spec)] if arguments.spec else all_specs()
+    specs = {file: compiled(file) for file in files}
+    if print_findings([*specs.values()]):
         return 1
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     docs = None if arguments.spec else guides_folder(files[0])
-    project = read_project(specs, docs, arguments.base)
+    project = read_project(specs, docs, base)
     # All pages are one output: which of the specs they come from, each of them says.
     pages = render_site(project, snippets())
     site = Output("site.manifest", "", pages, data=project.files)

@@ -15,7 +15,8 @@ class Page:
 
     `label` stands in the navigation, `about` in search results and previews. `folder` is the root
     of the reference that it belongs to, if it does to any. Each of `scripts` is made of files,
-    and `context` is what the template gets besides.
+    and `context` is what the template gets besides. `canonical` is the path of the page that stands
+    for this one in search engines, as the newest edition does for older ones; "" for itself.
     """
 
     path: str
@@ -26,6 +27,7 @@ class Page:
     folder: str = ""
     scripts: tuple[tuple[str, ...], ...] = (("page",),)
     context: Mapping[str, Any] = field(default_factory=dict)
+    canonical: str = ""
 
     @property
     def top(self) -> str:

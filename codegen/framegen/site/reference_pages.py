@@ -5,15 +5,20 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.downloads import Downloads
 from framegen.site.escape import script_json
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
 from framegen.site.spec_listing import listing
+from framegen.site.what_changed import what_changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
-    from framegen.targets.docs.reference import ReferenceView
+    from framegen.comparison.edition import Edition
+    from framegen.site.project import Project
+    from framegen.site.shelf import Shelf
+    from framegen.targets.docs.reference import PageView, ReferenceView
 
 # The scripts of a page by its template; all others have the first alone.
 _PAGE = (("page",),)
@@ -21,12 +26,27 @@ _NONE: tuple[tuple[str, ...], ...] = ()
 
 
 class ReferencePages:
-    """A reference below `folder`, which ends with a slash."""
+    """The reference of one edition; `rules` are the pages about kinds of changes, by their rule."""
 
-    def __init__(self, reference: ReferenceView, folder: str) -> None:
-        """Take what is to be shown, and where."""
-        self.reference = reference
-        self.folder = folder
+    def __init__(
+        self, shelf: Shelf, edition: Edition, project: Project, rules: Mapping[str, str]
+    ) -> None:
+        """Take what is to be shown, and what stands beside it."""
+        self.shelf = shelf
+        self.edition = edition
+        self.folder = shelf.root(edition)
+        self.downloads = Downloads(self.reference, project.files)
+        self._rules = rules
+
+    @property
+    def reference(self) -> ReferenceView:
+        """What the pages show."""
+        return self.shelf.views[self.edition]
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The files that are no pages, by path below the root of the site."""
+        return {f"{self.folder}{path}": text for path, text in self.downloads.texts.items()}
 
     @cached_property
     def pages(self) -> list[Page]:
@@ -36,6 +56,7 @@ class ReferencePages:
     def _made(self) -> Iterator[Page]:
         reference = self.reference
         for view in (*reference.pages, *reference.message_pages):
+            notice = self.shelf.notice(self.edition, view)
             yield Page(
                 path=f"{self.folder}{view.html}",
                 template=view.template,
@@ -47,8 +68,10 @@ class ReferencePages:
                 context={
                     "reference": reference,
                     "message": view.message,
-                    **self._data(view.template),
+                    "edition": notice,
+                    **self._data(view),
                 },
+                canonical="" if notice.newest is None else notice.newest.path,
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
@@ -57,12 +80,16 @@ class ReferencePages:
         proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
         return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
 
-    def _data(self, template: str) -> dict[str, object]:
-        match template:
+    def _data(self, view: PageView) -> dict[str, object]:
+        match view.template:
             case "decoder":
                 return {"data": script_json(protocol_data(self.reference.model))}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}
+            case "changelog":
+                return {"versions": what_changed(self.shelf, self.edition, self._rules)}
+            case "downloads":
+                return {"downloads": self.downloads}
             case _:
                 return {}

@@ -8,14 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.output import banner
+from framegen.site.downloads import size_in_words
 from framegen.site.escape import anchor, linked
 from framegen.site.guide import Guide
 from framegen.site.page import Page
 from framegen.site.plan import README, Plan, Section
 from framegen.site.policy import assets
 from framegen.site.reference_pages import ReferencePages
+from framegen.site.rule_pages import rule_pages
+from framegen.site.shelf import Shelf, kept_page, shelf_of
 from framegen.site.sidebar import Group, Link, SidebarSection
-from framegen.targets.docs.reference import ReferenceView
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 
     from jinja2 import Environment
 
+    from framegen.comparison.edition import Edition
     from framegen.site.project import Project
     from framegen.targets.target import Snippets
 
@@ -30,9 +33,9 @@ _HERE = Path(__file__).parent
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
-    """Render every page of a site, by path below its root."""
+    """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
-    return {page.path: _rendered(site, page) for page in site.pages}
+    return {page.path: _rendered(site, page) for page in site.pages} | site.files
 
 
 @dataclass(frozen=True)
@@ -54,10 +57,39 @@ class Site:
         return "Reference" if self.plan is None else self.plan.title
 
     @cached_property
+    def shelves(self) -> list[Shelf]:
+        """The editions of each protocol."""
+        return [
+            shelf_of(spec, self.project.released.get(spec.spec.protocol.name, ()), self.snippets)
+            for spec in self.project.specs
+        ]
+
+    @cached_property
     def references(self) -> list[ReferencePages]:
         """The reference of each protocol, as it is now."""
-        views = [ReferenceView(compiled, self.snippets) for compiled in self.project.specs]
-        return [ReferencePages(view, f"reference/{view.folder}/") for view in views]
+        return [self._reference(shelf, shelf.versions.newest) for shelf in self.shelves]
+
+    @cached_property
+    def older(self) -> list[ReferencePages]:
+        """The references of older editions, which the navigation leaves out."""
+        return [
+            self._reference(shelf, edition)
+            for shelf in self.shelves
+            for edition in shelf.versions.older
+        ]
+
+    def _reference(self, shelf: Shelf, edition: Edition) -> ReferencePages:
+        return ReferencePages(shelf, edition, self.project, self._rules)
+
+    @cached_property
+    def _rules(self) -> dict[str, str]:
+        return rule_pages(self.guides)
+
+    @cached_property
+    def files(self) -> dict[str, str]:
+        """The texts that are no pages, by path below the root of the site."""
+        references = (*self.references, *self.older)
+        return {path: text for each in references for path, text in each.files.items()}
 
     @cached_property
     def guides(self) -> list[Guide]:
@@ -105,8 +137,10 @@ class Site:
         yield Page("index.html", "home", self.title, "Home", self.title)
         for guide in self.guides:
             yield Page(guide.page, "guide", guide.title, guide.title, "", context={"guide": guide})
-        for reference in self.references:
+        for reference in (*self.references, *self.older):
             yield from reference.pages
+        for shelf in self.shelves:
+            yield from kept_page(shelf)
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
@@ -141,6 +175,7 @@ def _rendered(site: Site, page: Page) -> str:
                 "site": site,
                 "page": page,
                 "reference": None,
+                "edition": None,
                 "before": before,
                 "after": after,
                 "banner": banner("" if reference is None else reference.spec),
@@ -154,5 +189,5 @@ def _rendered(site: Site, page: Page) -> str:
 @cache
 def _environment() -> Environment:
     made = environment(_HERE / "templates", "html", autoescape=True)
-    made.filters |= {"anchor": anchor, "linked": linked}
+    made.filters |= {"anchor": anchor, "linked": linked, "bytes": size_in_words}
     return made
