@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -66,7 +67,15 @@ class Downloads:
     @property
     def vectors(self) -> list[Download]:
         """The test vectors."""
-        return [self._download(name, "test vectors") for name in self._vectors]
+        ((name, text),) = self._vectors.items()
+        cases = json.loads(text)
+        counts = (
+            pluralize(len(cases["valid"]), "frame"),
+            f"{pluralize(len(cases['unencodable']), 'case')} that no frame can hold",
+            f"{pluralize(len(cases['invalid']), 'frame')} to refuse",
+            pluralize(len(cases["streams"]), "stream"),
+        )
+        return [self._download(name, ", ".join(counts))]
 
     @property
     def modules(self) -> list[Download]:

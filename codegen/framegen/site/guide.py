@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from framegen.site.highlight import code_block
+from framegen.site.linked_files import file_address
 from framegen.site.markdown import parser, plain_text, slug
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Collection, Iterator, Sequence
 
     from markdown_it.token import Token
 
@@ -31,10 +32,14 @@ class Heading:
 
 @dataclass(frozen=True)
 class Guide:
-    """One file of Markdown, by its path below the folder of the guides."""
+    """One file of Markdown, by its path below the folder of the guides.
+
+    `files` are those of the site, by path below its root: links to others become plain text.
+    """
 
     path: str
     text: str
+    files: Collection[str] = ()
 
     @property
     def page(self) -> str:
@@ -47,7 +52,7 @@ class Guide:
         for before, token in pairwise(tokens):
             if before.type == "heading_open":
                 before.attrSet("id", slug(token.content))
-            _lead(token.children or [], self.path)
+            _lead(token.children or [], self.files)
         return tokens
 
     @cached_property
@@ -91,23 +96,25 @@ def _fence(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -
     return str(code_block(token.content, token.info.strip()))
 
 
-def _lead(tokens: Sequence[Token], path: str) -> None:
+def _lead(tokens: Sequence[Token], files: Collection[str]) -> None:
     """Make links lead to pages; those to files that are not published become plain text."""
     plain = False
     for token in tokens:
         if token.type == "link_open":
-            address = _address(str(token.attrGet("href")), path)
+            address = _address(str(token.attrGet("href")), files)
             plain = address is None
             token.attrs = {} if address is None else {"href": address}
         if plain and token.type in ("link_open", "link_close"):
             token.tag = "span"
 
 
-def _address(link: str, _path: str) -> str | None:
+def _address(link: str, files: Collection[str]) -> str | None:
     path, mark, anchor = link.partition("#")
     if re.match(r"[a-z]+:", path) or not path:
         return link
     steps = PurePosixPath(path)
     if path.startswith("../"):
-        return f"reference/{steps.stem}/spec.html" if steps.parts[1] == "spec" else None
+        if steps.parts[1] == "spec":
+            return f"reference/{steps.stem}/spec.html"
+        return file_address(path, files)
     return page_of(steps.as_posix()) + mark + anchor

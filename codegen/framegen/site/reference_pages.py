@@ -71,7 +71,7 @@ class ReferencePages:
                     "edition": notice,
                     **self._data(view),
                 },
-                canonical="" if notice.newest is None else notice.newest.path,
+                canonical=notice.canonical,
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:

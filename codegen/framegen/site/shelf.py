@@ -46,10 +46,21 @@ class EditionNotice:
     others: Sequence[VersionLink]
     pages: Sequence[PageView]
 
+    @property
+    def canonical(self) -> str:
+        """The page that stands for it in search engines: the newest; "" for itself.
+
+        Of a message that is gone, no other page tells.
+        """
+        return "" if self.newest is None or self.newest.missing else self.newest.path
+
 
 @dataclass(frozen=True, eq=False)
 class Shelf:
-    """All editions of a reference, each with what its pages show; `folder` is that of the newest."""
+    """The editions of a reference, each with what its pages show.
+
+    `folder` is that of the newest, below the root of the site.
+    """
 
     versions: Versions
     views: dict[Edition, ReferenceView]

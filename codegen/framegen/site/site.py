@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from framegen.output import banner
 from framegen.site.downloads import size_in_words
-from framegen.site.escape import anchor, linked
+from framegen.site.escape import anchor, linked, said
 from framegen.site.guide import Guide
 from framegen.site.page import Page
 from framegen.site.plan import README, Plan, Section
@@ -95,7 +95,9 @@ class Site:
     def guides(self) -> list[Guide]:
         """The guides, those of the plan first and in its order."""
         order = [entry.link for section in self._sections for entry in section.entries]
-        found = [Guide(path, text) for path, text in self.project.guides.items() if path != README]
+        files = self.project.files
+        texts = self.project.guides.items()
+        found = [Guide(path, text, files) for path, text in texts if path != README]
         places = {path: place for place, path in enumerate(order)}
         return sorted(found, key=lambda guide: places.get(guide.path, len(places)))
 
@@ -189,5 +191,5 @@ def _rendered(site: Site, page: Page) -> str:
 @cache
 def _environment() -> Environment:
     made = environment(_HERE / "templates", "html", autoescape=True)
-    made.filters |= {"anchor": anchor, "linked": linked, "bytes": size_in_words}
+    made.filters |= {"anchor": anchor, "bytes": size_in_words, "linked": linked, "said": said}
     return made

@@ -136,9 +136,10 @@ class VersionChanges:
         return found
 
     @property
-    def breaks(self) -> bool:
-        """Whether anything breaks, be it on purpose."""
-        return self.view is not None and any(each.breaks for each in self.view.verdicts)
+    def broken(self) -> list[str]:
+        """The axes on which anything breaks, be it on purpose."""
+        verdicts = [] if self.view is None else self.view.verdicts
+        return [*dict.fromkeys(each.axis for each in verdicts if each.breaks)]
 
     @property
     def upgrade(self) -> str:
