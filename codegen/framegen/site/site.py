@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -18,6 +19,7 @@ from framegen.site.reference_pages import ReferencePages
 from framegen.site.rule_pages import rule_pages
 from framegen.site.shelf import Shelf, kept_page, shelf_of
 from framegen.site.sidebar import Group, Link, SidebarSection
+from framegen.site.versions import blaming
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
@@ -69,6 +71,13 @@ class Site:
         """The reference of each protocol, as it is now."""
         return [self._reference(shelf, shelf.versions.newest) for shelf in self.shelves]
 
+    @contextmanager
+    def blaming(self, page: Page) -> Iterator[None]:
+        """Say which older edition it is whose page goes wrong, if it is one of these."""
+        older = next((each for each in self.older if each.folder == page.folder), None)
+        with nullcontext() if older is None else blaming(older.edition):
+            yield
+
     @cached_property
     def older(self) -> list[ReferencePages]:
         """The references of older editions, which the navigation leaves out."""
@@ -88,8 +97,11 @@ class Site:
     @cached_property
     def files(self) -> dict[str, str]:
         """The texts that are no pages, by path below the root of the site."""
-        references = (*self.references, *self.older)
-        return {path: text for each in references for path, text in each.files.items()}
+        found = {path: text for each in self.references for path, text in each.files.items()}
+        for each in self.older:
+            with blaming(each.edition):
+                found |= each.files
+        return found
 
     @cached_property
     def guides(self) -> list[Guide]:
@@ -139,8 +151,12 @@ class Site:
         yield Page("index.html", "home", self.title, "Home", self.title)
         for guide in self.guides:
             yield Page(guide.page, "guide", guide.title, guide.title, "", context={"guide": guide})
-        for reference in (*self.references, *self.older):
+        for reference in self.references:
             yield from reference.pages
+        for older in self.older:
+            with blaming(older.edition):
+                pages = older.pages
+            yield from pages
         for shelf in self.shelves:
             yield from kept_page(shelf)
 
@@ -167,6 +183,11 @@ class Site:
 
 
 def _rendered(site: Site, page: Page) -> str:
+    with site.blaming(page):
+        return _filled(site, page)
+
+
+def _filled(site: Site, page: Page) -> str:
     before, after = site.neighbours(page)
     reference = page.context.get("reference")
     return (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -9,11 +10,35 @@ from framegen.comparison.comparison import Comparison
 from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 from framegen.comparison.report.view import View
+from framegen.pluralize import pluralize
+from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from framegen.compile import Compiled
+
+
+@contextmanager
+def blaming(edition: Edition) -> Iterator[None]:
+    """Say which edition it is that something goes wrong with. Raises Unusable.
+
+    Today's rules are not held against editions of old, and so they may be what cannot be shown.
+    """
+    try:
+        yield
+    except Unusable:
+        raise
+    except Exception as error:
+        found = edition.compiled.tolerated
+        if not found:
+            raise
+        first = found[0].render(edition.compiled.source)
+        raise Unusable(
+            f"{edition.label} cannot be shown: it has {pluralize(len(found), 'finding')} by "
+            f"today's rules; the first is\n{first}",
+            hint="where it cannot be mended, remove it: the history still tells of its version",
+        ) from error
 
 
 def newest_edition(compiled: Compiled) -> Edition:
@@ -58,13 +83,20 @@ class Versions:
             return None
         key = before.label, edition.label
         if key not in self._views:
-            self._views[key] = View(Comparison(before, edition))
+            with blaming(before), blaming(edition):
+                view = View(Comparison(before, edition))
+                # Worked out here, where it is known whose fault it is that it cannot be.
+                _ = view.groups, view.verdicts, view.without_effect
+                self._views[key] = view
         return self._views[key]
 
     def pair(self, older: Edition) -> Pair:
         """Return who is who in an older edition and in the newest."""
         if older.label not in self._pairs:
-            self._pairs[older.label] = Pair(older, self.newest)
+            with blaming(older):
+                pair = Pair(older, self.newest)
+                _ = pair.messages
+                self._pairs[older.label] = pair
         return self._pairs[older.label]
 
     def folder(self, edition: Edition) -> str:

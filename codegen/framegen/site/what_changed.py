@@ -95,8 +95,12 @@ class VersionChanges:
     version: str
     entry: Release | None
     edition: Edition | None
-    view: View | None
     rules: Mapping[str, str]
+
+    @cached_property
+    def view(self) -> View | None:
+        """What was worked out; None where there is nothing to compare it with."""
+        return None if self.edition is None else self.shelf.versions.changes(self.edition)
 
     @property
     def is_released(self) -> bool:
@@ -228,13 +232,12 @@ def what_changed(shelf: Shelf, edition: Edition, rules: Mapping[str, str]) -> li
             each.version,
             entries.get(each.version) if last[each.version] is each else None,
             each,
-            versions.changes(each),
             rules,
         )
         for each in editions
     ]
     found += [
-        VersionChanges(shelf, version, entry, None, None, rules)
+        VersionChanges(shelf, version, entry, None, rules)
         for version, entry in entries.items()
         if version not in last
     ]
