@@ -102,10 +102,19 @@ def test_a_comment_changes_no_file(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SPECS)
-def test_a_comment_changes_only_the_page_that_shows_the_spec(name: str) -> None:
+def test_a_comment_changes_only_what_shows_the_spec(name: str) -> None:
     text = text_of(name)
-    pages = [render_site(Project([compiled(each)]), snippets()) for each in (text, commented(text))]
-    assert changed(*pages) == {f"reference/{name}/spec.html"}
+    site, after = (
+        render_site(Project([compiled(each)]), snippets()) for each in (text, commented(text))
+    )
+    shown = {"spec.html", f"downloads/{name}.yaml", "downloads.html"}
+    assert changed(site, after) == {f"reference/{name}/{path}" for path in shown}
+    # Of the downloads, the size of that one.
+    sizes = [
+        re.sub(r"[0-9.]+ kB", "", each[f"reference/{name}/downloads.html"])
+        for each in (site, after)
+    ]
+    assert sizes[0] == sizes[1]
 
 
 def test_a_comment_changes_the_manifest_alone(

@@ -19,6 +19,8 @@ from framegen.site.site import render_site
 from framegen.targets import docs
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from framegen.model.model import Model
 
 ROOT = Path(__file__).parent.parent.parent
@@ -150,8 +152,17 @@ class Reference:
     @cached_property
     def site(self) -> dict[str, Page]:
         """Each page of the site that has this reference alone, by path below its root."""
-        rendered = render_site(Project([self.compiled]), snippets())
-        return {path: Page(path, text) for path, text in rendered.items() if isinstance(text, str)}
+        return pages_of(self.rendered)
+
+    @cached_property
+    def rendered(self) -> dict[str, str]:
+        """Each file of that site, by path below its root."""
+        return render_site(Project([self.compiled]), snippets())
+
+
+def pages_of(rendered: Mapping[str, str]) -> dict[str, Page]:
+    """Return the pages among the files of a site, by path below its root."""
+    return {path: Page(path, text) for path, text in rendered.items() if path.endswith(".html")}
 
 
 def reference_of(source: Source) -> Reference:

@@ -126,7 +126,7 @@ def test_protocols_of_one_project_are_in_one_site() -> None:
     sites = [reference(name) for name in SPECS]
     together = render_site(Project([site.compiled for site in sites]), snippets())
     home = Page("index.html", together["index.html"])
-    assert set(together) == {path for site in sites for path in site.site}
+    assert set(together) == {path for site in sites for path in site.rendered}
     main = home.text.partition("<main")[2]
     for site in sites:
         assert f'href="{site.folder}index.html"' in main

@@ -23,12 +23,12 @@ class VersionLink:
 
     `name` is what the message of the page is called there, if it is called otherwise, `certain`
     whether that is known. Of a message that is not there, `missing` says so, and the path leads to
-    the start of that edition. `released` tells whether the edition was.
+    the start of that edition. `waits` says that the edition has yet to be released.
     """
 
     version: str
     path: str
-    released: bool = True
+    waits: bool = False
     name: str = ""
     certain: bool = True
     missing: bool = False
@@ -83,19 +83,19 @@ class Shelf:
 
     def _link(self, edition: Edition, page: PageView, other: Edition) -> VersionLink:
         root, version = self.root(other), other.version
-        released = other is not self.versions.newest or self.versions.kept is not None
+        waits = self.versions.waits(other)
         if page.message is None:
             pages = {each.html for each in self.views[other].pages}
             html = page.html if page.html in pages else "index.html"
-            return VersionLink(version, f"{root}{html}", released)
+            return VersionLink(version, f"{root}{html}", waits)
         names, guessed = self._names(edition, other)
         name = names.get(page.message.name)
         if name is None:
-            return VersionLink(version, f"{root}index.html", released, missing=True)
+            return VersionLink(version, f"{root}index.html", waits, missing=True)
         return VersionLink(
             version,
             f"{root}{self.views[other].addresses[name]}",
-            released,
+            waits,
             "" if name == page.message.name else name,
             page.message.name not in guessed,
         )

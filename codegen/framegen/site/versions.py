@@ -72,6 +72,10 @@ class Versions:
         """All editions, the newest first; one that was released as it is now comes once."""
         return [self.newest, *self.older]
 
+    def waits(self, edition: Edition) -> bool:
+        """Tell whether an edition has yet to be released, in a project that releases at all."""
+        return edition is self.newest and self.kept is None and bool(self.released)
+
     def before(self, edition: Edition) -> Edition | None:
         """Return the edition that was released before another; None for the first."""
         return next(iter(self.editions[self.editions.index(edition) + 1 :]), None)

@@ -103,17 +103,14 @@ class VersionChanges:
         return None if self.edition is None else self.shelf.versions.changes(self.edition)
 
     @property
-    def is_released(self) -> bool:
-        """Whether it is more than the state of the spec as it lies here."""
-        versions = self.shelf.versions
-        return self.edition is not versions.newest or versions.kept is not None
+    def waits(self) -> bool:
+        """Whether it has yet to be released."""
+        return self.edition is not None and self.shelf.versions.waits(self.edition)
 
     @property
     def anchor(self) -> str:
         """What its heading is called in addresses."""
-        waits = self.edition is self.shelf.versions.newest and not self.is_released
-        taken = waits and self.entry is None
-        return "unreleased" if taken else f"v{self.version}"
+        return "unreleased" if self.waits and self.entry is None else f"v{self.version}"
 
     @property
     def path(self) -> str:
@@ -248,7 +245,7 @@ def _age(version: VersionChanges) -> tuple[bool, tuple[int, ...]]:
     """Return what is the less the newer a version is; what is not released comes first."""
     number = Version.parse_or_none(version.version) or Version(0)
     parts = (number.major, number.minor, number.patch, *number.stage)
-    return version.is_released, tuple(-part for part in parts)
+    return not version.waits, tuple(-part for part in parts)
 
 
 def _verdict(verdict: Verdict) -> VerdictLine:
