@@ -55,7 +55,7 @@ def test_every_link_leads_somewhere(name: str, path: str) -> None:
 @pytest.mark.parametrize(("name", "path"), EVERY)
 def test_nothing_is_loaded_from_anywhere(name: str, path: str) -> None:
     page = reference(name).pages[path]
-    assert page.loads == []
+    assert [each for each in page.loads if not each.startswith("data:")] == []
     for text in [*page.styles, *(script for _, script in page.scripts)]:
         assert "http:" not in text
         assert "https:" not in text
@@ -74,7 +74,7 @@ def test_headings_are_in_order_and_landmarks_are_there(name: str, path: str) -> 
     for landmark in ("header", "main", "footer"):
         assert tags.count(landmark) == 1, landmark
     named = [given["aria-label"] for tag, given in page.tags if tag == "nav"]
-    assert named[0] == "Documentation"
+    assert "Documentation" in named
     assert len(named) == len(set(named))
 
 
@@ -235,7 +235,7 @@ def test_every_example_is_there_twice_and_can_be_copied(name: str, message: str)
     site = reference(name)
     for path in (f"messages/{message}.html", "examples.html"):
         page = site.pages[path]
-        copied = [given["data-copy"] for tag, given in page.tags if tag == "button"]
+        copied = [given["data-copy"] for _, given in page.tags if "data-copy" in given]
         for example in site.model.messages[message].message.examples:
             assert example.title in page.words
             assert to_hex(example.hex) in copied

@@ -2,44 +2,41 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from framegen.site.highlight import code_block
-from framegen.site.linked_files import file_address
 from framegen.site.markdown import parser, plain_text, slug
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from markdown_it.token import Token
 
-
-@dataclass(frozen=True, slots=True)
-class Heading:
-    """A heading below the title, with its anchor."""
-
-    level: int
-    id: str
-    text: str
+# Files outside the folder of the guides become pages in here.
+_OUTSIDE = "project"
+# Words of code that are longer may be broken, on a small display.
+_WHOLE = 24
 
 
 @dataclass(frozen=True)
 class Guide:
     """One file of Markdown, by its path below the folder of the guides.
 
-    `files` are those of the site, by path below its root: links to others become plain text.
+    `published` are the files that its links may lead to, with their pages; a link to any other
+    becomes its text.
     """
 
     path: str
     text: str
-    files: Collection[str] = ()
+    published: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def page(self) -> str:
@@ -47,74 +44,91 @@ class Guide:
         return page_of(self.path)
 
     @cached_property
-    def _tokens(self) -> list[Token]:
+    def tokens(self) -> list[Token]:
+        """All of it, with anchors on the headings, and links that lead to pages."""
         tokens = parser().parse(self.text)
         for before, token in pairwise(tokens):
             if before.type == "heading_open":
                 before.attrSet("id", slug(token.content))
-            _lead(token.children or [], self.files)
+            self._lead(token.children or [])
         return tokens
 
     @cached_property
     def title(self) -> str:
         """Its first heading, or else its name."""
-        return next((text for level, _, text in self._found_headings() if level == 1), self.path)
+        return next((text for tag, text in self._blocks() if tag == "h1"), self.path)
 
     @cached_property
-    def headings(self) -> list[Heading]:
-        """The headings of the second and third level, for a table of contents."""
-        return [
-            Heading(level, id_, text)
-            for level, id_, text in self._found_headings()
-            if level in (2, 3)
-        ]
+    def about(self) -> str:
+        """Its first paragraph."""
+        return next((text for tag, text in self._blocks() if tag == "p"), "")
 
     @cached_property
     def body(self) -> Markup:
-        """All of it as HTML, the title included; markdown-it has escaped what it says."""
-        markdown = parser()
-        markdown.add_render_rule("fence", _fence)
-        body = str(markdown.renderer.render(self._tokens, markdown.options, {}))
-        # Tables scroll in boxes of their own, which the keyboard reaches.
-        body = body.replace("<table>", '<div class="scroll" tabindex="0"><table>')
-        return Markup(body.replace("</table>", "</table></div>"))  # noqa: S704 - escaped
+        """All of it as HTML, the title included."""
+        return rendered(self.tokens)
 
-    def _found_headings(self) -> Iterator[tuple[int, str, str]]:
-        for before, token in pairwise(self._tokens):
-            if before.type == "heading_open":
-                yield int(before.tag[1:]), str(before.attrGet("id")), plain_text(token)
+    def _blocks(self) -> Iterator[tuple[str, str]]:
+        for before, token in pairwise(self.tokens):
+            if before.type in ("heading_open", "paragraph_open"):
+                yield before.tag, plain_text(token)
+
+    def _lead(self, tokens: Sequence[Token]) -> None:
+        plain = False
+        for token in tokens:
+            if token.type == "image":
+                token.attrSet("src", self._address(str(token.attrGet("src"))) or "")
+            if token.type == "link_open":
+                address = self._address(str(token.attrGet("href")))
+                plain = address is None
+                token.attrs = {} if address is None else {"href": address}
+            if plain and token.type in ("link_open", "link_close"):
+                token.tag = "span"
+
+    def _address(self, link: str) -> str | None:
+        path, mark, anchor = link.partition("#")
+        if re.match(r"[a-z]+:", path) or not path:
+            return link
+        file = posixpath.normpath(posixpath.join(posixpath.dirname(self.path), path))
+        page = self.published.get(file)
+        return None if page is None else f"{'../' * self.page.count('/')}{page}{mark}{anchor}"
 
 
 def page_of(path: str) -> str:
-    """Return the page that a Markdown file becomes."""
+    """Return the page that a Markdown file becomes, by its path below the guides."""
+    steps = PurePosixPath(path)
+    if steps.parts[0] == "..":
+        stem = steps.parent.name if steps.name == "README.md" else steps.stem
+        return f"{_OUTSIDE}/{stem.lower() if stem != '..' else 'readme'}.html"
     stem = path.removesuffix(".md")
     return f"{stem.removesuffix('README')}index.html" if stem.endswith("README") else f"{stem}.html"
 
 
+def rendered(tokens: Sequence[Token]) -> Markup:
+    """Return Markdown as HTML; markdown-it has escaped what it says."""
+    markdown = parser()
+    for rule in (_fence, _code_block, _code_inline):
+        markdown.add_render_rule(rule.__name__.removeprefix("_"), rule)
+    body = str(markdown.renderer.render(tokens, markdown.options, {}))
+    # Tables scroll in boxes of their own, which the keyboard reaches.
+    body = body.replace("<table>", '<div class="scroll" tabindex="0"><table>')
+    return Markup(body.replace("</table>", "</table></div>"))  # noqa: S704 - escaped
+
+
 def _fence(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -> str:
-    token = tokens[index]
-    return str(code_block(token.content, token.info.strip()))
+    return str(code_block(tokens[index].content, tokens[index].info.strip()))
 
 
-def _lead(tokens: Sequence[Token], files: Collection[str]) -> None:
-    """Make links lead to pages; those to files that are not published become plain text."""
-    plain = False
-    for token in tokens:
-        if token.type == "link_open":
-            address = _address(str(token.attrGet("href")), files)
-            plain = address is None
-            token.attrs = {} if address is None else {"href": address}
-        if plain and token.type in ("link_open", "link_close"):
-            token.tag = "span"
+def _code_block(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -> str:
+    return str(code_block(tokens[index].content))
 
 
-def _address(link: str, files: Collection[str]) -> str | None:
-    path, mark, anchor = link.partition("#")
-    if re.match(r"[a-z]+:", path) or not path:
-        return link
-    steps = PurePosixPath(path)
-    if path.startswith("../"):
-        if steps.parts[1] == "spec":
-            return f"reference/{steps.stem}/spec.html"
-        return file_address(path, files)
-    return page_of(steps.as_posix()) + mark + anchor
+def _code_inline(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -> str:
+    """Keep words with a hyphen, such as `--all`, from being broken there."""
+    words = [
+        Markup('<span class="word">{}</span>').format(word)
+        if "-" in word and len(word) <= _WHOLE
+        else escape(word)
+        for word in tokens[index].content.split(" ")
+    ]
+    return f"<code>{' '.join(words)}</code>"

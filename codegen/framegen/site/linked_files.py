@@ -13,7 +13,7 @@ from framegen.reading.yamltree import Unusable
 from framegen.site.markdown import parse
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
 # Below the root of the site.
@@ -39,10 +39,14 @@ def linked_files(guides: Mapping[str, str], docs: Path) -> dict[str, bytes]:
     return found
 
 
-def file_address(link: str, files: Collection[str]) -> str | None:
-    """Return where a link of a guide leads to, if it is one of the files of the site."""
-    path = f"{FOLDER}/{link.removeprefix('../')}"
-    return path if link.startswith("../") and unquote(path) in files else None
+def is_linked(path: str) -> bool:
+    """Tell whether a file of the site is one that guides link to."""
+    return path.startswith(f"{FOLDER}/")
+
+
+def link_to(path: str) -> str:
+    """Return the path of such a file from the folder of the guides, as they link to it."""
+    return f"../{path.removeprefix(f'{FOLDER}/')}"
 
 
 def _links(text: str) -> Iterator[PurePosixPath]:

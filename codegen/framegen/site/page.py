@@ -15,8 +15,8 @@ class Page:
 
     `label` stands in the navigation, `about` in search results and previews. `folder` is the root
     of the reference that it belongs to, if it does to any. Each of `scripts` is made of files,
-    and `context` is what the template gets besides. `canonical` is the path of the page that stands
-    for this one in search engines, as the newest edition does for older ones; "" for itself.
+    and comes after the script of every page; `context` is what the template gets besides.
+    `canonical` is the path of the page that stands for this one in search engines, if another does.
     """
 
     path: str
@@ -25,9 +25,14 @@ class Page:
     label: str
     about: str
     folder: str = ""
-    scripts: tuple[tuple[str, ...], ...] = (("page",),)
+    scripts: tuple[tuple[str, ...], ...] = ()
     context: Mapping[str, Any] = field(default_factory=dict)
     canonical: str = ""
+
+    @property
+    def address(self) -> str:
+        """The path of the page that stands for it, from the root of the site."""
+        return self.canonical or self.path
 
     @property
     def top(self) -> str:

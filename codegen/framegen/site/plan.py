@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from framegen.site.markdown import parse, plain_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from markdown_it.token import Token
 
@@ -83,6 +83,16 @@ class Plan:
                     about = f"{about} {plain_text(token)}".strip()
         return [*found, Section(title, about, tuple(entries))] if entries else found
 
+    @cached_property
+    def rest(self) -> str:
+        """The sections that have no list of links, in Markdown."""
+        listed = {section.title for section in self.sections}
+        found = re.split(r"^(?=## )", self.readme, flags=re.MULTILINE)[1:]
+        titles = [each.partition("\n")[0].removeprefix("## ").strip() for each in found]
+        return "".join(
+            text for title, text in zip(titles, found, strict=True) if title not in listed
+        )
+
     def _headings(self) -> Iterator[tuple[str, Token]]:
         for before, token in zip(self._tokens, self._tokens[1:], strict=False):
             if before.type == "heading_open":
@@ -98,4 +108,13 @@ def _entry(item: Token) -> Iterator[Entry]:
         rest = "".join(
             " " if "break" in each.type else each.content for each in children[end + 1 :]
         )
-        yield Entry(str(children[0].attrGet("href")), label, rest.lstrip(": ").strip())
+        yield Entry(str(children[0].attrGet("href")), label, _sentence(rest, children[end + 1 :]))
+
+
+def _sentence(text: str, tokens: Sequence[Token]) -> str:
+    """Return what follows a link and a colon as a sentence, but leave code as it is."""
+    text = text.lstrip(": ").strip()
+    begins = next((each for each in tokens if each.content.strip(": ")), None)
+    if begins is None or begins.type == "code_inline":
+        return text
+    return text[:1].upper() + text[1:]

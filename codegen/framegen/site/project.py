@@ -2,80 +2,81 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from framegen.comparison.listing import edition_of, released
 from framegen.console import visible
-from framegen.language.load import read_source
 from framegen.reading.yamltree import Unusable
 from framegen.site.linked_files import linked_files
+from framegen.site.plan import README, Plan
+from framegen.site.released import read_released
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
     from framegen.comparison.edition import Edition
     from framegen.compile import Compiled
 
-_KEPT = "a released edition stays as it was: take it from the history of the project again"
+_VERSION = re.compile(r'^version *= *"([^"]+)"', re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
 class Project:
     """The specs of a site, its guides in Markdown by path, and other files that these show.
 
-    `base` is the address where the site will be, for links that must be whole; "" where nobody
-    knows it. `released` are the released editions of each protocol, the newest first.
+    Paths are below the folder of the guides. `base` is the address where the site will be, for
+    links that must be whole; "" where nobody knows it. `version` is that of the project, if it
+    has any. `released` are the released editions of each protocol, the newest first.
     """
 
     specs: Sequence[Compiled]
     guides: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, bytes] = field(default_factory=dict)
     base: str = ""
+    version: str = ""
     released: Mapping[str, Sequence[Edition]] = field(default_factory=dict)
 
 
 def read_project(
     specs: Mapping[Path, Compiled], docs: Path | None = None, base: str = ""
 ) -> Project:
-    """Read the released editions of specs, by file, and the guides below a folder.
+    """Read what was released of specs, by their files, and the guides below a folder.
 
-    With the guides come their pictures, and the files beside them that they link to. Raises
-    Unusable, with the name of the file.
+    With the guides come others that their README lists, the pictures in them, and the files that
+    they link to. Raises Unusable, with the name of the file.
     """
-    editions = {
-        each.spec.protocol.name: read_released(file, each.spec.protocol.name)
-        for file, each in specs.items()
-    }
-    guides, files = ({}, {}) if docs is None else _read_guides(docs)
-    return Project([*specs.values()], guides, files, base, editions)
-
-
-def read_released(spec: Path, name: str) -> list[Edition]:
-    """Read the released editions of a protocol, the newest first. Raises Unusable."""
-    return [_read_edition(file) for file in released(spec.parent, name)]
-
-
-def _read_edition(file: Path) -> Edition:
-    source = read_source(file)
-    edition = edition_of(source)
-    said = f"{edition.spec.protocol.name}-{edition.version}"
-    if said != file.stem:
-        raise Unusable(
-            f"{source.name} says that it is {visible(said)}, and its name is {visible(file.stem)}",
-            hint=_KEPT,
-        )
-    return edition
-
-
-def _read_guides(docs: Path) -> tuple[dict[str, str], dict[str, bytes]]:
+    names = {file: compiled.spec.protocol.name for file, compiled in specs.items()}
+    editions = {name: read_released(file, name) for file, name in names.items()}
+    if docs is None:
+        return Project([*specs.values()], base=base, released=editions)
     guides = {file.name: _text(file) for file in sorted(docs.glob("*.md"))}
-    pictures = {
+    guides |= _listed(docs, Plan(guides[README]))
+    files = {
         file.relative_to(docs).as_posix(): file.read_bytes()
         for file in sorted((docs / "images").glob("*"))
     }
-    return guides, pictures | linked_files(guides, docs)
+    files |= linked_files(guides, docs)
+    return Project([*specs.values()], guides, files, base, _version(docs.parent), editions)
+
+
+def _listed(docs: Path, plan: Plan) -> Iterator[tuple[str, str]]:
+    """Yield what the plan lists of the project beside its guides, such as ../CHANGELOG.md."""
+    root = docs.parent.resolve()
+    for section in plan.sections:
+        for entry in section.entries:
+            file = (docs / entry.link).resolve()
+            outside = entry.link.startswith("../") and entry.link.endswith(".md")
+            if outside and file.is_file() and file.is_relative_to(root):
+                yield entry.link, _text(file)
+
+
+def _version(root: Path) -> str:
+    """Return the version of a Python project, which pyproject.toml has; "" for any other."""
+    file = root / "pyproject.toml"
+    found = _VERSION.search(file.read_text(encoding="utf-8")) if file.is_file() else None
+    return "" if found is None else found[1]
 
 
 def _text(file: Path) -> str:

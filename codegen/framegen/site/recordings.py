@@ -10,7 +10,7 @@ from framegen.audit.audit import audit
 from framegen.audit.recording import read_recording
 from framegen.audit.report import summary
 from framegen.reading.yamltree import Unusable
-from framegen.site.linked_files import FOLDER
+from framegen.site.linked_files import is_linked
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -45,7 +45,7 @@ def recordings_of(model: Model, files: Mapping[str, bytes]) -> list[RecordingFil
     """Return the files that are mostly messages of a protocol."""
     found: list[RecordingFile] = []
     for path, content in files.items():
-        said = _summary(model, path, content) if path.startswith(f"{FOLDER}/") else ""
+        said = _summary(model, path, content) if is_linked(path) else ""
         if said:
             about = PurePosixPath(path).with_suffix(".md").as_posix()
             found.append(RecordingFile(path, len(content), said, about if about in files else ""))

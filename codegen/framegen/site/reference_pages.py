@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.downloads import Downloads
 from framegen.site.escape import script_json
 from framegen.site.page import Page
@@ -13,35 +14,61 @@ from framegen.site.spec_listing import listing
 from framegen.site.what_changed import what_changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from framegen.comparison.edition import Edition
     from framegen.site.project import Project
     from framegen.site.shelf import Shelf
-    from framegen.targets.docs.reference import PageView, ReferenceView
 
-# The scripts of a page by its template; all others have the first alone.
-_PAGE = (("page",),)
-_NONE: tuple[tuple[str, ...], ...] = ()
+# The files of the workbench, in the order in which they are joined.
+_WORKBENCH = (
+    "elements",
+    "columns",
+    "capture_place",
+    "hex_text",
+    "code_text",
+    "line_text",
+    "csv_text",
+    "capture_text",
+    "capture",
+    "notation",
+    "event_words",
+    "virtual_list",
+    "workbench_input",
+    "workbench_export",
+    "workbench_address",
+    "workbench_detail",
+    "workbench_list",
+    "stub",
+    "workbench_encode",
+    "workbench",
+)
 
 
 class ReferencePages:
-    """The reference of one edition; `rules` are the pages about kinds of changes, by their rule."""
+    """The reference of one edition, below `folder`, which ends with a slash."""
 
     def __init__(
-        self, shelf: Shelf, edition: Edition, project: Project, rules: Mapping[str, str]
+        self,
+        shelf: Shelf,
+        edition: Edition,
+        project: Project,
+        rules: Callable[[], Mapping[str, str]],
     ) -> None:
         """Take what is to be shown, and what stands beside it."""
         self.shelf = shelf
         self.edition = edition
+        self.reference = shelf.views[edition]
         self.folder = shelf.root(edition)
         self.downloads = Downloads(self.reference, project.files)
         self._rules = rules
 
     @property
-    def reference(self) -> ReferenceView:
-        """What the pages show."""
-        return self.shelf.views[self.edition]
+    def full_title(self) -> str:
+        """The title of the protocol, and the version where that is not the newest."""
+        title = self.reference.protocol.title
+        is_newest = self.edition is self.shelf.versions.newest
+        return title if is_newest else f"{title} {self.edition.version}"
 
     @property
     def files(self) -> dict[str, str]:
@@ -69,26 +96,25 @@ class ReferencePages:
                     "reference": reference,
                     "message": view.message,
                     "edition": notice,
-                    **self._data(view),
+                    **self._data(view.template),
                 },
                 canonical=notice.canonical,
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
-            return _NONE if template == "spec" else _PAGE
-        proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("page",), ("decoder",))
+            return ()
+        return (codec_scripts(self.reference.model), _WORKBENCH)
 
-    def _data(self, view: PageView) -> dict[str, object]:
-        match view.template:
+    def _data(self, template: str) -> dict[str, object]:
+        match template:
             case "decoder":
                 return {"data": script_json(protocol_data(self.reference.model))}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}
             case "changelog":
-                return {"versions": what_changed(self.shelf, self.edition, self._rules)}
+                return {"versions": what_changed(self.shelf, self.edition, self._rules())}
             case "downloads":
                 return {"downloads": self.downloads}
             case _:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from framegen.comparison.changes import CHANGE_RULES
@@ -21,9 +22,9 @@ def rule_pages(guides: Sequence[Guide]) -> dict[str, str]:
     """
     for guide in guides:
         found = {
-            heading.text: f"{guide.page}#{heading.id}"
-            for heading in guide.headings
-            if heading.text in _RULES
+            inside.content: f"{guide.page}#{before.attrGet('id')}"
+            for before, inside in pairwise(guide.tokens)
+            if before.type == "heading_open" and inside.content in _RULES
         }
         if len(found) > len(_RULES) / 2:
             return found

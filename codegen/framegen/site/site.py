@@ -2,42 +2,50 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framegen import __version__
 from framegen.output import banner
 from framegen.site.downloads import size_in_words
 from framegen.site.escape import anchor, linked, said
-from framegen.site.guide import Guide
+from framegen.site.guide import Guide, page_of
+from framegen.site.headings import headings, with_permalinks
+from framegen.site.highlight import code_block
+from framegen.site.home import Introduction, specimen
+from framegen.site.linked_files import is_linked, link_to
+from framegen.site.mark import icon, mark
 from framegen.site.page import Page
-from framegen.site.plan import README, Plan, Section
+from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
-from framegen.site.reference_pages import ReferencePages
+from framegen.site.references import References
 from framegen.site.rule_pages import rule_pages
-from framegen.site.shelf import Shelf, kept_page, shelf_of
-from framegen.site.sidebar import Group, Link, SidebarSection
-from framegen.site.versions import blaming
+from framegen.site.sidebar import Group, Link, Messages, SidebarSection
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from jinja2 import Environment
+    from markupsafe import Markup
 
-    from framegen.comparison.edition import Edition
     from framegen.site.project import Project
+    from framegen.site.reference_pages import ReferencePages
     from framegen.targets.target import Snippets
 
 _HERE = Path(__file__).parent
+_PREVIEW = "images/preview.png"
+# The script of every page, before its own.
+COMMON = ("page", "clipboard", "tabs")
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
-    return {page.path: _rendered(site, page) for page in site.pages} | site.files
+    pages = {page.path: _rendered(site, page) for page in site.pages}
+    return pages | site.collection.files
 
 
 @dataclass(frozen=True)
@@ -58,60 +66,76 @@ class Site:
         """What the site is called."""
         return "Reference" if self.plan is None else self.plan.title
 
-    @cached_property
-    def shelves(self) -> list[Shelf]:
-        """The editions of each protocol."""
-        return [
-            shelf_of(spec, self.project.released.get(spec.spec.protocol.name, ()), self.snippets)
-            for spec in self.project.specs
-        ]
+    @property
+    def generator(self) -> str:
+        """The version of framegen."""
+        return __version__
+
+    @property
+    def mark(self) -> Markup:
+        """The mark beside the title."""
+        return mark()
+
+    @property
+    def icon(self) -> str:
+        """The icon of all pages."""
+        return icon()
+
+    @property
+    def preview(self) -> str:
+        """The picture that stands for the site elsewhere, if it has one."""
+        return _PREVIEW if _PREVIEW in self.project.files else ""
+
+    def full_title(self, page: Page) -> str:
+        """Return the title of a page with that of the site, or of the reference it belongs to."""
+        reference = self.collection.of(page)
+        name = "" if reference is None else reference.full_title
+        whole = name if name not in ("", page.title) else self.title
+        return page.title if page.title == whole else f"{page.title} \u2013 {whole}"
 
     @cached_property
+    def collection(self) -> References:
+        """The references of all editions."""
+        return References(self.project, self.snippets, lambda: rule_pages(self.guides))
+
+    @property
     def references(self) -> list[ReferencePages]:
         """The reference of each protocol, as it is now."""
-        return [self._reference(shelf, shelf.versions.newest) for shelf in self.shelves]
-
-    @contextmanager
-    def blaming(self, page: Page) -> Iterator[None]:
-        """Say which older edition it is whose page goes wrong, if it is one of these."""
-        older = next((each for each in self.older if each.folder == page.folder), None)
-        with nullcontext() if older is None else blaming(older.edition):
-            yield
-
-    @cached_property
-    def older(self) -> list[ReferencePages]:
-        """The references of older editions, which the navigation leaves out."""
-        return [
-            self._reference(shelf, edition)
-            for shelf in self.shelves
-            for edition in shelf.versions.older
-        ]
-
-    def _reference(self, shelf: Shelf, edition: Edition) -> ReferencePages:
-        return ReferencePages(shelf, edition, self.project, self._rules)
-
-    @cached_property
-    def _rules(self) -> dict[str, str]:
-        return rule_pages(self.guides)
-
-    @cached_property
-    def files(self) -> dict[str, str]:
-        """The texts that are no pages, by path below the root of the site."""
-        found = {path: text for each in self.references for path, text in each.files.items()}
-        for each in self.older:
-            with blaming(each.edition):
-                found |= each.files
-        return found
+        return self.collection.newest
 
     @cached_property
     def guides(self) -> list[Guide]:
         """The guides, those of the plan first and in its order."""
-        order = [entry.link for section in self._sections for entry in section.entries]
-        files = self.project.files
-        texts = self.project.guides.items()
-        found = [Guide(path, text, files) for path, text in texts if path != README]
-        places = {path: place for place, path in enumerate(order)}
+        found = [
+            Guide(path, text, self._published)
+            for path, text in self.project.guides.items()
+            if path != README
+        ]
+        places = {path: place for place, path in enumerate(self._entries)}
         return sorted(found, key=lambda guide: places.get(guide.path, len(places)))
+
+    @cached_property
+    def _published(self) -> dict[str, str]:
+        """What a link of a guide may lead to: files by path below the guides, and their pages."""
+        found = {path: path for path in self.project.files}
+        found |= {link_to(path): path for path in self.project.files if is_linked(path)}
+        found |= {path: page_of(path) for path in self.project.guides}
+        for pages in self.references:
+            view, above = pages.reference, f"reference/{pages.reference.folder}/"
+            found |= {
+                f"{above}{each.markdown}": f"{pages.folder}{each.html}" for each in view.pages
+            }
+            found |= {
+                f"{above}{each.markdown}": f"{pages.folder}{each.html}"
+                for each in view.message_pages
+            }
+            found[f"../{view.spec}"] = f"{pages.folder}spec.html"
+        return found
+
+    @cached_property
+    def _entries(self) -> dict[str, Entry]:
+        """What the plan says of each guide and reference, by link."""
+        return {entry.link: entry for section in self._sections for entry in section.entries}
 
     @property
     def _sections(self) -> list[Section]:
@@ -120,27 +144,43 @@ class Site:
     @cached_property
     def sidebar(self) -> list[SidebarSection]:
         """The sections of the plan, with what they list; what it does not list comes last."""
-        guides = {guide.path: guide for guide in self.guides}
+        guides = {guide.path: self._link(guide) for guide in self.guides}
         groups = {each.reference.folder: self._group(each) for each in self.references}
         found: list[SidebarSection] = []
         for section in self._sections:
             listed = [guides.pop(entry.link, None) for entry in section.entries]
             named = [groups.pop(entry.protocol, None) for entry in section.entries]
-            links = [Link(guide.page, guide.title) for guide in listed if guide is not None]
+            links = [link for link in listed if link is not None]
             shown = [group for group in named if group is not None]
             found.append(SidebarSection(section.title, section.about, (*links,), (*shown,)))
-        rest = [Link(guide.page, guide.title) for guide in guides.values()]
-        if rest or groups:
+        if guides or groups:
             title = "More" if found else "Reference"
-            found.append(SidebarSection(title, "", (*rest,), (*groups.values(),)))
+            found.append(SidebarSection(title, "", (*guides.values(),), (*groups.values(),)))
         return found
 
-    @staticmethod
-    def _group(pages: ReferencePages) -> Group:
-        protocol = pages.reference.protocol
-        links = [Link(page.path, page.label) for page in pages.pages]
-        end = len(pages.reference.pages)
-        return Group(protocol.title, links[0].path, (*links[:end],), (*links[end:],))
+    def _link(self, guide: Guide) -> Link:
+        entry = self._entries.get(guide.path)
+        if entry is None:
+            return Link(guide.page, guide.title, guide.about)
+        return Link(guide.page, entry.label, entry.about)
+
+    def _group(self, pages: ReferencePages) -> Group:
+        view = pages.reference
+        entry = self._entries.get(f"reference/{view.folder}/README.md")
+        title, about = (
+            (view.protocol.title, view.protocol.summary)
+            if entry is None
+            else (entry.label, entry.about)
+        )
+        links = [Link(page.path, page.label, page.about) for page in pages.pages]
+        end = len(view.pages)
+        by_way = {way: list[Link]() for way in view.ways}
+        for message, link in zip(view.messages, links[end:], strict=True):
+            by_way[message.way].append(link)
+        messages = [Messages(way, (*each,)) for way, each in by_way.items() if each]
+        return Group(
+            title, about, view.protocol.version, links[0].path, (*links[:end],), (*messages,)
+        )
 
     @cached_property
     def pages(self) -> list[Page]:
@@ -148,17 +188,33 @@ class Site:
         return list(self._made())
 
     def _made(self) -> Iterator[Page]:
-        yield Page("index.html", "home", self.title, "Home", self.title)
+        yield Page("index.html", "home", self.title, "Home", self._about, context=self._home)
         for guide in self.guides:
-            yield Page(guide.page, "guide", guide.title, guide.title, "", context={"guide": guide})
-        for reference in self.references:
-            yield from reference.pages
-        for older in self.older:
-            with blaming(older.edition):
-                pages = older.pages
-            yield from pages
-        for shelf in self.shelves:
-            yield from kept_page(shelf)
+            link = self._link(guide)
+            yield Page(
+                guide.page, "guide", guide.title, link.label, link.about, context={"guide": guide}
+            )
+        yield from self.collection.pages
+
+    @property
+    def _about(self) -> str:
+        """The first paragraph of the introduction; without one, what the references are of."""
+        if self.plan is not None:
+            return Guide(README, self.plan.introduction).about
+        titles = [each.reference.protocol.title for each in self.references]
+        return f"The reference of {', '.join(titles)}: every message, byte by byte."
+
+    @property
+    def _home(self) -> dict[str, object]:
+        plan = self.plan
+        first = next(
+            (group.path for section in self.sidebar for group in section.groups), "index.html"
+        )
+        shown = [specimen(each) for each in self.references if first.startswith(each.folder)]
+        return {
+            "introduction": None if plan is None else Introduction(plan, self._published),
+            "specimen": next(iter(shown), None),
+        }
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
@@ -171,19 +227,32 @@ class Site:
 
     @cached_property
     def _order(self) -> dict[str, Link]:
-        found = [
-            link
-            for section in self.sidebar
-            for link in (
-                *section.links,
-                *(each for group in section.groups for each in (*group.links, *group.messages)),
-            )
-        ]
-        return {link.path: link for link in found}
+        return {link.path: link for section in self.sidebar for link in section.every_link}
+
+    def trail(self, page: Page) -> list[Link]:
+        """Return the links that lead from home to a page, which is not among them."""
+        home = Link("index.html", "Home")
+        for section in self.sidebar:
+            if section.holds(page):
+                groups = [group for group in section.groups if group.holds(page)]
+                above = [Link(group.path, group.title) for group in groups]
+                here = Link(f"index.html#{section.id}", section.title)
+                return [home, here, *(link for link in above if link.path != page.path)]
+        return [] if page.path == home.path else [home, *self._trail_of_older(page)]
+
+    def _trail_of_older(self, page: Page) -> Iterator[Link]:
+        reference = self.collection.of(page)
+        if reference is not None:
+            newest, title = reference.shelf.folder, reference.reference.protocol.title
+            yield Link(f"{newest}index.html", title)
+            yield Link(f"{newest}changelog.html", "Versions")
+            start = f"{reference.folder}index.html"
+            if start != page.path:
+                yield Link(start, reference.edition.version)
 
 
 def _rendered(site: Site, page: Page) -> str:
-    with site.blaming(page):
+    with site.collection.blaming(page):
         return _filled(site, page)
 
 
@@ -202,7 +271,7 @@ def _filled(site: Site, page: Page) -> str:
                 "before": before,
                 "after": after,
                 "banner": banner("" if reference is None else reference.spec),
-                "assets": assets(page.scripts),
+                "assets": assets([COMMON, *page.scripts]),
                 **page.context,
             }
         )
@@ -212,5 +281,13 @@ def _filled(site: Site, page: Page) -> str:
 @cache
 def _environment() -> Environment:
     made = environment(_HERE / "templates", "html", autoescape=True)
-    made.filters |= {"anchor": anchor, "bytes": size_in_words, "linked": linked, "said": said}
+    made.filters |= {
+        "anchor": anchor,
+        "bytes": size_in_words,
+        "code": code_block,
+        "headings": headings,
+        "linked": linked,
+        "said": said,
+        "with_permalinks": with_permalinks,
+    }
     return made

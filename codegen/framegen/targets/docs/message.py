@@ -16,6 +16,7 @@ from framegen.targets.docs.examples import ExampleView, example_views
 from framegen.targets.docs.field import FieldView, field_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
+from framegen.targets.docs.way import Way, way
 
 if TYPE_CHECKING:
     from framegen.language.spec import Message
@@ -95,6 +96,11 @@ class MessagePage:
     def direction(self) -> str:
         """The sender and the receiver."""
         return f"{self.layout.direction.sender} to {self.layout.direction.receiver}"
+
+    @property
+    def way(self) -> Way:
+        """The direction, as it is shown."""
+        return way(self.model, self.layout.direction)
 
     @property
     def kind(self) -> str:

@@ -23,6 +23,7 @@ from framegen.targets.docs.timing import (
     round_trips,
     timings,
 )
+from framegen.targets.docs.way import Way, way
 from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
@@ -176,6 +177,11 @@ class ReferenceView:
         return [EnvelopeView(self.model, name) for name in self.model.envelopes]
 
     @property
+    def ways(self) -> list[Way]:
+        """The directions of its messages, as they are shown."""
+        return [way(self.model, direction) for direction in self.model.directions]
+
+    @property
     def id_name(self) -> str:
         """What identifies a message: `command`, say; or its name, where no one number does."""
         names = {part.name for frame in self.model.envelopes.values() for part in frame.ids}
@@ -302,9 +308,9 @@ class ReferenceView:
             PageView(
                 "decoder",
                 "decoder",
-                "Decoder and encoder",
-                "Decoder",
-                f"Decode bytes of the {title}, and make frames of values. Nothing leaves the page.",
+                "Workbench",
+                "Workbench",
+                f"Decode captures of the {title}, and make frames of values. Nothing leaves the page.",
                 in_markdown=False,
             ),
             PageView(

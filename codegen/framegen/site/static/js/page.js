@@ -1,32 +1,54 @@
-// What every page can do: copy bytes, and find a frame in the index.
+// What every page does once it is there.
 "use strict";
-
-async function copyText(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    // Where the clipboard is not to be had, an old way in through a field that holds the text.
-    const field = document.body.appendChild(document.createElement("textarea"));
-    field.value = text;
-    field.select();
-    document.execCommand("copy");
-    field.remove();
-  }
-}
-
-document.addEventListener("click", async (event) => {
-  const button = event.target.closest("button.copy");
-  if (!button) return;
-  await copyText(button.dataset.copy);
-  const label = button.textContent;
-  button.textContent = "Copied";
-  button.disabled = true;
-  setTimeout(() => { button.textContent = label; button.disabled = false; button.focus(); }, 900);
-});
 
 // What needs a script is hidden until there is one, and what stands in for it afterwards.
 for (const element of document.querySelectorAll("[data-script]")) element.hidden = false;
 for (const element of document.querySelectorAll("[data-no-script]")) element.hidden = true;
+
+// Say something to those who listen; the same words twice are two messages.
+function announce(text) {
+  const status = document.getElementById("announcement");
+  status.textContent = "";
+  setTimeout(() => { status.textContent = text; }, 50);
+}
+
+// The sidebar shows where one is, and does not move the page for that.
+{
+  const sidebar = document.getElementById("sidebar");
+  const here = sidebar?.querySelector("[aria-current]");
+  const show = () => {
+    const middle = (sidebar.clientHeight - here.offsetHeight) / 2;
+    const place = here.getBoundingClientRect().top - sidebar.getBoundingClientRect().top;
+    sidebar.scrollTop += place - middle;
+  };
+  if (here) {
+    show();
+    sidebar.addEventListener("toggle", show);
+  }
+}
+
+// The contents mark the part that is being read.
+{
+  const links = [...document.querySelectorAll(".contents a")];
+  const parts = links.map((link) => document.getElementById(decodeURIComponent(link.hash.slice(1))));
+  const mark = () => {
+    const above = parts.filter((part) => part?.getBoundingClientRect().top < innerHeight / 4);
+    const current = parts.lastIndexOf(above[above.length - 1]);
+    links.forEach((link, at) => {
+      if (at === current) link.setAttribute("aria-current", "location");
+      else link.removeAttribute("aria-current");
+    });
+  };
+  if (links.length) {
+    let waiting = false;
+    addEventListener("scroll", () => {
+      if (waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => { waiting = false; mark(); });
+    }, { passive: true });
+    mark();
+  }
+}
 
 const searchField = document.getElementById("search");
 if (searchField) {
