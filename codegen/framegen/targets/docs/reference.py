@@ -352,9 +352,9 @@ class ReferenceView:
             PageView(
                 "changelog",
                 "changelog",
-                "Changelog",
-                "Changelog",
-                f"What changed from version to version of the {title}.",
+                "Versions and changes",
+                "Versions",
+                f"What changed from version to version of the {title}, and what that breaks.",
             ),
             PageView(
                 "downloads",
