@@ -34,7 +34,7 @@ def guides(site: dict[str, Page]) -> dict[str, Page]:
 
 def test_every_guide_is_a_page(site: dict[str, Page]) -> None:
     names = {file.stem for file in (ROOT / "docs").glob("*.md")} - {"README"}
-    assert {path.removesuffix(".html") for path in guides(site)} - {"index"} == names
+    assert {path.removesuffix(".html") for path in guides(site)} - {"index", "search"} == names
     assert {"index.html", "reference/busservo/index.html"} <= site.keys()
 
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from framegen.model.slots import Field, Slot
 
 # The reasons for which bytes are no frame, by what the script calls them.
-_REASONS = {
+REASONS = {
     "tooShort": refusals.TOO_SHORT,
     "trailing": refusals.TRAILING_BYTES,
     "header": refusals.BAD_HEADER,
@@ -52,7 +52,7 @@ def protocol_data(model: Model, messages: Collection[str] | None = None) -> dict
     return {
         "name": model.spec.protocol.name,
         "title": model.spec.protocol.title,
-        "reasons": _REASONS,
+        "reasons": REASONS,
         "directions": [_direction(model, way) for way in model.directions],
         # Empty where any byte may begin a frame.
         "begins": sorted(model.first_bytes) if len(model.first_bytes) < _ANY_BYTE else [],
@@ -104,7 +104,7 @@ def _said(model: Model, name: str) -> dict[str, Any]:
         "means": {"length": formula, "id": named(plain)},
         "lengths": describe_range(plain.lengths),
         "facts": [*facts(model.plain, plain, b"")],
-        "frames": [
+        "documented": [
             {"hex": example["hex"], "text": example_in_words(example)}
             for example in plain.said["examples"]
         ],

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from framegen import __version__
 from framegen.output import banner
 from framegen.site.downloads import size_in_words
-from framegen.site.escape import anchor, linked, said
+from framegen.site.escape import anchor, linked, said, script_json
 from framegen.site.guide import Guide, page_of
 from framegen.site.headings import headings, with_permalinks
 from framegen.site.highlight import code_block
@@ -22,6 +22,7 @@ from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
 from framegen.site.references import References
 from framegen.site.rule_pages import rule_pages
+from framegen.site.search.index import SearchIndex
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
 from framegen.targets.templates import environment
 
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 _HERE = Path(__file__).parent
 _PREVIEW = "images/preview.png"
 # The script of every page, before its own.
-COMMON = ("page", "clipboard", "tabs")
+COMMON = ("page", "clipboard", "tabs", "search_box")
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
@@ -195,6 +196,19 @@ class Site:
                 guide.page, "guide", guide.title, link.label, link.about, context={"guide": guide}
             )
         yield from self.collection.pages
+        yield self._search_page()
+
+    def _search_page(self) -> Page:
+        about = f"Search {self.title}: names, ids, words and bytes, without a network."
+        scripts = (("checksums", "codec"), ("ranking", "bytes_found"), ("search",))
+        context = {"data": script_json(self.search.data)}
+        return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
+
+    @cached_property
+    def search(self) -> SearchIndex:
+        """All that can be found."""
+        abouts = {link: entry.about for link, entry in self._entries.items()}
+        return SearchIndex(self.references, self.guides, abouts)
 
     @property
     def _about(self) -> str:

@@ -228,20 +228,3 @@ class MessagePage:
     def drawing(self) -> Drawing | None:
         """The sequence diagram of what follows it."""
         return drawing(self.model, self.name)
-
-    @property
-    def words(self) -> str:
-        """The words that a search finds it by, in lower case."""
-        names = [field.path.replace("[i]", "") for field in self.fields]
-        return " ".join(
-            [self.name, self.said.vendor_name, self.kind, self.direction, *names]
-        ).lower()
-
-    @property
-    def id_spellings(self) -> str:
-        """The ids as people may write them in a search."""
-        spellings: list[str] = []
-        for each in self.ids:
-            digits = each.hex.removeprefix("0x").lower()
-            spellings += [str(each.number), digits, f"0x{digits}", f"0x{each.number:x}"]
-        return " ".join(dict.fromkeys(spellings))

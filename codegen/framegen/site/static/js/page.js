@@ -49,19 +49,3 @@ function announce(text) {
     mark();
   }
 }
-
-const searchField = document.getElementById("search");
-if (searchField) {
-  const rows = [...document.querySelectorAll("[data-words]")];
-  const search = () => {
-    const words = searchField.value.toLowerCase().split(/\s+/).filter(Boolean);
-    for (const row of rows) {
-      const ids = row.dataset.ids.split(" ");
-      row.hidden = !words.every((word) => row.dataset.words.includes(word) || ids.includes(word));
-    }
-    const found = rows.filter((row) => !row.hidden).length;
-    document.getElementById("found").textContent = `${found} of ${rows.length} frames`;
-  };
-  searchField.addEventListener("input", search);
-  search();
-}

@@ -199,7 +199,8 @@ function makeVerdicts(layout) {
     const { covers, pieces } = slot;
     for (let i = 0; i < covers.length; i++) {
       if (!Array.isArray(covers[i])) {
-        pieces[i] = { unsent: writeNumber(envelope.ids[covers[i]], ids[covers[i]]) };
+        const id = ids[covers[i]];
+        pieces[i] = { unsent: id === undefined ? [] : writeNumber(envelope.ids[covers[i]], id) };
         continue;
       }
       const [start, end] = covers[i];

@@ -1,0 +1,69 @@
+"""What can be found in the guides: each of them, its sections, and the rows of its glossary."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from framegen.site.markdown import plain_text
+from framegen.site.search.entry import Entry
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from markdown_it.token import Token
+
+    from framegen.site.guide import Guide
+
+GLOSSARY = "Glossary"
+# The guide to words that lead to other places, and are found there.
+WORDS = "words.md"
+
+
+@dataclass(slots=True)
+class Section:
+    """A heading with the text below it, and with the rows of the tables there."""
+
+    id: str
+    title: str
+    text: list[str] = field(default_factory=list)
+    rows: list[list[Token]] = field(default_factory=list)
+
+
+def guide_entries(guide: Guide, abouts: Mapping[str, str]) -> Iterator[Entry]:
+    """Yield a guide, with what the plan says of it, and its sections."""
+    first, *others = sections(guide)
+    text = " ".join([abouts.get(guide.path, ""), *first.text])
+    yield Entry("guide", guide.title, guide.page, "Guide", text)
+    if guide.path == WORDS:
+        return
+    for section in others:
+        path = f"{guide.page}#{section.id}"
+        where = f"Section of {guide.title}"
+        yield Entry("guide", section.title, path, where, " ".join(section.text))
+        if section.title == GLOSSARY:
+            for term, *meaning in section.rows[1:]:
+                said = " ".join(plain_text(cell) for cell in meaning)
+                yield Entry("guide", plain_text(term), path, GLOSSARY, said)
+
+
+def sections(guide: Guide) -> list[Section]:
+    """Return what stands in front of the first section of a guide, and then each of them."""
+    found = [Section("", guide.title)]
+    before, level, heading = "", 0, ""
+    for token in guide.tokens:
+        if before == "heading_open":
+            if level > 1:
+                found.append(Section(heading, plain_text(token)))
+        elif token.type == "tr_open":
+            found[-1].rows.append([])
+        elif token.type == "inline":
+            found[-1].text.append(plain_text(token))
+            if before in ("td_open", "th_open"):
+                found[-1].rows[-1].append(token)
+        elif token.type in ("fence", "code_block"):
+            found[-1].text.append(token.content)
+        if token.type == "heading_open":
+            level, heading = int(token.tag[1]), str(token.attrGet("id"))
+        before = token.type
+    return found

@@ -1,0 +1,387 @@
+"""The search: what words, numbers and bytes find in the site of this project, best first."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from typing import Any
+
+import pytest
+from framegen.render import snippets
+from framegen.site.project import Project, read_project
+from framegen.site.search.entry import KINDS, Entry, spellings
+from framegen.site.search.words import with_words
+from framegen.site.site import Site, render_site
+
+from tests.docs.reference import NODE, ROOT
+from tests.docs.scripts import run_script
+from tests.factories import compiled_file
+
+needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
+
+
+@cache
+def project() -> Project:
+    specs = [compiled_file(ROOT / "spec" / f"{name}.yaml") for name in ("busservo", "lxservo")]
+    return read_project(specs, ROOT / "docs")
+
+
+@cache
+def index() -> dict[str, Any]:
+    data: dict[str, Any] = Site(project(), snippets()).search.data
+    return data
+
+
+def found(queries: list[str], filters: list[dict[str, str]] | None = None) -> list[dict[str, Any]]:
+    """Return what is found for each query: titles and places of hits, and what is said besides."""
+    program = """
+    const search = makeSearch(asked.index);
+    const answers = asked.queries.map((query, at) => {
+      const { hits, ...rest } = search.find(query, asked.filters[at] ?? {});
+      return { ...rest, titles: hits.map(({ entry }) => entry.title),
+        wheres: hits.map(({ entry }) => entry.where), paths: hits.map(({ entry }) => entry.path) };
+    });
+    """
+    asked = {"index": index(), "queries": queries, "filters": filters or []}
+    answers: list[dict[str, Any]] = run_script(["ranking"], program, asked)
+    return answers
+
+
+# What is found first, by query; where several are named, these, in any order.
+SEARCHES: dict[str, set[str]] = {
+    # Names, whole and in parts, however they are written.
+    "ServoMove": {"ServoMove"},
+    "servomov": {"ServoMove"},
+    "CMD_SERVO_MOVE": {"ServoMove"},
+    "GET_BATTERY_VOLT": {"BatteryVoltageRead", "BatteryVoltage"},
+    "battery": {"BatteryVoltageRead"},
+    "voltageread": {"VoltageRead"},
+    "targets.position": {"targets[i].position"},
+    "targets[i].position": {"targets[i].position"},
+    "move_servos": {"move_servos()"},
+    "move_servos(targets": {"move_servos()"},
+    "hold_servos": {"hold_servos()"},
+    "unlimited": {"unlimited"},
+    "unload": {"ServoUnload"},
+    "LX-16A": {"Servos without the controller", "LX-16A bus servo protocol"},
+    "lx16a": {"Servos without the controller", "LX-16A bus servo protocol"},
+    "erratum 3": {"The group of ActionGroupSpeed is called the number of a servo"},
+    # Numbers, in decimal and in hex.
+    "0x03": {"ServoMove"},
+    "0x0B": {"ActionGroupSpeed", "MoveStart"},
+    "11": {"ActionGroupSpeed", "MoveStart"},
+    "65535": {"absent"},
+    "0xFF": {"all"},
+    # The words of users, which no page of the reference has.
+    "limp": {"ServoUnload"},
+    "torque off": {"ServoUnload"},
+    "beep": {"Troubleshooting"},
+    "LED2": {"Troubleshooting"},
+    "permission denied": {"Troubleshooting"},
+    "echo": {"Servos without the controller"},
+    "baud rate": {"Hiwonder bus servo controller"},
+    "degrees": {"ServoMove"},
+    # Prose, sections and the glossary.
+    "unsolicited reply": {"unsolicited reply"},
+    "asks for the version": {"Asks for the version"},
+    "wheel mode": {"ModeWrite"},
+}
+
+
+@needs_node
+def test_searches_find_first() -> None:
+    for (query, names), answer in zip(SEARCHES.items(), found([*SEARCHES]), strict=True):
+        assert set(answer["titles"][: len(names)]) == names, query
+        assert not answer["loose"]
+
+
+@needs_node
+def test_every_entry_is_found_by_its_title_and_by_each_of_its_names() -> None:
+    entries = index()["entries"]
+    queries = sorted({name for each in entries for name in (each["title"], *each.get("names", []))})
+    program = """
+    const search = makeSearch(asked.index);
+    const numbers = (query) => search.find(query).hits.map(({ number }) => number);
+    const answers = asked.queries.map(numbers);
+    """
+    answers = run_script(["ranking"], program, {"index": index(), "queries": queries})
+    hits = dict(zip(queries, map(set, answers), strict=True))
+    for number, entry in enumerate(entries):
+        for name in (entry["title"], *entry.get("names", [])):
+            assert number in hits[name], (name, entry["where"])
+
+
+@needs_node
+def test_every_word_must_match_or_else_it_is_said() -> None:
+    both, neither, some = found(["battery erratum", "xyzzy", "battery xyzzy"])
+    assert both["titles"]
+    assert all("Erratum" in where for where in both["wheres"][:2])
+    assert not neither["titles"]
+    assert not neither["loose"]
+    assert some["loose"]
+    assert "BatteryVoltageRead" in some["titles"]
+
+
+@needs_node
+def test_what_is_between_quotes_must_stand_there_as_it_is() -> None:
+    phrase, curly, words, none = found(
+        ['"switch off the force"', "“switch off the force”", "force switch", '"force off the"']
+    )
+    assert phrase["titles"][0] == "ServoUnload"
+    assert curly["titles"] == phrase["titles"]
+    assert set(phrase["titles"]) < set(words["titles"])
+    assert not none["titles"]
+
+
+MISSPELLED = {
+    "batery": "battery",
+    "postion": "position",
+    "srevo": "servo",
+    "protocool": "protocol",
+    "troubelshooting": "troubleshooting",
+    "ActionGruopRun": "ActionGroupRun",
+    "batery voltage": "battery voltage",
+}
+
+
+@needs_node
+def test_words_with_a_slip_are_corrected() -> None:
+    for right, answer in zip(MISSPELLED.values(), found([*MISSPELLED]), strict=True):
+        assert answer["suggestions"][0] == right
+        assert not answer["titles"]
+    for answer in found([*MISSPELLED.values()]):
+        assert answer["titles"]
+        assert answer["suggestions"] == []
+    # Two slips are another word, and short words are too like each other.
+    assert [each["suggestions"] for each in found(["bttry", "qzx"])] == [[], []]
+
+
+@needs_node
+def test_hits_are_of_the_kind_and_the_protocol_that_are_asked_for() -> None:
+    filters = [{}, {"protocol": "lxservo"}, *({"kind": kind} for kind in KINDS)]
+    everything, bus, *kinds = found(["servo"] * len(filters), filters)
+    assert sum(everything["counts"].values()) == len(everything["titles"])
+    entries = {(each["title"], each["path"], each["where"]): each for each in index()["entries"]}
+    for kind, answer in zip(KINDS, kinds, strict=True):
+        assert len(answer["titles"]) == everything["counts"].get(kind, 0)
+        assert answer["counts"] == everything["counts"]
+    places = zip(bus["titles"], bus["paths"], bus["wheres"], strict=True)
+    assert {entries[place]["protocol"] for place in places} == {"lxservo"}
+
+
+# Pieces of a text, those that match in «».
+MARKED = {
+    ("Ask for the battery", "battery"): "Ask for the «battery»",
+    ("BatteryVoltageRead is a query", "voltage"): "«BatteryVoltageRead» is a query",
+    ("time_ms, not time", "timems"): "«time_ms», not time",
+    ("servos and a servo", "servos"): "«servos» and a «servo»",
+    ("<b>servo</b>", "servo"): "<b>«servo»</b>",
+    ("nothing", "servo"): "nothing",
+    ("", "servo"): "",
+}
+
+
+@needs_node
+def test_words_that_match_are_marked() -> None:
+    program = """
+    const answers = asked.map(([text, word]) => piecesOf(text, [word])
+      .map((piece) => (piece.hit ? `«${piece.text}»` : piece.text)).join(""));
+    """
+    assert run_script(["ranking"], program, [*MARKED]) == [*MARKED.values()]
+
+
+@needs_node
+def test_a_snippet_shows_the_words_and_is_part_of_the_text() -> None:
+    program = "const answers = asked.map(([text, words]) => snippetOf(text, words));"
+    texts = [(each["text"], ["reply"]) for each in index()["entries"] if "text" in each]
+    for (text, _), snippet in zip(texts, run_script(["ranking"], program, texts), strict=True):
+        assert len(snippet) <= 210
+        assert snippet.removeprefix("… ").removesuffix(" …").strip() in text
+        if "reply" in text.lower():
+            assert "repl" in snippet.lower()
+
+
+# ---------------------------------------------------------------------------- bytes
+
+
+def bytes_found(queries: list[str]) -> list[dict[str, Any]]:
+    program = """
+    const bytesSearch = makeBytesSearch(asked.index);
+    const answers = asked.queries.map((query) => {
+      const read = bytesIn(query);
+      if (!read || !read.bytes) return { read };
+      return { read: { ...read, bytes: Array.from(read.bytes) }, ...bytesSearch.find(read.bytes) };
+    });
+    """
+    scripts = ["checksums", "codec", "ranking", "bytes_found"]
+    answers: list[dict[str, Any]] = run_script(
+        scripts, program, {"index": index(), "queries": queries}
+    )
+    return answers
+
+
+SPELLED = [
+    "55 55 02 0F",
+    "5555020F",
+    "0x55,0x55,0x02,0x0f",
+    "0x55 0x55 0x2 0xF",
+    r"\x55\x55\x02\x0f",
+    r"b'\x55\x55\x02\x0f'",
+    'bytes.fromhex("55 55 02 0F")',
+    "[0x55, 0x55, 0x02, 0x0F]",
+    "55-55-02-0F",
+    "55:55:02:0f",
+    "55h 55h 02h 0Fh",
+]
+
+
+@needs_node
+def test_bytes_are_read_as_people_write_them() -> None:
+    for text, answer in zip(SPELLED, bytes_found(SPELLED), strict=True):
+        assert answer["read"]["bytes"] == [0x55, 0x55, 0x02, 0x0F], text
+        (frame,) = answer["judged"]
+        assert frame["title"] == "BatteryVoltageRead"
+        assert frame["path"] == "reference/busservo/messages/BatteryVoltageRead.html"
+        assert frame["decoder"].startswith("reference/busservo/decoder.html?hex=5555020f")
+
+
+# What may be meant as something else is not certain; None is no bytes at all.
+READ = {
+    "0F": None,
+    "15": None,
+    "battery": None,
+    "a b": None,
+    "55550 20F": None,
+    "servo 1": None,
+    "face": False,
+    "dead beef": False,
+    "1000": False,
+    "115200": False,
+    "03 01 E8": True,
+    "0x03 0x01": True,
+}
+
+
+@needs_node
+def test_words_and_numbers_are_not_taken_for_bytes() -> None:
+    for (text, certain), answer in zip(READ.items(), bytes_found([*READ]), strict=True):
+        read = answer["read"]
+        assert (None if read is None else read.get("certain")) == certain, text
+
+
+@needs_node
+def test_what_looks_like_bytes_and_is_none_is_refused_with_the_place() -> None:
+    wrong = bytes_found(["55 55 0G 02", "[0x55, 0x55, 2, 0x0F]", "55 55 2 0F"])
+    assert [each["read"] for each in wrong] == [
+        {"problem": "“0G” is no byte in hex"},
+        {"problem": "“2” is no whole number of bytes"},
+        {"problem": "“2” is no whole number of bytes"},
+    ]
+    (typing,) = bytes_found(["55 55 02 0"])
+    assert (typing["read"]["bytes"], typing["read"]["left"]) == ([0x55, 0x55, 0x02], "0")
+
+
+# Titles of what bytes are, and of the documented frames that hold them.
+BYTES: dict[str, tuple[list[str], list[str]]] = {
+    "55 55 05 06 08 01 00": (
+        ["ActionGroupRun", "ActionGroupStarted"],
+        ["Run action group 8 once", "Action group 8 has started, to run once"],
+    ),
+    "55 55 04 0F 4C 1D": (["BatteryVoltage"], ["The battery is at 7500 mV"]),
+    "55 55 01 07 01 20 03 E8 03 E8": (
+        ["Move"],
+        ["Servo 1 to position 800 in 1000 ms, sent to the servo itself"],
+    ),
+    "00 55 55 02 07 55 55 02 0F": (["2 frames among these bytes"], []),
+    "03 01 E8": (
+        [],
+        [
+            "Servo 1 to position 800 in 1000 ms",
+            "Servo 1 to position 800 in 1000 ms, sent to the controller",
+        ],
+    ),
+    "55 55 09 03 01 E8 03 01 20 03": (["No frame", "No frame"], []),
+    "11 22 33": ([], []),
+}
+
+
+@needs_node
+def test_bytes_find_frames() -> None:
+    for (text, (judged, known)), answer in zip(BYTES.items(), bytes_found([*BYTES]), strict=True):
+        assert [each["title"] for each in answer["judged"]] == judged, text
+        assert [each["title"] for each in answer["known"]] == known, text
+
+
+@needs_node
+def test_bytes_are_told_in_short() -> None:
+    move, off, refused = bytes_found(
+        ["55 55 0B 03 02 20 03 02 20 03 09 20 03", "55 55 06 15 01 03 FF FF", "55 55 09 03 01 E8"]
+    )
+    assert move["judged"][0]["text"] == (
+        "time_ms 800 ms, targets: servo_id 2 position 800; servo_id 9 position 800"
+    )
+    assert off["judged"][0]["text"] == "positions: servo_id 3 position 65535 (absent)"
+    assert refused["judged"][0]["text"] == "No whole frame: length mismatch at byte 2."
+
+
+@needs_node
+def test_every_documented_frame_is_found_by_its_bytes() -> None:
+    documented = [each for each in index()["entries"] if "hex" in each]
+    answers = bytes_found([each["hex"] for each in documented])
+    for entry, answer in zip(documented, answers, strict=True):
+        assert entry["title"] in [each["title"] for each in answer["known"]]
+        if entry["where"].startswith("Documented frame of "):
+            name = entry["where"].removeprefix("Documented frame of ")
+            assert name in [each["title"] for each in answer["judged"]], entry["hex"]
+
+
+# ---------------------------------------------------------------------------- the index
+
+
+def test_words_of_users_lead_to_the_first_entry_at_an_address() -> None:
+    entries = index()["entries"]
+    led = {word: each["path"] for each in entries for word in each.get("also", [])}
+    assert led["limp"] == "reference/busservo/messages/ServoUnload.html"
+    assert led["dialout"] == "troubleshooting.html"
+    rows = re.findall(
+        r"^\| (.+?) \|", (ROOT / "docs" / "words.md").read_text("utf-8"), re.MULTILINE
+    )
+    words = {word.strip() for row in rows for word in row.split(",")} - {"People say", "---"}
+    assert led.keys() == words
+    assert len(words) > 100
+
+
+def test_words_that_lead_where_no_entry_is_make_one() -> None:
+    guide = next(each for each in Site(project(), snippets()).guides if each.path == "words.md")
+    made = list(
+        with_words([Entry("guide", "Troubleshooting", "troubleshooting.html", "Guide")], guide)
+    )
+    assert "beep" in made[0].also
+    (move,) = [each for each in made if each.path.endswith("/ServoMove.html")]
+    assert (move.kind, move.title) == ("page", "ServoMove")
+
+
+def test_numbers_are_found_as_people_write_them() -> None:
+    assert spellings(15) == ("15", "0f", "0x0f", "0xf")
+    assert spellings(258, 2) == ("258", "0102", "0x0102", "0x102")
+    assert spellings(-1) == ("-1",)
+
+
+def test_the_search_alone_has_the_index_and_keeps_within_its_bounds() -> None:
+    pages = render_site(project(), snippets())
+    assert len(pages["search.html"].encode()) < 1_500_000
+    holding = [path for path, text in pages.items() if 'id="search-index"' in text]
+    assert holding == ["search.html"]
+    for path, text in pages.items():
+        if path.endswith(".html") and path != "search.html":
+            assert f'data-address="{"../" * path.count("/")}search.html"' in text, path
+
+
+def test_what_the_page_lists_is_what_can_be_found() -> None:
+    text = render_site(project(), snippets())["search.html"]
+    data = json.loads(re.findall(r'id="search-index">(.*?)</script>', text, re.DOTALL)[0])
+    listed = text.partition('id="search-letters"')[2]
+    for entry in data["entries"]:
+        if entry["kind"] != "frame":
+            assert f'href="{entry["path"]}"' in listed, entry["title"]
