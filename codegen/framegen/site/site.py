@@ -45,7 +45,7 @@ COMMON = ("page", "clipboard", "tabs", "search_box")
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
-    pages = {page.path: _rendered(site, page) for page in site.pages}
+    pages = {page.path: render_page(site, page) for page in site.pages}
     return pages | site.collection.files
 
 
@@ -265,7 +265,8 @@ class Site:
                 yield Link(start, reference.edition.version)
 
 
-def _rendered(site: Site, page: Page) -> str:
+def render_page(site: Site, page: Page) -> str:
+    """Render one of the pages of a site."""
     with site.collection.blaming(page):
         return _filled(site, page)
 
