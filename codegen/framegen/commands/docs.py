@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,11 +16,8 @@ EXAMPLES = (
     ("framegen docs --open", "the guides and the reference of spec/*.yaml, in your browser"),
     ("framegen docs SPEC.yaml --open", "the reference of another spec"),
     ("framegen docs --out site", "build it in site/, ready to be served"),
-    ("framegen docs --out site --base https://example.org/", "with a sitemap and whole addresses"),
+    ("framegen docs --out site --base https://example.org/", "to be published there"),
 )
-
-# The characters of addresses, RFC 3986; others must be written as %XX.
-_PLAIN = re.compile(r"[\w.~:/?#\[\]@!$&'()*+,;=%-]+", re.ASCII)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -32,29 +28,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--out", type=Path, metavar="FOLDER", help="write here instead of into a temporary folder"
     )
     parser.add_argument(
-        "--base", default="", metavar="ADDRESS", help="where the site will be, such as https://…/"
+        "--base",
+        default="",
+        metavar="ADDRESS",
+        help="where the site will be: adds whole addresses, a sitemap and a page for broken links",
     )
     add_force(parser)
-
-
-def _base(text: str) -> str:
-    """Return the address of a site, which ends with a slash. Raises Unusable."""
-    from urllib.parse import urlsplit  # noqa: PLC0415
-
-    from framegen.console import visible  # noqa: PLC0415
-    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-
-    try:
-        parts = urlsplit(text)
-        is_address = parts.scheme in ("http", "https") and bool(parts.hostname)
-    except ValueError:
-        is_address = False
-    if text and (not is_address or parts.query or parts.fragment or not _PLAIN.fullmatch(text)):
-        raise Unusable(
-            f"--base: `{visible(text)}` is not the address of a site",
-            hint="write all of it, such as https://example.org/ or https://example.org/docs/",
-        )
-    return text if text.endswith("/") or not text else f"{text}/"
 
 
 def run(arguments: Namespace) -> int:
@@ -67,10 +46,11 @@ def run(arguments: Namespace) -> int:
     from framegen.project import all_specs, guides_folder  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
     from framegen.site.project import read_project  # noqa: PLC0415
+    from framegen.site.publication import base_address  # noqa: PLC0415
     from framegen.site.site import render_site  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 
-    base = _base(arguments.base)
+    base = base_address(arguments.base)
     files = [spec_file(arguments.spec)] if arguments.spec else all_specs()
     specs = {file: compiled(file) for file in files}
     if print_findings([*specs.values()]):
