@@ -76,10 +76,13 @@ class References:
         every = (*self.newest, *self.older)
         return next((each for each in every if each.folder == page.folder), None)
 
+    def is_older(self, page: Page) -> bool:
+        """Tell whether a page is one of an older edition."""
+        return self.of(page) in self.older
+
     @contextmanager
     def blaming(self, page: Page) -> Iterator[None]:
         """Say which older edition it is whose page goes wrong, if it is one of these."""
         reference = self.of(page)
-        is_older = reference is not None and reference not in self.newest
-        with blaming(reference.edition) if reference and is_older else nullcontext():
+        with nullcontext() if reference not in self.older else blaming(reference.edition):
             yield

@@ -17,7 +17,7 @@ from framegen.site.highlight import code_block
 from framegen.site.home import Introduction, specimen
 from framegen.site.linked_files import is_linked, link_to
 from framegen.site.mark import icon, mark
-from framegen.site.mentions import Mention, mentions
+from framegen.site.mentions import Mention, Mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
@@ -250,9 +250,14 @@ class Site:
         }
 
     def mentions(self, page: Page) -> list[Mention]:
-        """Return where the guides speak of the message of a page."""
-        message = page.context["message"]
-        return [*mentions(self.guides, message, page.path)]
+        """Return where the guides speak of the message of a page: as it is now, not as it was."""
+        if self.collection.is_older(page):
+            return []
+        return [*self._mentions.of(page.context["message"], page.path)]
+
+    @cached_property
+    def _mentions(self) -> Mentions:
+        return Mentions(self.guides)
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
