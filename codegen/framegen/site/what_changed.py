@@ -14,7 +14,7 @@ from framegen.comparison.report.words import between, call_of, effect_text, hex_
 from framegen.console import visible
 from framegen.language.version import Version
 from framegen.pluralize import pluralize
-from framegen.targets.docs.cite import Place
+from framegen.site.spec_listing import nearest_anchor
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -201,7 +201,8 @@ class VersionChanges:
 
     def _change(self, view: View, change: Change, told: set[str] | None = None) -> ChangeLine:
         edition = view.old if change.new is None else view.new
-        spec = f"{self.shelf.root(edition)}{Place(change.path).html}"
+        anchor = nearest_anchor(edition.compiled.tree, change.path)
+        spec = f"{self.shelf.root(edition)}spec.html{f'#{anchor}' if anchor else ''}"
         rule = rule_of(change)
         link = NamedLink(change.rule, self.rules.get(change.rule, ""))
         if rule is None or told is None or rule.id in told or is_documentation(change):
