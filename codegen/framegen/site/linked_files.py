@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
-from urllib.parse import unquote
+from urllib.parse import quote, unquote
 
 from framegen.console import visible
 from framegen.project import FOLDER as SPECS
@@ -45,8 +45,8 @@ def is_linked(path: str) -> bool:
 
 
 def link_to(path: str) -> str:
-    """Return the path of such a file from the folder of the guides, as they link to it."""
-    return f"../{path.removeprefix(f'{FOLDER}/')}"
+    """Return the address of such a file from the folder of the guides, as they link to it."""
+    return f"../{quote(path.removeprefix(f'{FOLDER}/'))}"
 
 
 def _links(text: str) -> Iterator[PurePosixPath]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
@@ -39,6 +40,11 @@ class RecordingFile:
     def name(self) -> str:
         """The name of the file."""
         return PurePosixPath(self.path).name
+
+    @property
+    def word(self) -> str:
+        """The name as one word of a shell."""
+        return shlex.quote(self.name)
 
 
 def recordings_of(model: Model, files: Mapping[str, bytes]) -> list[RecordingFile]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from framegen import __version__
 from framegen.output import banner
@@ -128,7 +129,7 @@ class Site:
     def _published(self) -> dict[str, str]:
         """What a link of a guide may lead to: files by path below the guides, and their pages."""
         found = {path: path for path in self.project.files}
-        found |= {link_to(path): path for path in self.project.files if is_linked(path)}
+        found |= {link_to(path): quote(path) for path in self.project.files if is_linked(path)}
         found |= {path: page_of(path) for path in self.project.guides}
         for pages in self.references:
             view, above = pages.reference, f"reference/{pages.reference.folder}/"
