@@ -74,8 +74,11 @@ class Site:
 
     @cached_property
     def title(self) -> str:
-        """What the site is called."""
-        return "Reference" if self.plan is None else self.plan.title
+        """What the site is called; without guides, as the only protocol is."""
+        if self.plan is not None:
+            return self.plan.title
+        titles = [each.reference.protocol.title for each in self.references]
+        return titles[0] if len(titles) == 1 else "Reference"
 
     @property
     def generator(self) -> str:
