@@ -16,6 +16,7 @@ from framegen.output import banner
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.policy import script
 from framegen.site.protocol_data import REASONS, protocol_data
+from framegen.targets.filenames import file_stem
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 def javascript_module(model: Model) -> dict[str, str]:
     """Return the module and its types, by file name: `NAME.mjs` and `NAME.d.mts`."""
     name = model.spec.protocol.name
+    stem = file_stem(name)
     said = {
         "banner": banner(""),
         "model": model,
@@ -46,8 +48,8 @@ def javascript_module(model: Model) -> dict[str, str]:
         "messages": [*model.messages.values()],
     }
     return {
-        f"{name}.mjs": _environment().get_template("module.mjs.jinja").render(said),
-        f"{name}.d.mts": _environment().get_template("module.d.mts.jinja").render(said),
+        f"{stem}.mjs": _environment().get_template("module.mjs.jinja").render(said),
+        f"{stem}.d.mts": _environment().get_template("module.d.mts.jinja").render(said),
     }
 
 
