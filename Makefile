@@ -34,6 +34,8 @@ SAMPLE = 3
 SEED =
 # Where the pages go.
 SITE = build/site
+# The address where they will be, for a sitemap and the like.
+BASE =
 # What a release is called.
 VERSION =
 # Which mutants, and how many of them: make mutants ONLY='busservo._client.*' SAMPLE=60 SEED=7
@@ -98,9 +100,9 @@ bench:  ## Measure the library against its peers
 	@command -v npm >/dev/null && npm install --silent --no-package-lock --prefix benchmarks/peers/kaitai || true
 	$(BENCH_VENV)/bin/python -m benchmarks
 
-docs: $(READY)  ## Build the site: the guides and the reference: make docs SITE=html
+docs: $(READY)  ## Build the site: make docs SITE=html BASE=https://where.it/will/be
 	rm -rf $(SITE)
-	$(IN)/framegen docs --out $(SITE)
+	$(IN)/framegen docs --out $(SITE) $(if $(BASE),--base '$(BASE)')
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node
