@@ -35,8 +35,8 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       const value = readOr(null);
       if (choice) choice.value = nameOf(slot, value) ?? "";
       const isNumeric = ["number", "bigint"].includes(typeof value);
-      const text = isNumeric ? inWords(slot, value) : "";
-      words.textContent = text === input.value.trim() ? "" : text;
+      const says = isNumeric && (slot.scale || slot.bits || nameOf(slot, value) !== undefined);
+      words.textContent = says ? inWords(slot, value) : "";
     }
 
     function read() {
@@ -95,12 +95,11 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       changed();
     });
     const legend = make("legend", {}, list.name, " ",
-      make("span", { class: "hint" }, low === high ? counted(low) : `${low}..${high} items`));
+      make("span", { class: "hint" }, low === high ? pluralized(low, "item") : `${low}..${high} items`));
     const fieldset = make("fieldset", { "aria-describedby": problem.id }, legend, rows,
       low === high ? null : make("div", { class: "actions" }, add), problem);
     let items = [];
 
-    const counted = (number) => `${number} item${number === 1 ? "" : "s"}`;
     const blank = () => Object.fromEntries(list.fields.map((field) => [field.name, field.low ?? 0]));
     const asObject = (item) => (list.element === null ? { [list.fields[0].name]: item } : item);
     const asItem = (values) => (list.element === null ? values[list.fields[0].name] : values);
@@ -137,8 +136,10 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       items[index].row.remove();
       items.splice(index, 1);
       bound();
-      if (items.length) items[Math.min(index, items.length - 1)].remove.focus();
-      else add.focus();
+      const next = items[Math.min(index, items.length - 1)];
+      if (!next) add.focus();
+      else if (next.remove.disabled) next.focus();
+      else next.remove.focus();
       changed();
     }
 
