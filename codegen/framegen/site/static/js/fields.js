@@ -68,6 +68,8 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
         return isHere;
       },
       focus: () => input.focus(),
+      // What tells it from the same field of other items, for who does not see where it stands.
+      call: (label) => input.setAttribute("aria-label", label),
     };
   }
 
@@ -75,7 +77,7 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
   function choiceOf(slot, name, input) {
     const options = namesOf(slot).map((each) => make("option", { value: each }, each));
     const choice = make("select", { "aria-label": `${name} by name` },
-      make("option", { value: "" }, "by number"), ...options);
+      make("option", { value: "" }, "a number"), ...options);
     choice.addEventListener("change", () => {
       if (!choice.value) return;
       input.value = String(slot.names[choice.value]);
@@ -148,7 +150,9 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       add.disabled = items.length >= high;
       items.forEach((item, index) => {
         item.remove.disabled = items.length <= low;
-        item.remove.setAttribute("aria-label", `Remove item ${index + 1} of ${list.name}`);
+        const name = `item ${index + 1} of ${list.name}`;
+        item.remove.setAttribute("aria-label", `Remove ${name}`);
+        item.inputs.forEach((each, i) => each.call(`${list.fields[i].name}, ${name}`));
       });
     }
 
