@@ -7,6 +7,8 @@ from collections import deque
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+from tests.timeouts import GENEROUS
+
 if TYPE_CHECKING:
     from busservo_simulator.virtual_line import VirtualLine
     from playwright.sync_api import BrowserContext
@@ -140,10 +142,16 @@ class LiveTab:
     def __init__(self, tab: Tab) -> None:
         self.tab = tab
 
-    def connect(self) -> None:
-        """Press the button, and wait until the port is open."""
+    def connect(self, timeout: int = 1000 * GENEROUS) -> None:
+        """Press the button, and wait until the port is open; replies have so many milliseconds."""
+        self.settings()
+        self.tab.locator("#line-timeout").fill(str(timeout))
         self.tab.get_by_role("button", name="Connect your board").click()
         self.status("Connected to")
+
+    def settings(self) -> None:
+        """Show the settings of the line."""
+        self.tab.locator(".line-settings").evaluate("(details) => { details.open = true; }")
 
     def send(self, name: str, **values: str) -> None:
         """Choose a message in the encoder, and press Send."""

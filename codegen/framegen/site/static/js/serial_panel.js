@@ -22,6 +22,8 @@ function showLine(protocol, codec) {
   // The session at hand and the one before it, whose counters go on being shown.
   let session = null, last = null, isCounting = false;
   let recording = null, startedAt = 0, name = "a serial port", timer = 0, isSaving = false, listed = 0;
+  // What is not in the list yet.
+  const fresh = [];
   // What the encoder has, and the state that was shown last.
   let encoded = encodedSoFar(), shownState = "";
 
@@ -41,13 +43,16 @@ function showLine(protocol, codec) {
     return { baudRate, dataBits, stopBits, parity, flowControl: "none" };
   }
 
+  // Whether a field has a number that is in its bounds.
+  const isWhole = (field) => byId(field).validity.valid && Number.isInteger(byId(field).valueAsNumber);
+
   function showSettings() {
     const { baudRate, dataBits, stopBits, parity } = settings();
     const rate = Number.isInteger(baudRate) && baudRate > 0 ? `${baudRate} baud` : "no rate";
     const echo = byId("line-echo").checked ? ", local echo" : "";
     byId("line-summary").textContent = `${rate}, ${dataBits} data bits, `
       + `${parity === "none" ? "no" : parity} parity, ${stopBits} stop bit${stopBits > 1 ? "s" : ""}${echo}`;
-    byId("line-baud").setAttribute("aria-invalid", String(!byId("line-baud").validity.valid || rate === "no rate"));
+    for (const field of ["line-baud", "line-timeout"]) byId(field).setAttribute("aria-invalid", String(!isWhole(field)));
   }
 
   // ---- What happens on the line
@@ -60,6 +65,7 @@ function showLine(protocol, codec) {
     const direction = byId("line-listen").value === "any" ? null : data.received;
     session = makeSession({
       codec, protocol, direction, baud: settings().baudRate, localEcho: byId("line-echo").checked,
+      timeout: byId("line-timeout").valueAsNumber,
       show, answered, unanswered,
     });
     window.workbench.begin(name);
@@ -114,18 +120,27 @@ function showLine(protocol, codec) {
     let who = sender ?? either;
     if (isNoise) who = sender === null ? `${either} ${noise}` : noise;
     recording.add({ time, who, what: isNoise ? event.reason : names.join(" or "), bytes });
-    let says = isNoise ? `${event.type}: ${event.reason}` : saysOf(event);
-    if (names.length > 1) says = says.replace(event.message, names.join(" or "));
-    if (answer && !answer.late) says += ` (${milliseconds(answer.took)})`;
-    log.add({ time, way: wayOf(sender), says, bytes, isSent, isNoise });
-    // The list above grows as long as it can be searched with ease, and begins anew then.
-    if (listed === LISTED_BOUND) {
+    log.add({ time, way: wayOf(sender), says: () => saysOfEntry(event, names, answer), bytes, isSent, isNoise });
+    if (!fresh.length) queueMicrotask(list);
+    fresh.push({ time, sender, event });
+  }
+
+  function saysOfEntry(event, names, answer) {
+    if (event.type !== "message") return `${event.type}: ${event.reason}`;
+    const says = names.length > 1 ? saysOf(event).replace(event.message, names.join(" or ")) : saysOf(event);
+    return answer && !answer.late ? `${says} (${milliseconds(answer.took)})` : says;
+  }
+
+  // What came at once goes to the list above at once. It grows as long as it can be searched with
+  // ease, and begins anew then.
+  function list() {
+    if (listed > LISTED_BOUND) {
       window.workbench.begin(name);
       listed = 0;
-      comment(`the list above begins anew after ${LISTED_BOUND.toLocaleString("en")} entries`);
+      comment(`the list above has begun anew after ${LISTED_BOUND.toLocaleString("en")} entries`);
     }
-    listed += 1;
-    window.workbench.append([{ time, sender, event }]);
+    listed += fresh.length;
+    window.workbench.append(fresh.splice(0));
   }
 
   const wayOf = (sender) => protocol.directions.find((way) => way.sender === sender)?.text.replace(" to ", " → ")
@@ -246,7 +261,7 @@ function showLine(protocol, codec) {
     close.hidden = isFree && line.state !== "lost";
     close.textContent = line.state === "lost" ? "Give up" : "Disconnect";
     if (hadFocus && document.activeElement === document.body) (connect.hidden ? close : connect).focus();
-    for (const field of ["line-baud", "line-listen", "line-echo"]) byId(field).disabled = !isFree || line.state === "lost";
+    for (const field of ["line-baud", "line-timeout", "line-listen", "line-echo"]) byId(field).disabled = !isFree || line.state === "lost";
   }
 
   // The ports that were allowed before need no choice.
@@ -264,14 +279,16 @@ function showLine(protocol, codec) {
 
   function connect(start) {
     showSettings();
-    if (byId("line-baud").getAttribute("aria-invalid") === "true") {
-      byId("line-baud").closest("details").open = true;
-      byId("line-status").textContent = "The rate of the line is a whole number of bits per second, such as "
-        + `${data.baud}.`;
-      byId("line-baud").focus();
+    const wrong = ["line-baud", "line-timeout"].find((field) => !isWhole(field));
+    if (!wrong) {
+      start(settings());
       return;
     }
-    start(settings());
+    byId(wrong).closest("details").open = true;
+    byId("line-status").textContent = wrong === "line-baud"
+      ? `The rate of the line is a whole number of bits per second, such as ${data.baud}.`
+      : `The time for a reply is a whole number of milliseconds, such as ${REPLY_TIMEOUT_MS}.`;
+    byId(wrong).focus();
   }
 
   // ---- The recording
@@ -335,7 +352,7 @@ function showLine(protocol, codec) {
     target.setAttribute("aria-pressed", String(isHeld));
     log.hold(isHeld);
   });
-  for (const field of ["line-baud", "line-echo"]) byId(field).addEventListener("input", showSettings);
+  for (const field of ["line-baud", "line-timeout", "line-echo"]) byId(field).addEventListener("input", showSettings);
   addEventListener("pagehide", () => line.close());
   document.addEventListener("encoded", ({ detail }) => {
     encoded = detail;

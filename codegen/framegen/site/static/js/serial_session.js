@@ -11,9 +11,9 @@ const ECHO_MS = 250;
 // `show(entry)` gets all that passes: {at, sender, isSent, event, names}. `answered(answer)` gets the
 // answers of makeReplies, `unanswered(question)` the questions that have none. `direction` is what is
 // listened to, null for both ends of the line.
-function makeSession({ codec, protocol, direction, baud, localEcho, show, answered, unanswered }) {
+function makeSession({ codec, protocol, direction, baud, localEcho, timeout, show, answered, unanswered }) {
   const data = protocol.line, stream = codec.makeStream({ direction });
-  const replies = makeReplies(data, baud), echo = localEcho ? makeLocalEcho() : null;
+  const replies = makeReplies(data, baud, timeout), echo = localEcho ? makeLocalEcho() : null;
   const counts = { bytes: 0, frames: 0, noise: 0, errors: 0, sent: 0, echoes: 0 };
   const senders = new Map(protocol.directions.map(({ key, sender }) => [key, sender]));
   let fed = 0, decided = 0, lastByteAt = 0;
