@@ -172,7 +172,7 @@ def test_both_ends_are_told_apart_where_they_can_be(browser: Browser, site: Path
         live.tab.locator("#line-listen").select_option("any")
         live.connect()
         for message in [busservo.BatteryVoltageRead(), busservo.ActionGroupStarted(3, 1)]:
-            made.host.said.append({"bytes": [*message.encode()]})
+            made.host.said.append({"hex": message.encode().hex()})
             live.tab.wait_for_timeout(100)
         live.count("frames", 2)
         ways = live.tab.locator("#line-log .way-of").all_inner_texts()
@@ -252,7 +252,7 @@ def test_a_cable_is_pulled_in_the_middle_of_a_frame(browser: Browser, site: Path
     with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
         live = made.open()
         live.connect()
-        made.host.said.append({"bytes": [*VOLTAGE[:4]]})
+        made.host.said.append({"hex": VOLTAGE[:4].hex()})
         live.count("bytes", 4)
         made.host.unplug(live.tab)
         live.status("The line was lost")
@@ -386,9 +386,9 @@ def test_a_long_session_stays_small(browser: Browser, site: Path) -> None:
     with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
         live = made.open()
         live.connect()
-        block = [*(VOLTAGE * 2000)]
+        block = (VOLTAGE * 2000).hex()
         for _ in range(5):
-            made.host.said.append({"bytes": block})
+            made.host.said.append({"hex": block})
         live.count("frames", 10_000)
         assert live.tab.locator("#line-log li").count() <= 300
         assert live.tab.locator("#content *").count() < 3500
