@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -20,12 +19,11 @@ from lxservo_simulator import VirtualBus
 from tests.docs.browser import Visit, launched, needs_chromium
 from tests.docs.reference import NODE_MODULES, ROOT
 from tests.docs.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
-from tests.factories import vectors_of
 from tests.independent import faults
 from tests.independent.board import Board
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser
@@ -211,18 +209,18 @@ def test_a_reply_is_that_to_its_own_question(browser: Browser, site: Path, scrip
 
 
 def test_silence_is_said_in_plain_words(browser: Browser, site: Path) -> None:
-    with VirtualController(faults=Faults(dropped=1.0)) as board:
-        with desk(browser, site, VirtualEnd(board)) as made:
-            live = made.open()
-            live.connect(timeout=250)
-            live.send("BatteryVoltageRead")
-            assert "Nothing was ever heard on this line" in live.reply("No reply to ")
-            board.send_bytes(VOLTAGE)
-            live.count("frames", 1)
-            live.send("BatteryVoltageRead")
-            live.reply("BatteryVoltageRead is sent; BatteryVoltage is waited for.")
-            assert "Something else was heard" in live.reply("No reply to ")
-            live.count("errors", 2)
+    board = VirtualController(faults=Faults(dropped=1.0))
+    with board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect(timeout=250)
+        live.send("BatteryVoltageRead")
+        assert "Nothing was ever heard on this line" in live.reply("No reply to ")
+        board.send_bytes(VOLTAGE)
+        live.count("frames", 1)
+        live.send("BatteryVoltageRead")
+        live.reply("BatteryVoltageRead is sent; BatteryVoltage is waited for.")
+        assert "Something else was heard" in live.reply("No reply to ")
+        live.count("errors", 2)
 
 
 # ---------------------------------------------------------------------------- what goes wrong
@@ -272,17 +270,17 @@ def test_a_cable_is_pulled_in_the_middle_of_a_frame(browser: Browser, site: Path
 
 
 def test_a_cable_is_pulled_while_a_reply_is_waited_for(browser: Browser, site: Path) -> None:
-    with VirtualController(faults=Faults(dropped=1.0)) as board:
-        with desk(browser, site, VirtualEnd(board)) as made:
-            live = made.open()
-            live.connect()
-            live.send("BatteryVoltageRead")
-            made.host.unplug(live.tab)
-            live.status("The line was lost")
-            live.reply("No reply to BatteryVoltageRead")
-            live.tab.get_by_role("button", name="Give up").click()
-            live.status("Not connected.")
-            assert not made.host.is_open
+    board = VirtualController(faults=Faults(dropped=1.0))
+    with board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        live.send("BatteryVoltageRead")
+        made.host.unplug(live.tab)
+        live.status("The line was lost")
+        live.reply("No reply to BatteryVoltageRead")
+        live.tab.get_by_role("button", name="Give up").click()
+        live.status("Not connected.")
+        assert not made.host.is_open
 
 
 def test_a_frame_that_cannot_be_sent_is_said_to_be_unsent(browser: Browser, site: Path) -> None:
@@ -370,7 +368,7 @@ def test_a_single_wire_gives_back_what_is_sent(browser: Browser, site: Path, sai
         name = next(
             kind.__name__
             for kind in lxservo.MESSAGES
-            if kind.__name__ == "PositionRead" or kind.__name__ == "ServoPositionRead"
+            if kind.__name__ in ("PositionRead", "ServoPositionRead")
         )
         live.send(name, servo_id="1")
         live.reply("P")

@@ -49,7 +49,8 @@ function makeLineLog(element, draw = requestAnimationFrame) {
   }
 
   return {
-    // A row is {time, way, says, bytes, isSent, isNoise}, or a {comment}; what it `says` is worked out to be drawn.
+    // A row is {time, way, says, bytes, isSent, isNoise}, or a {comment}; what it `says` is worked out when
+    // it is drawn.
     add(row) {
       rows.push(row);
       fresh += 1;

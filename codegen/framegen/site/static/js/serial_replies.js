@@ -76,6 +76,8 @@ function makeReplies(data, baud, timeout = REPLY_TIMEOUT_MS) {
       return { question, event, took: now - question.sentAt, late, missing: missing(question, event) };
     },
 
+    forget(question) { pending = pending.filter((each) => each !== question); },
+
     // The questions whose time is over.
     expire(now) {
       const over = pending.filter(({ until }) => until <= now);

@@ -11,7 +11,10 @@ function nameOfPort(port) {
 // Why there is no port to be had in this browser; null where there is.
 function whyNoSerial({ isSecure, hasSerial, protocol }) {
   if (hasSerial) return null;
-  if (!isSecure) return `This page came over ${protocol}//, and browsers give a serial port only to pages that nobody can have changed on the way.`;
+  if (!isSecure) {
+    return `This page came over ${protocol}//, and browsers give a serial port only to pages that nobody can have `
+      + "changed on the way.";
+  }
   return "This browser cannot open a serial port: it has no Web Serial.";
 }
 
@@ -46,6 +49,13 @@ function wordsOfLoss(error) {
     + `without a serial number, have to be chosen anew.${why}`];
 }
 
+const WORDS_OF_STATE = {
+  closed: "Not connected.",
+  choosing: "Choose the port of the board in the list that the browser shows.",
+  opening: "Opening the port …",
+  closing: "Closing the port …",
+};
+
 // What went wrong on a line that goes on.
 const FAULTS = {
   BufferOverrunError: "Bytes were lost: they came faster than this computer took them.",
@@ -74,17 +84,21 @@ function wordsOfExchange(name, kind, data) {
 
 function wordsOfAnswer({ question, event, took, late, missing }) {
   if (late) {
-    return `${event.message} came after all, ${milliseconds(took)} after ${question.event.message}: too late to be waited for.`;
+    return `${event.message} came after all, ${milliseconds(took)} after ${question.event.message}: too late to be `
+      + "waited for.";
   }
   const incomplete = missing.length ? ` It is incomplete: nothing of ${missing.join(" or ")}.` : "";
   return `${saysOf(event)}, ${milliseconds(took)} after ${question.event.message} was sent.${incomplete}`;
 }
 
 // What it may mean that nothing has come, in two sentences.
-function wordsOfSilence({ event, within }, counts) {
+function wordsOfSilence({ event, within }, counts, isEnded) {
+  if (isEnded) return [`No reply to ${event.message}:`, "the line was closed while it was waited for."];
   const heard = counts.bytes
-    ? "Something else was heard on this line, so that it is not dead: the board may be busy, or not know this question."
-    : "Nothing was ever heard on this line: is the board on, are RX and TX crossed, are the grounds joined, is the rate right?";
+    ? "Something else was heard on this line, so that it is not dead: the board may be busy, or not know this "
+      + "question."
+    : "Nothing was ever heard on this line: is the board on, are RX and TX crossed, are the grounds joined, is the "
+      + "rate right?";
   return [`No reply to ${event.message} within ${milliseconds(within)}.`, heard];
 }
 
@@ -100,4 +114,12 @@ function saysOf({ message, kind, fields }) {
     return ` ${slot.name}=${text}${slot.unit && !Array.isArray(value) ? ` ${slot.unit}` : ""}`;
   });
   return message + shown.join("");
+}
+
+// An entry of the list; a reply has its time with it.
+function wordsOfEntry(event, names, answer) {
+  if (event.type !== "message") return `${event.type}: ${event.reason}`;
+  const says = saysOf(event);
+  const named = names.length > 1 ? says.replace(event.message, names.join(" or ")) : says;
+  return answer && !answer.late ? `${named} (${milliseconds(answer.took)})` : named;
 }
