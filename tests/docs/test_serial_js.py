@@ -105,15 +105,16 @@ const unplug = () => fake.unplug(given().id);
 const plugIn = () => { number += 1; fake.plugIn(given()); };
 """
 
+OPENED = "choosing | opening | OPEN | open"
 # What is done with a port, and what is said of it.
 PORTS = {
     "opened, read and closed": (
         "await open(); board.pieces.push({bytes: [1, 2]}); await wait(20); await line.close();",
-        "choosing | opening | OPEN | open | got 1,2 | closing | CLOSE | closed",
+        f"{OPENED} | got 1,2 | closing | CLOSE | closed",
     ),
     "closed twice at once, and again": (
         "await open(); await Promise.all([line.close(), line.close()]); await line.close();",
-        "choosing | opening | OPEN | open | closing | CLOSE | closed",
+        f"{OPENED} | closing | CLOSE | closed",
     ),
     "nothing was chosen": (
         "board.nothing = true; await open();",
@@ -132,7 +133,7 @@ PORTS = {
     ),
     "opened twice at once": (
         "await Promise.all([open(), open()]);",
-        "choosing | opening | OPEN | open",
+        OPENED,
     ),
     "errors of the line after which it goes on": (
         """
@@ -141,30 +142,29 @@ PORTS = {
           board.pieces.push({ error }, { bytes: [7] });
         await wait(60);
         """,
-        "choosing | opening | OPEN | open | failed: FramingError | got 7 | failed: BreakError | got 7",
+        f"{OPENED} | failed: FramingError | got 7 | failed: BreakError | got 7",
     ),
     "an error after which nothing is read": (
         'await open(); board.pieces.push({error: "UnknownError", fatal: true}); await wait(20);',
-        "choosing | opening | OPEN | open | lost: UnknownError | CLOSE",
+        f"{OPENED} | lost: UnknownError | CLOSE",
     ),
     "unplugged and plugged in again": (
         """
         await open(); unplug(); await wait(20); plugIn(); await wait(20);
         board.pieces.push({bytes: [3]}); await wait(20);
         """,
-        "choosing | opening | OPEN | open | lost | CLOSE | opening | OPEN | open | got 3",
+        f"{OPENED} | lost | CLOSE | opening | OPEN | open | got 3",
     ),
     "back, and not to be opened at once": (
         """
         await open(); unplug(); await wait(20); board.refused = [true]; plugIn();
         await wait(200);
         """,
-        "choosing | opening | OPEN | open | lost | CLOSE"
-        + " | opening | OPEN | lost: NetworkError | opening | OPEN | open",
+        f"{OPENED} | lost | CLOSE | opening | OPEN | lost: NetworkError | opening | OPEN | open",
     ),
     "given up while it is lost": (
         "await open(); unplug(); await wait(20); await line.close(); plugIn(); await wait(20);",
-        "choosing | opening | OPEN | open | lost | CLOSE | closing | closed",
+        f"{OPENED} | lost | CLOSE | closing | closed",
     ),
     "unplugged while a frame is being sent": (
         """
@@ -172,7 +172,7 @@ PORTS = {
         const sent = line.write([1]).catch(() => said.push("not sent")); await wait(10);
         unplug(); await sent; await wait(20);
         """,
-        "choosing | opening | OPEN | open | lost | not sent | CLOSE",
+        f"{OPENED} | lost | not sent | CLOSE",
     ),
     "closed while a frame is being sent": (
         """
@@ -180,7 +180,7 @@ PORTS = {
         const sent = line.write([1]).catch(() => said.push("not sent")); await wait(10);
         await line.close(); await sent;
         """,
-        "choosing | opening | OPEN | open | closing | not sent | CLOSE | closed",
+        f"{OPENED} | closing | not sent | CLOSE | closed",
     ),
     "a write that fails, and the next": (
         """
@@ -188,7 +188,7 @@ PORTS = {
         await line.write([1]).catch((error) => said.push(error.name)); board.wrong = "";
         await line.write([2]); said.push("sent");
         """,
-        "choosing | opening | OPEN | open | UnknownError | sent",
+        f"{OPENED} | UnknownError | sent",
     ),
     "a write before it is open": (
         "await line.write([1]).catch((error) => said.push(error.name));",
