@@ -168,6 +168,8 @@ function makeCapture(codec, protocol, direction = null) {
 
   return {
     add, end, event, meaning, counts, seen, sizeOf,
+    // The bytes from one place to another, where there is one wire.
+    slice: (start, end) => (wires.length ? wires[0].log.slice(start, end) : new Uint8Array(0)),
     quiet: (way) => wires.filter((wire) => wire.direction === way).forEach(quiet),
     codeAt: (index) => codes.at(index),
     startAt: (index) => starts.at(index),

@@ -38,14 +38,14 @@ function readCode(text) {
 // `frame[4]` has a size in its brackets, and `bytes(…)` an argument; a list has neither before it.
 function opened(mark, at, before) {
   const named = /^[\w\])]+$/.test(before);
-  return { mark, at, numbers: [], isIndex: mark === "[" && named, isSize: /^byte(s|array)$/.test(before) };
+  return { mark, at, numbers: [], isIndex: mark === "[" && named, isCall: mark === "(" && named };
 }
 
 function takeWord({ 0: word, groups, index: at }, open, text) {
   const inside = open.at(-1), isPair = /^[0-9A-F]{2}$/i.test(word);
   if (inside?.isIndex) return;
-  if (inside?.isSize && groups.number) {
-    throw new Unreadable(word, at, "is a number of bytes, not a byte", "write a list, like bytes([85, 85])");
+  if (inside?.isCall && groups.number) {
+    throw new Unreadable(word, at, "is an argument, not a byte", "write a list, like bytes([85, 85])");
   }
   if (inside && (groups.number || (isPair && inside.mark !== "("))) inside.numbers.push([word, at]);
   else if (groups.number || (!inside && isPair && !/^\s*[=([:.]/.test(text.slice(at + word.length)))) {

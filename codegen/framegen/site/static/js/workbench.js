@@ -128,16 +128,11 @@ window.workbench = (() => {
 
   // Put a frame in the place of an event's bytes.
   function takeFrame(event, frame) {
-    const isAll = event.size === capture.seen.size || file || capture.wires > 1 || capture.seen.size > INPUT_SHORT;
-    const before = isAll ? [] : bytesOf(0, event.at), after = isAll ? [] : bytesOf(event.at + event.size, capture.seen.size);
-    setText(toHex(Uint8Array.from([...before, ...frame, ...after])), "push");
-    list.choose(capture.indexAt(isAll ? 0 : event.at));
+    const { size } = capture.seen, isAlone = file || capture.wires > 1 || size > INPUT_SHORT;
+    const around = isAlone ? [[], []] : [capture.slice(0, event.at), capture.slice(event.at + event.size, size)];
+    setText(toHex([...around[0], ...frame, ...around[1]]), "push");
+    list.choose(capture.indexAt(isAlone ? 0 : event.at));
     byId("events").focus();
-  }
-
-  function bytesOf(start, end) {
-    const first = capture.event(0);
-    return [...first.rest(start, end)];
   }
 
   function editEvent(event) {
@@ -152,7 +147,8 @@ window.workbench = (() => {
 
   function addressNow() {
     const isPlain = seen && seen.name === "hex" && capture.size && capture.seen.size <= ADDRESS_LONGEST / 2;
-    const text = file || isLive ? null : isPlain ? toHex(bytesOf(0, capture.seen.size)).replace(/ /g, "") : field.value;
+    const hex = isPlain ? toHex(capture.slice(0, capture.seen.size)).replace(/ /g, "") : field.value;
+    const text = file || isLive ? null : hex;
     return writeAddress({ text, direction: direction.value, ...encoder.state() });
   }
 
@@ -291,5 +287,11 @@ window.workbench = (() => {
   });
 
   openAddress(true);
-  return { openFile: takeFile, append, begin };
+  return {
+    openFile: takeFile, append, begin,
+    // What the encoder has: the message, and its frame or null.
+    get encoded() {
+      return { message: encoder.state().message, bytes: encoder.frame() };
+    },
+  };
 })();
