@@ -1,6 +1,9 @@
 // The page: what is typed, dropped or comes from a line goes to the list, and the state to the address.
 "use strict";
 
+// A longer text is kept like a file, out of the field.
+const WORKBENCH_FIELD = 1_000_000;
+
 const protocol = JSON.parse(byId("protocol").textContent);
 const codec = makeCodec(protocol);
 
@@ -229,16 +232,23 @@ window.workbench = (() => {
 
   // ---- What people do
 
-  field.addEventListener("input", () => {
+  function typed() {
     file = null;
     source.hidden = true;
     decode();
-  });
-  field.addEventListener("paste", (event) => {
-    const text = event.clipboardData ? event.clipboardData.getData("text/plain") : "";
-    if (text.length < 1_000_000) return;
+  }
+
+  field.addEventListener("input", typed);
+  // Browsers take a minute to insert some thousands of lines as if they were typed.
+  field.addEventListener("beforeinput", (event) => {
+    const text = event.data ?? event.dataTransfer?.getData("text/plain") ?? "";
+    if (text.length < INPUT_SHORT) return;
     event.preventDefault();
-    openFile(new Blob([text]), { name: "What was pasted" });
+    if (text.length > WORKBENCH_FIELD) openFile(new Blob([text]), { name: "What was pasted" });
+    else {
+      field.setRangeText(text, field.selectionStart, field.selectionEnd, "end");
+      typed();
+    }
   });
   direction.addEventListener("change", () => {
     keepAddress(true);
