@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
+from framegen.site.line_data import LINE_SCRIPT, line_data
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
 from framegen.site.spec_listing import listing
@@ -76,13 +77,14 @@ class ReferencePages:
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
-        shown = {"decoder": _WORKBENCH, "message": _LIVE}.get(template)
-        return (codec_scripts(self.reference.model), shown) if shown else ()
+        shown = {"decoder": (_WORKBENCH, LINE_SCRIPT), "message": (_LIVE,)}.get(template)
+        return (codec_scripts(self.reference.model), *shown) if shown else ()
 
     def _data(self, view: PageView) -> dict[str, object]:
         match view.template:
             case "decoder":
-                return {"data": script_json(protocol_data(self.reference.model))}
+                model = self.reference.model
+                return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
             case "message" if view.message is not None:
                 own = protocol_data(self.reference.model, [view.message.name])
                 return {"live": script_json(own)}
