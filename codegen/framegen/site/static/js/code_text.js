@@ -49,7 +49,8 @@ function takeWord({ 0: word, groups, index: at }, open, text) {
   }
   if (inside && (groups.number || (isPair && inside.mark !== "("))) inside.numbers.push([word, at]);
   else if (groups.number || (!inside && isPair && !/^\s*[=([:.]/.test(text.slice(at + word.length)))) {
-    throw new Unreadable(word, at, "stands outside of the list", "put it into the brackets, or write hex alone");
+    throw new Unreadable(word, at, "stands outside of the list",
+      "put it into the brackets, or write hex alone");
   } else if (inside && inside.mark !== "(" && !/^(?:u?int8_t|u8|byte|char|unsigned)$/i.test(word)) {
     throw new Unreadable(word, at, "is no byte", "write numbers, like 0x55 or 85");
   }
@@ -75,7 +76,9 @@ function numberIn(word, at, asHex) {
     throw new Unreadable(word, at, "is no number", "write it like 0x55 or 85");
   }
   const value = parseInt(digits, isHex ? 16 : 10);
-  if (value > 255) throw new Unreadable(word, at, "is no byte: the highest is 255, 0xFF", "write one number a byte");
+  if (value > 255) {
+    throw new Unreadable(word, at, "is no byte: the highest is 255, 0xFF", "write one number a byte");
+  }
   return value;
 }
 
