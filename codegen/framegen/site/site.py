@@ -19,6 +19,7 @@ from framegen.site.mentions import Mention, mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
+from framegen.site.publication import NOT_FOUND, robots, sitemap
 from framegen.site.reference_pages import ReferencePages
 from framegen.site.search.index import SearchIndex
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
@@ -43,7 +44,15 @@ COMMON = ("page", "clipboard", "tabs", "search_box")
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, by path below its root."""
     site = Site(project, snippets)
-    return {page.path: _rendered(site, page) for page in site.pages}
+    files = {page.path: _rendered(site, page) for page in site.pages}
+    if project.base:
+        # Where a page stands for another, or for none at all, it is not for search engines.
+        listed = [
+            page.address for page in site.pages if not page.canonical and page.path != NOT_FOUND
+        ]
+        files["sitemap.xml"] = sitemap(project.base, listed)
+        files["robots.txt"] = robots(project.base)
+    return files
 
 
 @dataclass(frozen=True)
@@ -191,6 +200,16 @@ class Site:
         for reference in self.references:
             yield from reference.pages
         yield self._search_page()
+        if self.project.base:
+            # It is shown at any address, so that its links are whole.
+            yield Page(
+                NOT_FOUND,
+                "404",
+                "There is no such page",
+                "",
+                "Nothing is at this address.",
+                base=self.project.base,
+            )
 
     def _search_page(self) -> Page:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
