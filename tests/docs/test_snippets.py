@@ -49,7 +49,7 @@ def ran(made: ModuleType, source: str, controller: Any) -> str:
     """Run a program with a controller behind whatever port it opens; return what it prints."""
     output = io.StringIO()
     with (
-        mock.patch.object(made, "open_controller", lambda _port: controller),
+        mock.patch.object(made, "open_controller", return_value=controller),
         contextlib.redirect_stdout(output),
     ):
         exec(source, {})  # noqa: S102 - our own pages
