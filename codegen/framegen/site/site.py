@@ -246,7 +246,15 @@ class Site:
     def mentions(self, page: Page) -> list[Mention]:
         """Return where the guides speak of the message of a page."""
         message = page.context["message"]
-        return [*mentions(self.guides, message, page.path)]
+        return [*mentions(self._for_users, message, page.path)]
+
+    @cached_property
+    def _for_users(self) -> list[Guide]:
+        """The guides of the sections down to the one that lists the references."""
+        listing = [at for at, section in enumerate(self.sidebar) if section.groups]
+        shown = self.sidebar[: listing[0] + 1] if listing else self.sidebar
+        paths = {link.path for section in shown for link in section.links}
+        return [guide for guide in self.guides if guide.page in paths]
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
