@@ -147,6 +147,12 @@ class ReferenceView:
         return note_views(self.model.spec, self.protocol.notes)
 
     @property
+    def shows(self) -> bool:
+        """Whether it is known what the device shows of what it receives."""
+        spec = self.model.spec
+        return bool(spec.endpoints[self.model.roles.sent.receiver].notes)
+
+    @property
     def endpoints(self) -> list[EndpointView]:
         """The endpoints, with their descriptions."""
         spec = self.model.spec
@@ -325,7 +331,7 @@ class ReferenceView:
                 "decoder",
                 "Workbench",
                 "Workbench",
-                f"Decode captures of the {title}, and make frames of values. Nothing leaves the page.",
+                f"Decode captures of the {title}, and make frames. Nothing leaves the page.",
                 in_markdown=False,
             ),
             PageView(
