@@ -463,10 +463,11 @@ def framegen(capsys: pytest.CaptureFixture[str]) -> Command:
 
 def test_the_reference_shows_the_bent_name_in_code() -> None:
     [python] = [target for target in TARGETS if target.name == "python"]
-    assert python.snippet is not None
+    assert python.snippets is not None
     model = layout_of(renamed(renamed(data_of(DEMO), "TextShow", "Reason"), "number", "class"))
     message = model.messages["Reason"]
-    shown = python.snippet(model, message, message.message.examples[0])
+    (codec,) = python.snippets(model, message, message.message.examples[0])
+    shown = codec.code
     assert "from greenhouse import Direction, ReasonMessage, StreamDecoder" in shown
     assert "print(event.class_)  # -2" in shown
 
