@@ -333,7 +333,7 @@ def test_the_colours_of_code_can_be_read_in_both_schemes(browser: Browser, folde
         }));
     }"""
     for scheme in ("light", "dark"):
-        context = browser.new_context(color_scheme=scheme)  # type: ignore[arg-type]
+        context = browser.new_context(color_scheme=scheme)
         tab = context.new_page()
         tab.goto((folder / "getting-started.html").as_uri())
         contrasts = tab.evaluate(script)
