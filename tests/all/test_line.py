@@ -402,7 +402,9 @@ def test_the_list_is_held_and_goes_on(browser: Browser, site: Path) -> None:
         live.count("frames", 1)
         assert live.rows() == []
         live.tab.get_by_role("button", name="Hold the list").click()
-        live.tab.wait_for_function("() => document.querySelectorAll('#line-log .says').length === 1")
+        live.tab.wait_for_function(
+            "() => document.querySelectorAll('#line-log .says').length === 1"
+        )
         live.tab.locator("#line-clear").click()
         live.count("frames", 0)
         assert live.rows() == []
