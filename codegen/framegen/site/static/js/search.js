@@ -55,7 +55,8 @@
   function found({ query, kind, protocol }) {
     const read = bytesIn(query), said = search.find(query, { kind, protocol });
     const mayTake = (entry) => (!kind || entry.kind === kind) && (!protocol || entry.protocol === protocol);
-    if (!read?.bytes) return { ...said, problem: read?.problem, bytes: null };
+    if (read?.problem) return { ...said, hits: [], counts: {}, suggestions: [], problem: read.problem };
+    if (!read) return { ...said, bytes: null };
     const { judged, known, whole } = bytesSearch.find(read.bytes);
     // What may be a number or a word is taken for bytes if it is a frame, or nothing else.
     if (!read.certain && !whole && said.hits.length) return { ...said, bytes: null };
@@ -65,9 +66,9 @@
   }
 
   function bytesShown({ hex, at, size }) {
-    const text = (from, to) => hex.slice(3 * from, 3 * to);
     if (at === undefined) return [hex];
-    return [text(0, at), make("mark", {}, text(at, at + size).trimEnd()), ` ${text(at + size)}`];
+    const end = 3 * (at + size) - 1;
+    return [hex.slice(0, 3 * at), make("mark", {}, hex.slice(3 * at, end)), hex.slice(end)];
   }
 
   function itemOf({ entry }, sought) {
@@ -94,7 +95,7 @@
     const half = left ? ` The last digit, ${left}, is half a byte.` : "";
     const what = bytes ? counted(bytes.length, "byte") : `“${query}”`;
     const of = kind ? ` in ${index.kinds[kind].toLowerCase()}` : "";
-    if (problem && !hits.length) return `${problem}.`;
+    if (problem) return `${problem}.`;
     if (suggestions.length) return `Nothing found for “${query}”. Did you mean:`;
     if (loose) return `Nothing has all of these words. With some of them: ${hits.length}.`;
     return `${hits.length || "Nothing"} found for ${what}${of}.${half}`;
