@@ -4,9 +4,12 @@ Fenced blocks are run from the top of a page to its end, in a copy of the projec
 (commands after `$`, with what they print), `pycon` (a Python session), `python` (a program),
 `output` (what the last program printed) and `diff`, which is applied to the file that it names.
 Where a page uses git, the copy is a repository in which all is committed.
+Each program and each session begins with nothing, so that it runs wherever a reader pastes it. One
+that begins with `# NAME.py` is saved by that name, and `$ python NAME.py` runs it.
 A command is a process of its own once a page has changed what it is made of, and runs in this one
 until then, as its entry point does: for most pages, starting it would be most of the work.
-Whatever port a command or a program opens, a virtual board is there.
+Whatever port a command or a program opens, a virtual board is there: one for the whole page, which
+finds every motion over when the next block begins, as reading takes longer than moving.
 Output may leave lines out with `...`; all else must agree to the letter.
 
     python -m tests.documents
@@ -27,7 +30,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from unittest import mock
@@ -40,6 +43,7 @@ import lxservo._cli
 from busservo._client.async_opening import open_async_controller
 from busservo._client.opening import open_controller
 from busservo_simulator import ActionGroup, Step, VirtualController
+from busservo_simulator.clock import RealClock
 from lxservo._client.opening import open_controller as open_servos
 from lxservo_simulator import VirtualBus
 
@@ -62,6 +66,12 @@ TIMEOUT_OPTIONS = {
 
 # What a page runs is to take no longer than it must.
 GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
+
+# The servos of a bus without a controller, the charge of the board's battery, and the seconds that
+# no motion or group of a page outlasts.
+SERVOS = (1, 2)
+BATTERY_MV = 7500
+LONGEST_MOTION = 5.0
 
 # What examples read, and what follows from it, for those that change it.
 _READ = ("spec", "docs", "tests/captures", ".gitignore")
@@ -94,14 +104,18 @@ _GIT = {
 _GENERATED = {"spec", "codegen", "generated"}
 _MADE_OF = {"busservo": _GENERATED, "framegen": {"codegen"}, "lxservo": _GENERATED}
 _BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_SAVED = re.compile(r"# (\w+\.py)\n")
 _TIMED = re.compile(r"(?:^.*\((?:\d+\.\d+ s(?:, )?)+\)\n)+", re.MULTILINE)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
 
 def played(page: str, folder: Path) -> str:
     """Return the page with what its examples really print in `folder`, which they may change."""
-    player = _Player(folder)
-    return _BLOCK.sub(lambda block: f"```{block[1]}\n{player.play(block[1], block[2])}```", page)
+    with _Bench() as bench:
+        player = _Player(folder, bench)
+        return _BLOCK.sub(
+            lambda block: f"```{block[1]}\n{player.play(block[1], block[2])}```", page
+        )
 
 
 def copy_project(folder: Path, page: str) -> Path:
@@ -137,22 +151,61 @@ def _git(folder: Path, words: Sequence[str]) -> str:
     ).stdout
 
 
+class _FastClock(RealClock):
+    """Faster than real time, and can be put forward: on a busy machine, no motion ends late."""
+
+    def __init__(self) -> None:
+        self._later = 0.0
+
+    def now(self) -> float:
+        """Return seconds."""
+        return 1.5 * super().now() + self._later
+
+    def put_forward(self, seconds: float) -> None:
+        """Go on to a later time."""
+        self._later += seconds
+
+
+class _Bench(contextlib.ExitStack):
+    """What a reader has: a board and, apart from it, a bus of servos; each from its first use on."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._clock = _FastClock()
+
+    @cached_property
+    def board(self) -> VirtualController:
+        """A board with the stored groups."""
+        return self.enter_context(VirtualController(via="tcp", groups=GROUPS, clock=self._clock))
+
+    @cached_property
+    def bus(self) -> VirtualBus:
+        """A bus of servos."""
+        return self.enter_context(VirtualBus(via="tcp", servos=SERVOS, clock=self._clock))
+
+    def settle(self) -> None:
+        """End all motions, and charge the battery."""
+        self._clock.put_forward(LONGEST_MOTION)
+        if "board" in vars(self):
+            battery = self.board.battery
+            battery.full_mv += BATTERY_MV - battery.voltage_mv
+
+
 class _Player:
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, bench: _Bench) -> None:
         self._folder = folder
-        self._names: dict[str, Any] = {"__name__": "__main__"}
+        self._bench = bench
+        self._names: dict[str, Any] = {}
         self._printed = ""
-        self._servos: VirtualBus | None = None
+        self._of_servos = False
         # The folders that the page has changed so far.
         self._changed: set[str] = set()
 
     def play(self, kind: str, block: str) -> str:
-        """Return the block as it really is; servos that it talks to are new for each."""
-        bus = VirtualBus(via="tcp", servos=[1, 2])
-        with bus if "lxservo" in block else contextlib.nullcontext() as self._servos:
-            return self._play(kind, block)
-
-    def _play(self, kind: str, block: str) -> str:
+        """Return the block as it really is."""
+        self._bench.settle()
+        self._of_servos = "lxservo" in block
+        self._names = {"__name__": "__main__"}
         match kind:
             case "console":
                 return self._console(block)
@@ -161,6 +214,8 @@ class _Player:
             case "output":
                 return _agreed(block, self._printed)
             case "python":
+                if saved := _SAVED.match(block):
+                    (self._folder / saved[1]).write_text(block, encoding="utf-8")
                 self._printed = self._program(block)
             case _:
                 self._changed.add(_apply(block, self._folder))
@@ -169,34 +224,33 @@ class _Player:
     def _program(self, source: str) -> str:
         """Return the output of a program that opens any port: a virtual board is there."""
         output = io.StringIO()
-        with VirtualController(via="tcp", groups=GROUPS) as board:
-            opening = mock.patch.multiple(
-                busservo,
-                open_controller=lambda _port, **given: open_controller(
-                    board.port, **TIMEOUTS | given
-                ),
-                open_async_controller=lambda _port, **given: open_async_controller(
-                    board.port, **TIMEOUTS | given
-                ),
-                Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
-            )
-            with (
-                opening,
-                self._with_servos(),
-                undoubted(),
-                _at(self._folder),
-                contextlib.redirect_stdout(output),
-            ):
-                exec(source, self._names)  # noqa: S102 - our own pages
+        opening = mock.patch.multiple(
+            busservo,
+            open_controller=lambda _port, **given: open_controller(
+                self._bench.board.port, **TIMEOUTS | given
+            ),
+            open_async_controller=lambda _port, **given: open_async_controller(
+                self._bench.board.port, **TIMEOUTS | given
+            ),
+            Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
+        )
+        with (
+            opening,
+            self._with_servos(),
+            undoubted(),
+            _at(self._folder),
+            contextlib.redirect_stdout(output),
+        ):
+            exec(source, self._names)  # noqa: S102 - our own pages
         return output.getvalue()
 
     def _with_servos(self) -> contextlib.AbstractContextManager[object]:
         """Have programs open the port of the servos, whatever they name."""
-        if self._servos is None:
+        if not self._of_servos:
             return contextlib.nullcontext()
         # At a slow rate: a servo of a busy machine begins to move later, but not as late as that.
         opened = partial(
-            open_servos, self._servos.port, baud=1200, reply_timeout=GENEROUS, settle=0
+            open_servos, self._bench.bus.port, baud=1200, reply_timeout=GENEROUS, settle=0
         )
         return mock.patch.object(lxservo, "open_controller", lambda _port, **given: opened(**given))
 
@@ -216,6 +270,10 @@ class _Player:
             if name == "git":
                 output = _git(self._folder, arguments)
                 continue
+            if name == "python":
+                (file,) = arguments
+                output = self._program((self._folder / file).read_text(encoding="utf-8"))
+                continue
             assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
             run = self._start if self._changed & _MADE_OF[name] else self._call
             with self._connected(arguments) as (words, shown_as):
@@ -229,12 +287,11 @@ class _Player:
             yield words, str
             return
         at = words.index("--port") + 1
-        board = VirtualController(via="tcp", groups=GROUPS)
-        with board if self._servos is None else contextlib.nullcontext(self._servos) as there:
-            yield (
-                [*words[:at], there.port, *words[at + 1 :], *TIMEOUT_OPTIONS.get(words[0], [])],
-                lambda text: text.replace(there.port, words[at]),
-            )
+        port = self._bench.bus.port if self._of_servos else self._bench.board.port
+        yield (
+            [*words[:at], port, *words[at + 1 :], *TIMEOUT_OPTIONS.get(words[0], [])],
+            lambda text: text.replace(port, words[at]),
+        )
 
     def _start(self, name: str, words: list[str], given: str) -> str:
         """Return the output of a command of the changed project."""

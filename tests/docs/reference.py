@@ -76,6 +76,11 @@ class Page(HTMLParser):
         if tag not in VOID:
             self._inside.append(tag)
 
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.handle_endtag(tag)
+
     def handle_endtag(self, tag: str) -> None:
         assert self._inside.pop() == tag, f"{self.path}: </{tag}> closes something else"
         self._snippet = self._snippet and tag != "pre"

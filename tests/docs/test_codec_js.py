@@ -167,12 +167,12 @@ def test_a_recorded_line_is_decoded_as_the_reference_decodes_it(busservo: Page) 
 HARNESS = """
 function answer(codec, { ask, text, name, fields }) {
   try {
-    if (ask === "hex") return parseHex(text);
-    if (ask === "encode") return codec.encode(name, fields);
+    if (ask === "hex") return Array.from(parseHex(text));
+    if (ask === "encode") return Array.from(codec.encode(name, fields));
     if (ask === "frame") return codec.decodeFrame(parseHex(text), null);
     const stream = codec.makeStream();
     if (ask === "line") return stream.flush(parseHex(text));
-    const cut = parseHex(text).flatMap((byte) => stream.feed([byte]));
+    const cut = Array.from(parseHex(text)).flatMap((byte) => stream.feed([byte]));
     return [...cut, ...stream.flush()];
   } catch (error) {
     if (error instanceof Unusable) return { refused: error.message };

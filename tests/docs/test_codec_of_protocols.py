@@ -11,6 +11,7 @@ from framegen.model.codec import NotAFrame, decode, encode, values_of
 from framegen.model.layout import MessageLayout
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.protocol_data import protocol_data
 
 from tests.docs.peers import Event, joined, noisy_lines
@@ -20,13 +21,12 @@ from tests.protocols.specs import FILES, model_of
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
-SCRIPTS = ["checksums", "codec"]
 PROGRAM = """
 const codec = makeCodec(asked.protocol);
 const plain = ({ type, bytes, message, reason, fields }) => (
-  [type, bytes, message || reason, fields || null]);
+  [type, Array.from(bytes), message || reason, fields || null]);
 function answer(ask, first, second, room) {
-  if (ask === "encode") return codec.encode(first, second);
+  if (ask === "encode") return Array.from(codec.encode(first, second));
   if (ask === "frame") {
     const { message, fields, reason, offset } = codec.decodeFrame(second, first);
     return message ? [message, fields] : [reason, offset];
@@ -48,7 +48,7 @@ const answers = asked.questions.map((question) => {
 def ask(model: Model, questions: list[tuple[Any, ...]]) -> list[Any]:
     """Return the answers of the page's codec."""
     answers: list[Any] = run_script(
-        SCRIPTS, PROGRAM, {"protocol": protocol_data(model), "questions": questions}
+        codec_scripts(model), PROGRAM, {"protocol": protocol_data(model), "questions": questions}
     )
     return answers
 

@@ -6,10 +6,22 @@ import re
 import sys
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 import busservo
 import pytest
+from busservo import (
+    ActionGroupRun,
+    ActionGroupSpeed,
+    ActionGroupStop,
+    BatteryVoltageRead,
+    HostMessage,
+    ServoMove,
+    ServoPositionsRead,
+    ServoUnload,
+)
+from busservo_simulator import ActionGroup, Step
+from busservo_simulator.board import Board
 from busservo_simulator.cli import _board
 from busservo_simulator.faults import CHANCES, TO_BOARD
 from busservo_simulator.options import PROGRAM, parser_of
@@ -17,13 +29,20 @@ from busservo_simulator.options import PROGRAM, parser_of
 from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 GUIDE = Path(__file__).parents[2] / "docs" / "test-your-robot.md"
 TEXT = GUIDE.read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```python\n(.*?)^```$", TEXT, re.DOTALL | re.MULTILINE)
 COMMANDS = re.findall(r"^\$ busservo-simulator (.*)$", TEXT, re.MULTILINE)
 FAULTS = re.findall(r"^\| `(.*)` \| (.*) \|$", TEXT, re.MULTILINE)
+# What the table of messages says: what is received, and all that may be sent for it.
+REACTIONS = {
+    received: set(re.findall(r"messages/(\w+)\.md", sent))
+    for received, sent in re.findall(
+        r"^\| \[(\w+)\]\([^|]*\) \|[^|]*\|([^|]*)\|$", TEXT, re.MULTILINE
+    )
+}
 
 
 def test_the_guide_has_examples() -> None:
@@ -63,3 +82,76 @@ def test_an_example_does_what_it_says(block: str, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(busservo, "open_controller", live)
     names: dict[str, object] = {"__name__": "guide"}
     exec(compile(block, str(GUIDE.name), "exec"), names)  # noqa: S102 - the guide is ours
+
+
+# A hundred steps of a tenth of a second, between two positions.
+GROUPS = {8: ActionGroup(50 * [Step(100, {1: 600}), Step(100, {1: 400})])}
+RUN = ActionGroupRun(group=8, times=1)
+# Every way in which a message can be received, with what has been received before it.
+RECEIVED: list[list[HostMessage]] = [
+    [ServoMove(time_ms=500, targets=[(1, 700), (2, 510)])],
+    [ServoUnload([1, 99])],
+    [ServoPositionsRead([1, 99])],
+    [ServoPositionsRead(range(1, 86))],
+    [BatteryVoltageRead()],
+    [RUN],
+    [ActionGroupRun(group=99, times=1)],
+    [RUN, RUN],
+    [ActionGroupStop()],
+    [RUN, ActionGroupStop()],
+    [ActionGroupSpeed(group=8, percent=200)],
+    [RUN, ActionGroupSpeed(group=8, percent=200)],
+]
+
+
+def board_after(messages: Sequence[HostMessage], seconds: float = 0) -> Board:
+    board = Board(groups=GROUPS)
+    for message in messages:
+        board.hear(message.encode())
+    board.advance_to(seconds)
+    return board
+
+
+def sent_by(board: Board) -> set[str]:
+    return {type(report).__name__ for report in board.take()}
+
+
+def sent_after(messages: Sequence[HostMessage]) -> set[str]:
+    return sent_by(board_after(messages, 60))
+
+
+def test_the_guide_says_what_each_message_has_the_board_send() -> None:
+    sent: dict[str, set[str]] = {each.__name__: set() for each in get_args(HostMessage)}
+    for *before, message in RECEIVED:
+        sent[type(message).__name__] |= sent_after([*before, message]) - sent_after(before)
+    assert sent == REACTIONS
+
+
+@pytest.mark.parametrize("messages", RECEIVED)
+def test_every_message_has_led2_blink_once(messages: list[HostMessage]) -> None:
+    log = re.findall(r"LED2 +(.*?)(?::|$)", str(board_after(messages).event_log), re.MULTILINE)
+    assert log == len(messages) * ["blinks"]
+
+
+def test_servos_arrive_together_and_go_limp_until_the_next_move() -> None:
+    move = ServoMove(time_ms=500, targets=[(1, 700), (2, 510)])
+    assert all(board_after([move], 0.49).servos[each].travelling for each in (1, 2))
+    assert not any(board_after([move], 0.5).servos[each].travelling for each in (1, 2))
+    limp = [move, ServoUnload([1])]
+    assert [board_after(each).servos[1].loaded for each in (limp, [*limp, move])] == [False, True]
+
+
+def test_a_speed_is_that_of_the_steps_to_come_until_a_restart() -> None:
+    half = ActionGroupSpeed(group=8, percent=50)
+    for before, end in (([RUN], 10), ([half, RUN], 20), ([RUN, half], 19.9)):
+        assert "ActionGroupCompleted" not in sent_by(board_after(before, end - 0.01))
+        assert "ActionGroupCompleted" in sent_by(board_after(before, end + 0.01))
+    board = board_after([half, ActionGroupSpeed(group=8, percent=0)])
+    assert board.speeds == {8: 50}
+    board.reboot(1)
+    assert board.speeds == {}
+
+
+def test_a_stopped_group_completes_its_step() -> None:
+    board = board_after([RUN, ActionGroupStop()], 1)
+    assert board.servos[1].position == 600

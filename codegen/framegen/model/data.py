@@ -126,7 +126,8 @@ def _example(example: Example) -> dict[str, Any]:
 
 
 def _reserved(reserved: Reserved) -> dict[str, Any]:
-    given = {} if reserved.id is None else {"id": reserved.id.one or str(reserved.id)}
+    ids = reserved.id
+    given = {} if ids is None else {"id": str(ids) if ids.one is None else ids.one}
     way = None if reserved.direction is None else str(reserved.direction)
     cite = None if reserved.cite is None else str(reserved.cite)
     return given | _filled(name=reserved.name, direction=way, why=reserved.why, cite=cite)

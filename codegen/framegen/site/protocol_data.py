@@ -1,4 +1,4 @@
-"""The protocol as data for the decoder page: slots as plain values, without prose.
+"""The protocol as data for scripts: slots as plain values, and the texts that explain them.
 
 Numbers of eight bytes are written as text: those of JSON in a browser have fewer digits.
 """
@@ -8,19 +8,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from framegen.explanation import refusals
+from framegen.explanation.explanation import example_in_words, facts, named
+from framegen.explanation.protocol import listed
 from framegen.language.formula import Sizes
 from framegen.model.data import method_terms
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
+from framegen.pluralize import describe_range
 from framegen.targets.docs.address import message_page
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from framegen.language.values import Direction
     from framegen.model.envelope import Envelope
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Field, Slot
 
 # The reasons for which bytes are no frame, by what the script calls them.
-_REASONS = {
+REASONS = {
     "tooShort": refusals.TOO_SHORT,
     "trailing": refusals.TRAILING_BYTES,
     "header": refusals.BAD_HEADER,
@@ -36,23 +42,72 @@ _EXACT = 6
 _ANY_BYTE = 0x100
 
 
-def protocol_data(model: Model) -> dict[str, Any]:
-    """Return all that decoding and encoding need.
+def protocol_data(model: Model, messages: Collection[str] | None = None) -> dict[str, Any]:
+    """Return all that decoding, encoding and explaining need, of some messages or of all.
 
     The slots of a message are those of its envelope, with its fields where the body is. Its frame
     has `size` bytes and those of as many elements as `counts` allows, or one of its `sizes`.
     """
+    shown = [each for each in model.messages.values() if messages is None or each.name in messages]
     return {
         "name": model.spec.protocol.name,
-        "reasons": _REASONS,
-        "directions": [
-            {"key": way.key, "sender": way.sender, "text": f"{way.sender} to {way.receiver}"}
-            for way in model.directions
-        ],
+        "title": model.spec.protocol.title,
+        "reasons": REASONS,
+        "directions": [_direction(model, way) for way in model.directions],
         # Empty where any byte may begin a frame.
         "begins": sorted(model.first_bytes) if len(model.first_bytes) < _ANY_BYTE else [],
         "frames": [_envelope(frame) for frame in model.envelopes.values()],
-        "messages": [_message(message) for message in model.messages.values()],
+        "messages": [_message(message) | _said(model, message.name) for message in shown],
+        **explained_elsewhere(model),
+    }
+
+
+def _direction(model: Model, way: Direction) -> dict[str, Any]:
+    return {
+        "key": way.key,
+        "sender": way.sender,
+        "receiver": way.receiver,
+        "text": f"{way.sender} to {way.receiver}",
+        "arrow": str(way),
+        "opening": model.plain.opening([str(way)]),
+    }
+
+
+def explained_elsewhere(model: Model) -> dict[str, Any]:
+    """Return the look-alikes, and the ids that are reserved."""
+    lookalikes = [
+        {
+            "title": said.title,
+            "about": said.about,
+            "commands": {str(number): meaning for number, meaning in said.commands.items()},
+            **({"frame": _envelope(model.lookalikes[name])} if said.frame else {}),
+        }
+        for name, said in model.spec.lookalikes.items()
+    ]
+    reserved = [
+        {
+            "id": each.id.one,
+            "why": each.why,
+            **({} if each.direction is None else {"direction": str(each.direction)}),
+        }
+        for each in model.spec.reserved
+        if each.id is not None and each.id.one is not None
+    ]
+    return {"lookalikes": lookalikes, "reserved": reserved}
+
+
+def _said(model: Model, name: str) -> dict[str, Any]:
+    """Return what explanations say of a message."""
+    plain = model.plain.messages[name]
+    formula = plain.formula if plain.varies else f"always {plain.formula}"
+    return {
+        "means": {"length": formula, "id": named(plain)},
+        "lengths": describe_range(plain.lengths),
+        "facts": [*facts(model.plain, plain, b"")],
+        "documented": [
+            {"hex": example["hex"], "text": example_in_words(example)}
+            for example in plain.said["examples"]
+        ],
     }
 
 
@@ -135,16 +190,16 @@ def _slot(slot: Slot, frame: Envelope | None = None) -> dict[str, Any]:
 
     In an element of a list it counts from the first byte of the element.
     """
-    placed = {"role": slot.role, "name": slot.name, "at": slot.at}
+    placed: dict[str, Any] = {"role": slot.role, "name": slot.name, "at": slot.at}
     if isinstance(slot, Body):
         return placed
     placed["size"] = slot.size
     match slot:
         case Constant():
-            placed["bytes"] = list(slot.data)
+            placed |= {"bytes": list(slot.data)} | _about(slot.about)
             return placed | ({} if slot.field is None else {"field": True})
         case Text():
-            return placed
+            return placed | _about(slot.field.about)
         case Packed():
             return placed | _packed(slot)
         case Number():
@@ -159,6 +214,7 @@ def _items(items: Items) -> dict[str, Any]:
     # Of some lists, any bytes are elements.
     free = {"free": True} if all(map(_holds_anything, items.slots)) else {}
     return {
+        **({} if items.element is None else _about(items.field.about)),
         "element": items.element,
         "slots": [_slot(slot) for slot in items.slots],
         **count,
@@ -187,10 +243,16 @@ def _packed(packed: Packed) -> dict[str, Any]:
 
 
 def _sum(number: Number, frame: Envelope | None) -> dict[str, Any]:
-    """Return how a checksum is worked out, and from what."""
+    """Return what a length counts; how a checksum is worked out, and from what."""
+    if number.role == "length":
+        return {"of": list(number.of)}
     if frame is None or number.role != "checksum":
         return {}
-    return {"method": checksum_method(number), "covers": _covers(frame, number)}
+    return {
+        "method": checksum_method(number),
+        "covers": _covers(frame, number),
+        "means": f"{number.method} of {listed(number.of)}",
+    }
 
 
 def _number(number: Number) -> dict[str, Any]:
@@ -217,12 +279,22 @@ def _words(slot: Number | Packed) -> dict[str, Any]:
     said, scale = slot.field, slot.field.scale
     offset = {"offset": f"{scale.offset:f}"} if scale and scale.offset else {}
     bits = {name: [each.at.low, each.at.high] for name, each in said.bits.items()}
+    wide = isinstance(slot, Number) and slot.size > _EXACT
+    meanings = {name: value.about for name, value in said.values.items() if value.about}
     return {
         "unit": said.unit,
         "scale": scale and {"step": f"{scale.step:f}", "unit": scale.unit, **offset},
-        "names": {name: value.value for name, value in said.values.items()},
+        "names": {
+            name: str(value.value) if wide else value.value for name, value in said.values.items()
+        },
         **({"bits": bits} if bits else {}),
+        **({"meanings": meanings} if meanings else {}),
+        **_about(said.about),
     }
+
+
+def _about(text: str) -> dict[str, str]:
+    return {"about": text} if text else {}
 
 
 def _covers(frame: Envelope, checksum: Number) -> list[Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
@@ -14,6 +15,30 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.targets.docs.reference import ReferenceView
+
+# The files of the workbench, in the order in which they are joined.
+_WORKBENCH = (
+    "elements",
+    "columns",
+    "capture_place",
+    "hex_text",
+    "code_text",
+    "line_text",
+    "csv_text",
+    "capture_text",
+    "capture",
+    "notation",
+    "event_words",
+    "virtual_list",
+    "workbench_input",
+    "workbench_export",
+    "workbench_address",
+    "workbench_detail",
+    "workbench_list",
+    "stub",
+    "workbench_encode",
+    "workbench",
+)
 
 
 class ReferencePages:
@@ -50,8 +75,7 @@ class ReferencePages:
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
         if template != "decoder":
             return ()
-        proven = any(frame.checksums for frame in self.reference.model.envelopes.values())
-        return (("checksums", "codec") if proven else ("codec",), ("decoder",))
+        return (codec_scripts(self.reference.model), _WORKBENCH)
 
     def _data(self, template: str) -> dict[str, object]:
         match template:

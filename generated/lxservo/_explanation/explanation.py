@@ -20,8 +20,8 @@ from .refusals import (
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
-    from typing import TypeAlias
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from typing import Any, TypeAlias
 
     from .closest import Attempt
     from .protocol import Envelope, Message, Placed, Protocol, Value
@@ -132,13 +132,41 @@ def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
         meaning = f"{slot.said['method']} of {listed(slot.of)}"
     elif slot.role == "id":
         is_last = message is not None and slot is message.frame.id
-        meaning = _named(message) if message is not None and is_last else ""
+        meaning = named(message) if message is not None and is_last else ""
     return Row(*where, value, str(value), meaning)
 
 
-def _named(message: Message) -> str:
+def named(message: Message) -> str:
+    """Name a message, as the vendor does, too."""
     vendor_name = message.said.get("vendor_name")
     return f"{message.name}, {vendor_name} to the vendor" if vendor_name else message.name
+
+
+def facts(protocol: Protocol, message: Message, data: bytes) -> Iterator[tuple[str, str]]:
+    """Yield what else is to be said of a message with such a frame: a label and a text each."""
+    said = message.said
+    if "deprecated" in said:
+        yield "deprecated", said["deprecated"]
+    if said["kind"] in ("command", "query"):
+        yield "reply", said.get("reply", "none is due")
+    for fact, key in (
+        ("reported by", "reports"),
+        ("answers", "answers"),
+        ("reports on", "reports_on"),
+    ):
+        if key in said:
+            yield fact, ", ".join(said[key])
+    for example in said.get("examples", ()):
+        if bytes.fromhex(example["hex"]) == data:
+            yield "example", example_in_words(example)
+    cite = said["cite"]
+    source = protocol.said["sources"].get(cite.partition(",")[0])
+    yield "source", cite if source is None else f"{cite} ({source['title']})"
+
+
+def example_in_words(example: Mapping[str, Any]) -> str:
+    """Name a documented frame, with where it is documented."""
+    return f"{example['title']} ({example['cite']})" if "cite" in example else example["title"]
 
 
 def _distance(refusal: Refusal) -> tuple[bool, int]:
@@ -170,8 +198,8 @@ class _Explainer:
     def _reading(self, message: Message) -> Reading:
         slots = self._slots(message.frame, message, len(self.data))
         rows = rows_of(self.data, slots, message)
-        facts = tuple(self._facts(message))
-        return Reading(message.name, message.direction, message.said["summary"], rows, facts)
+        said = tuple(facts(self.protocol, message, self.data))
+        return Reading(message.name, message.direction, message.said["summary"], rows, said)
 
     def _refusal(self, direction: str, judgement: Judgement) -> Refusal:
         reason, offset = judgement.reason, judgement.offset
@@ -208,27 +236,6 @@ class _Explainer:
         if message is None or length is None or (head and end < head[-1].end):
             return [placed for placed in head if placed.end <= end]
         return [placed for placed in message.lay_out(length) if placed.end <= end]
-
-    def _facts(self, message: Message) -> Iterator[tuple[str, str]]:
-        said = message.said
-        if "deprecated" in said:
-            yield "deprecated", said["deprecated"]
-        if said["kind"] in ("command", "query"):
-            yield "reply", said.get("reply", "none is due")
-        for fact, key in (
-            ("reported by", "reports"),
-            ("answers", "answers"),
-            ("reports on", "reports_on"),
-        ):
-            if key in said:
-                yield fact, ", ".join(said[key])
-        for example in said.get("examples", ()):
-            if bytes.fromhex(example["hex"]) == self.data:
-                cite = f" ({example['cite']})" if "cite" in example else ""
-                yield "example", f"{example['title']}{cite}"
-        cite = said["cite"]
-        source = self.protocol.said["sources"].get(cite.partition(",")[0])
-        yield "source", cite if source is None else f"{cite} ({source['title']})"
 
     def _hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
         """Suggest what the bytes are instead."""

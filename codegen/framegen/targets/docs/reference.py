@@ -304,9 +304,9 @@ class ReferenceView:
             PageView(
                 "decoder",
                 "decoder",
-                "Decoder and encoder",
-                "Decoder",
-                f"Decode bytes of the {title}, and make frames of values. Nothing leaves the page.",
+                "Workbench",
+                "Workbench",
+                f"Decode captures of the {title}, and make frames of values. Nothing leaves the page.",
                 in_markdown=False,
             ),
             PageView(

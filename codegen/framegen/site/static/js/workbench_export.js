@@ -1,0 +1,72 @@
+// A decoded capture as a file: the columns and keys of the command's `decode --csv` and `--json`.
+"use strict";
+
+const EXPORT_COLUMNS = "offset,time,from,direction,message,or,fields,hex,reason";
+
+// A line of text for an event, without its end.
+function makeExport(codec, protocol) {
+  const senderOf = (key) => protocol.directions.find((each) => each.key === key).sender;
+  const originOf = (event) => (event.direction === null || event.names.length > 1 ? "either" : senderOf(event.direction));
+  const cell = (text) => (/[",\n\r]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+
+  function fieldsOf({ kind, bytes }) {
+    return fieldsInJson(kind, codec.decodeFrame(bytes, kind.direction).fields);
+  }
+
+  function asCsv(event) {
+    const { kind, names: [name, ...others] } = event, time = event.time === null ? "" : event.time.toFixed(6);
+    const said = kind ? [kind.direction, name, others.join(" "), fieldsOf(event), toHex(event.bytes), ""]
+      : ["", "", "", "", toHex(event.bytes), event.reason];
+    return [event.at, time, originOf(event), ...said].map((each) => cell(String(each))).join(",");
+  }
+
+  function asJson(event) {
+    const time = event.time === null ? "" : `, "time": ${floatInJson(Number(event.time.toFixed(6)))}`;
+    const begin = `{"offset": ${event.at}${time}, "from": ${asciiJson(originOf(event))}`;
+    if (!event.kind) {
+      const numbers = event.type === "unknown" ? numbersOf(event.bytes) : "";
+      return `${begin}, "noise": "${toHex(event.bytes)}", "reason": ${asciiJson(event.reason)}${numbers}}`;
+    }
+    const [name, ...others] = event.names;
+    const either = others.length ? `, "or": [${others.map(asciiJson).join(", ")}]` : "";
+    return `${begin}, "direction": "${event.kind.direction}", "message": "${name}", "fields": ${fieldsOf(event)}, `
+      + `"hex": "${toHex(event.bytes)}"${either}}`;
+  }
+
+  // What an unknown frame says of itself: who it is from, its command, and its parameters.
+  function numbersOf(bytes) {
+    const frame = protocol.frames.find(({ header }) => header.every((byte, i) => bytes[i] === byte));
+    if (!frame) return "";
+    const body = frame.slots.findIndex(({ role }) => role === "body");
+    const numbers = frame.slots.filter(({ role, at }) => at >= 0 && ["id", "address", "counter"].includes(role));
+    const tail = frame.slots.slice(body + 1).reduce((sum, { size }) => sum + size, 0);
+    const said = numbers.map((slot) => {
+      const own = [...bytes.slice(slot.at, slot.at + slot.size)];
+      if (slot.order === "little") own.reverse();
+      return `, ${asciiJson(slot.name)}: ${own.reduce((so, byte) => so * 256n + BigInt(byte), 0n)}`;
+    });
+    return `${said.join("")}, "parameters": "${toHex(bytes.slice(frame.slots[body].at, bytes.length - tail))}"`;
+  }
+
+  // A line of a recording, which `decode`, `replay` and this page read.
+  function asRecording(event) {
+    const who = originOf(event), time = (event.time ?? 0).toFixed(6);
+    const what = event.kind ? `${who}: ${event.names.join(" or ")}`
+      : `${event.type === "unknown" ? who : who === "either" ? "noise" : `${who} noise`}: ${event.reason}`;
+    return `${toHex(event.bytes)}  # ${time} s, ${what}`;
+  }
+
+  return {
+    csv: { head: `${EXPORT_COLUMNS}\n`, line: asCsv, type: "text/csv", ending: "csv" },
+    json: { head: "", line: asJson, type: "application/x-ndjson", ending: "jsonl" },
+    recording: { head: "", line: asRecording, type: "text/plain", ending: "hex" },
+  };
+}
+
+// Hand a file to the browser, which saves it where downloads go.
+function download(parts, type, name) {
+  const address = URL.createObjectURL(new Blob(parts, { type }));
+  const link = make("a", { href: address, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
+}
