@@ -182,21 +182,21 @@ def test_enter_goes_to_the_first_and_arrows_to_the_others(visit: Visit) -> None:
 
 
 def test_what_is_shown_is_of_the_chosen_kind(visit: Visit) -> None:
-    tab = visit.open("search.html?q=servo")
+    tab = visit.open("search.html?q=percent")
     tab.get_by_role("radio", name=re.compile("^Errata")).check()
     count = int(
         tab.get_by_role("radio", name=re.compile("^Errata")).evaluate(
             "(radio) => radio.parentElement.querySelector('.count').textContent"
         )
     )
-    assert said(tab) == f"{count} found for “servo” in errata."
+    assert said(tab) == f"{count} found for “percent” in errata."
     assert len(titles(tab)) == min(count, 30)
-    kept(tab, "servo")
+    kept(tab, "percent")
     tab.get_by_role("radio", name="LX-16A servo bus").check()
-    assert said(tab) == "Nothing found for “servo” in errata."
+    assert said(tab) == "Nothing found for “percent” in errata."
     tab.wait_for_function("() => location.search.includes('in=lxservo')")
     tab.reload()
-    assert said(tab) == "Nothing found for “servo” in errata."
+    assert said(tab) == "Nothing found for “percent” in errata."
     tab.get_by_role("button", name="Search all kinds and protocols").click()
     assert titles(tab)
     assert not tab.locator("#search-advice").is_visible()

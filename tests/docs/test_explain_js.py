@@ -70,7 +70,15 @@ def right(model: Model, data: bytes, way: str | None) -> Any:
 
 def _rows(rows: tuple[Row, ...]) -> list[Any]:
     return [
-        [row.offset, row.data.hex(" ").upper(), row.path, row.role, _value(row), row.text, row.meaning]
+        [
+            row.offset,
+            row.data.hex(" ").upper(),
+            row.path,
+            row.role,
+            _value(row),
+            row.text,
+            row.meaning,
+        ]
         for row in rows
     ]
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from framegen.render import snippets
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.project import Project, read_project
 from framegen.site.search.entry import KINDS, Entry, spellings
 from framegen.site.search.words import with_words
@@ -25,6 +26,11 @@ needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 def project() -> Project:
     specs = [compiled_file(ROOT / "spec" / f"{name}.yaml") for name in ("busservo", "lxservo")]
     return read_project(specs, ROOT / "docs")
+
+
+@cache
+def rendered() -> dict[str, str]:
+    return render_site(project(), snippets())
 
 
 @cache
@@ -214,7 +220,7 @@ def bytes_found(queries: list[str]) -> list[dict[str, Any]]:
       return { read: { ...read, bytes: Array.from(read.bytes) }, ...bytesSearch.find(read.bytes) };
     });
     """
-    scripts = ["checksums", "codec", "ranking", "bytes_found"]
+    scripts = [*codec_scripts(project().specs[1].model), "ranking", "bytes_found"]
     answers: list[dict[str, Any]] = run_script(
         scripts, program, {"index": index(), "queries": queries}
     )
@@ -315,14 +321,27 @@ def test_bytes_find_frames() -> None:
 
 @needs_node
 def test_bytes_are_told_in_short() -> None:
-    move, off, refused = bytes_found(
-        ["55 55 0B 03 02 20 03 02 20 03 09 20 03", "55 55 06 15 01 03 FF FF", "55 55 09 03 01 E8"]
+    move, off, refused, sibling, begun = bytes_found(
+        [
+            "55 55 0B 03 02 20 03 02 20 03 09 20 03",
+            "55 55 06 15 01 03 FF FF",
+            "55 55 09 03 01 E8",
+            "55 55 02 01",
+            "55 55 08",
+        ]
     )
     assert move["judged"][0]["text"] == (
         "time_ms 800 ms, targets: servo_id 2 position 800; servo_id 9 position 800"
     )
     assert off["judged"][0]["text"] == "positions: servo_id 3 position 65535 (absent)"
-    assert refused["judged"][0]["text"] == "No whole frame: length mismatch at byte 2."
+    assert refused["judged"][0]["text"] == (
+        "length mismatch at byte 2: ServoMove has a length of 8, 11, 14 .. 254, not 9."
+    )
+    (hinted,) = [each for each in sibling["judged"] if each["protocol"] == "busservo"]
+    assert hinted["text"].endswith(
+        "in the dialect of LeArm and uHand boards, 1 asks for the version."
+    )
+    assert begun["judged"][0]["text"] == "A frame may begin like this; its end is missing."
 
 
 @needs_node
@@ -369,7 +388,7 @@ def test_numbers_are_found_as_people_write_them() -> None:
 
 
 def test_the_search_alone_has_the_index_and_keeps_within_its_bounds() -> None:
-    pages = render_site(project(), snippets())
+    pages = rendered()
     assert len(pages["search.html"].encode()) < 1_500_000
     holding = [path for path, text in pages.items() if 'id="search-index"' in text]
     assert holding == ["search.html"]
@@ -379,7 +398,7 @@ def test_the_search_alone_has_the_index_and_keeps_within_its_bounds() -> None:
 
 
 def test_what_the_page_lists_is_what_can_be_found() -> None:
-    text = render_site(project(), snippets())["search.html"]
+    text = rendered()["search.html"]
     data = json.loads(re.findall(r'id="search-index">(.*?)</script>', text, re.DOTALL)[0])
     listed = text.partition('id="search-letters"')[2]
     for entry in data["entries"]:

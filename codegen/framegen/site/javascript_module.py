@@ -103,7 +103,9 @@ def about(field: Field) -> str:
     said = field.field.about
     match field:
         case Number() if not field.is_float:
-            names = "".join(f", {value.value} = {name}" for name, value in field.field.values.items())
+            names = "".join(
+                f", {value.value} = {name}" for name, value in field.field.values.items()
+            )
             unit = f" {field.field.unit}" if field.field.unit else ""
             return f"{said} {field.low}..{field.high}{unit}{names}."
         case Items():
