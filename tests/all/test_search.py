@@ -272,6 +272,9 @@ def test_a_part_of_a_frame_is_marked_where_it_stands(visit: Visit) -> None:
 def test_half_a_byte_and_wrong_digits_are_told(visit: Visit) -> None:
     tab = visit.open("search.html?q=55 55 02 0")
     assert said(tab).endswith("The last digit, 0, is half a byte.")
+    box(tab).fill("55 55 09 03 01 E8 03 01 20 03")
+    assert said(tab) == "10 bytes, and no whole frame."
+    assert "with that they are ServoMove" in tab.locator("#search-results").inner_text()
     box(tab).fill("55 55 0G 02")
     assert said(tab) == "“0G” is no byte in hex."
 
@@ -295,7 +298,16 @@ def test_without_a_script_the_page_lists_everything(browser: Browser, folder: Pa
     context.close()
 
 
-QUERIES = ["", "servo", "55 55 05 06 08 01 00", "batery", "xyzzy", "55" * 400, "w" * 300]
+QUERIES = [
+    "",
+    "servo",
+    "55 55 05 06 08 01 00",
+    "batery",
+    "xyzzy",
+    "55" * 400,
+    "w" * 300,
+    "a b " * 999,
+]
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

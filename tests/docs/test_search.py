@@ -307,7 +307,13 @@ BYTES: dict[str, tuple[list[str], list[str]]] = {
             "Servo 1 to position 800 in 1000 ms, sent to the controller",
         ],
     ),
-    "55 55 09 03 01 E8 03 01 20 03": (["No frame", "No frame"], []),
+    "55 55 09 03 01 E8 03 01 20 03": (
+        [
+            "No frame of the Hiwonder bus servo controller",
+            "No frame of the LX-16A servo bus",
+        ],
+        [],
+    ),
     "11 22 33": ([], []),
 }
 
@@ -335,11 +341,11 @@ def test_bytes_are_told_in_short() -> None:
     )
     assert off["judged"][0]["text"] == "positions: servo_id 3 position 65535 (absent)"
     assert refused["judged"][0]["text"] == (
-        "length mismatch at byte 2: ServoMove has a length of 8, 11, 14 .. 254, not 9."
+        "Length mismatch at byte 2: ServoMove has a length of 8, 11, 14 .. 254, not 9."
     )
     (hinted,) = [each for each in sibling["judged"] if each["protocol"] == "busservo"]
     assert hinted["text"].endswith(
-        "in the dialect of LeArm and uHand boards, 1 asks for the version."
+        "In the dialect of LeArm and uHand boards, 1 asks for the version."
     )
     assert begun["judged"][0]["text"] == "A frame may begin like this; its end is missing."
 

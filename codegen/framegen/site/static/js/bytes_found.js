@@ -99,9 +99,9 @@ function makeBytesSearch({ protocols, entries }) {
       const hinted = begun ? [] : hints.map((hint) => hint.text);
       const said = begun ? "A frame may begin like this; its end is missing"
         : `${reason} at byte ${offset}: ${expected}`;
-      const title = begun ? "The beginning of a frame" : "No frame";
-      const text = [said, ...hinted].map((each) => each.replace(/[^.!?]$/, "$&.")).join(" ");
-      return [{ ...shown(protocol, bytes, null, title, protocol.title, text), hints: hints.length }];
+      const title = `${begun ? "The beginning of a frame" : "No frame"} of the ${protocol.title}`;
+      const text = [said, ...hinted].map(sentence).join(" ");
+      return [{ ...shown(protocol, bytes, null, title, "", text), hints: hints.length }];
     }).sort((one, other) => other.hints - one.hints);
   }
 
@@ -132,6 +132,11 @@ function makeBytesSearch({ protocols, entries }) {
   }
 
   return { find };
+}
+
+// What is said, with a capital in front and a full stop behind it.
+function sentence(text) {
+  return text.replace(/^./, (first) => first.toUpperCase()).replace(/[^.!?]$/, "$&.");
 }
 
 // The fields of a frame in a line.

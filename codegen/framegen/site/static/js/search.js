@@ -53,7 +53,7 @@
 
   // The hits of a query: what its bytes are in front, then what its words find.
   function found({ query, kind, protocol }) {
-    const read = bytesIn(query), said = search.find(query, { kind, protocol });
+    const read = bytesIn(query), said = search.find(read?.certain ? "" : query, { kind, protocol });
     const mayTake = (entry) => (!kind || entry.kind === kind) && (!protocol || entry.protocol === protocol);
     if (read?.problem) return { ...said, hits: [], counts: {}, suggestions: [], problem: read.problem };
     if (!read) return { ...said, bytes: null };
@@ -62,7 +62,8 @@
     if (!read.certain && !whole && said.hits.length) return { ...said, bytes: null };
     const framed = [...judged, ...known].filter((entry) => !protocol || entry.protocol === protocol);
     const hits = framed.filter(mayTake).map((entry) => ({ entry }));
-    return { hits, counts: { frame: framed.length }, loose: false, suggestions: [], words: [], ...read };
+    const counts = { frame: framed.length };
+    return { hits, counts, loose: false, suggestions: [], words: [], whole, ...read };
   }
 
   function bytesShown({ hex, at, size }) {
@@ -90,7 +91,7 @@
 
   const counted = (many, what) => `${many} ${many === 1 ? what : `${what}s`}`;
 
-  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions }) {
+  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions, whole }) {
     if (!query) return `${index.entries.length} places to find.`;
     const half = left ? ` The last digit, ${left}, is half a byte.` : "";
     const what = bytes ? counted(bytes.length, "byte") : `“${query}”`;
@@ -98,6 +99,9 @@
     if (problem) return `${problem}.`;
     if (suggestions.length) return `Nothing found for “${query}”. Did you mean:`;
     if (loose) return `Nothing has all of these words. With some of them: ${hits.length}.`;
+    // What holds them is documented; what else is shown says why they are no frame.
+    const isKnown = whole || hits.some(({ entry }) => !entry.decoder);
+    if (bytes && hits.length && !isKnown) return `${what}, and no whole frame.${half}`;
     return `${hits.length || "Nothing"} found for ${what}${of}.${half}`;
   }
 
