@@ -34,6 +34,8 @@ SAMPLE = 3
 SEED =
 # Where the pages go.
 SITE = build/site
+# The address where they will be, for a sitemap and the like.
+BASE =
 # What a release is called.
 VERSION =
 # Which mutants, and how many of them: make mutants ONLY='busservo._client.*' SAMPLE=60 SEED=7
@@ -98,9 +100,9 @@ bench:  ## Measure the library against its peers
 	@command -v npm >/dev/null && npm install --silent --no-package-lock --prefix benchmarks/peers/kaitai || true
 	$(BENCH_VENV)/bin/python -m benchmarks
 
-docs: $(READY)  ## Build the site: the guides and the reference: make docs SITE=html
+docs: $(READY)  ## Build the site: make docs SITE=html BASE=https://where.it/will/be
 	rm -rf $(SITE)
-	$(IN)/framegen docs --out $(SITE)
+	$(IN)/framegen docs --out $(SITE) $(if $(BASE),--base '$(BASE)')
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node
@@ -139,7 +141,7 @@ release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: mak
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
 	$(IN)/python -m pytest tests/all/test_packages.py
 
-newcomer:  ## Follow README and getting-started in a new clone, with the system's own Python
+newcomer:  ## Follow README and guides in a new clone, with the system's own Python
 	.ci/newcomer
 
 # The oldest Python makes them: what it can install, all others can.

@@ -3,9 +3,12 @@
     python3 .ci/follow.py README.md docs/getting-started.md
 
 `sh` blocks are run line by line in a shell, whose environment and folder last from block to block;
-`console` blocks are too, and `python` and `pycon` blocks in the Python that is then on the path.
-The block behind it is what it must print; `...` stands for anything. `bat` is not for this
-machine. A virtual board, which the installed `busservo simulate` offers, is behind every COM5.
+`console` blocks are too, and `python` and `pycon` blocks in the Python that is then on the path,
+each of them from nothing. A program that begins with `# NAME.py` is saved by that name as well.
+The block behind it is what it must print; `...` stands for anything. `bat` and `powershell` are
+not for this machine, and `text` is nothing to do. A page that installs nothing is followed in an
+environment that is made as getting-started says. A virtual board, which the installed
+`busservo simulate` offers, is behind every COM5 and COM7, and virtual servos behind `lxservo`.
 """
 
 from __future__ import annotations
@@ -22,12 +25,23 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 ROOT = Path(__file__).resolve().parent.parent
-PORT = "COM5"
+PORT = re.compile(r"\bCOM[57]\b")
 BEGUN = time.monotonic()
-WAITS = "busservo simulate"
+SIMULATE = "busservo simulate"
+BUS = "lxservo-simulator --servos 1,2"
+# What runs until Ctrl-C.
+WAITS = (SIMULATE, "busservo monitor")
+INTERRUPTED = 130
+IGNORED = {"bat", "powershell", "text"}
+# Where it is said how to install, and what a page says that does it by itself.
+INSTALLATION = ROOT / "docs" / "getting-started.md"
+INSTALLS = re.compile(r"^(make|python3 -m venv)\b", re.MULTILINE)
 # What a command leaves behind, written down by the shell that ends.
 KEEP = """
 import json, os
@@ -35,12 +49,12 @@ own = {name: os.environ.pop(name) for name in ("KEEPER", "KEEP", "LEFT")}
 with open(own["LEFT"], "w") as left:
     json.dump([dict(os.environ), os.getcwd()], left)
 """
-# Programs and sessions of a page share one Python, as a reader's do: a line of JSON each.
+# Programs and sessions of a page share one Python, and no name: a line of JSON each.
 INTERPRETER = r"""
 import contextlib, doctest, io, json, sys, traceback
-names = {"__name__": "__main__"}
 for line in sys.stdin:
     kind, text = json.loads(line)
+    names = {"__name__": "__main__"}
     shown = io.StringIO()
     failed = 0
     with contextlib.redirect_stdout(shown):
@@ -80,8 +94,8 @@ class Reader:
         self.environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": cache}
         self.folder = str(ROOT)
         self._python: subprocess.Popen[str] | None = None
-        self._board: subprocess.Popen[str] | None = None
-        self._port = ""
+        # By the command that offers it.
+        self._boards: dict[str, tuple[subprocess.Popen[str], str]] = {}
 
     def shell(self, command: str) -> tuple[int, str]:
         """Run a command; what it leaves behind in the environment lasts."""
@@ -107,7 +121,10 @@ class Reader:
             self._python = self._start("python", "-c", INTERPRETER)
         assert self._python.stdin is not None
         assert self._python.stdout is not None
-        self._python.stdin.write(json.dumps([block.kind, self._with_port(block.text)]) + "\n")
+        text = self._with_port(block.text)
+        if saved := re.match(r"# (\w+\.py)\n", text):
+            Path(self.folder, saved[1]).write_text(text, encoding="utf-8")
+        self._python.stdin.write(json.dumps([block.kind, text]) + "\n")
         self._python.stdin.flush()
         failed, shown = json.loads(self._python.stdout.readline())
         if failed:
@@ -115,13 +132,14 @@ class Reader:
         return str(shown)
 
     def _with_port(self, text: str) -> str:
-        if PORT not in text:
+        if not PORT.search(text):
             return text
-        if self._board is None:
-            self._board = self._start(*shlex.split(WAITS), "--quiet")
-            assert self._board.stdout is not None
-            self._port = self._board.stdout.readline().strip()
-        return text.replace(PORT, self._port)
+        command = BUS if "lxservo" in text else SIMULATE
+        if command not in self._boards:
+            board = self._start(*shlex.split(command), "--quiet")
+            assert board.stdout is not None
+            self._boards[command] = board, board.stdout.readline().strip()
+        return PORT.sub(self._boards[command][1], text)
 
     def _start(self, *command: str) -> subprocess.Popen[str]:
         # subprocess looks for programs on its own path, not on the reader's.
@@ -137,18 +155,28 @@ class Reader:
             encoding="utf-8",
         )
 
-    def waits(self) -> None:
-        """Run a command that waits until Ctrl-C, see that it names a port, and press Ctrl-C."""
-        waiting = self._start(*shlex.split(WAITS))
+    def waits(self, command: str) -> None:
+        """Run a command that waits until Ctrl-C, and press Ctrl-C once it is at work."""
+        waiting = self._start(*shlex.split(self._with_port(command)))
         assert waiting.stdout is not None
-        port = waiting.stdout.readline().strip()
+        port = "none"
+        if command == SIMULATE:
+            port = waiting.stdout.readline().strip()
+        else:
+            time.sleep(2)
         waiting.send_signal(signal.SIGINT)
-        if waiting.wait() != 0 or not port:
+        if waiting.wait() not in (0, INTERRUPTED) or not port:
             raise WrongError(f"it named the port {port!r}, and ended with {waiting.returncode}")
+
+    def deactivate(self) -> None:
+        """Leave the virtual environment: a function of the shell that has activated it."""
+        programs = str(Path(self.environment.pop("VIRTUAL_ENV"), "bin"))
+        path = self.environment["PATH"].split(os.pathsep)
+        self.environment["PATH"] = os.pathsep.join(each for each in path if each != programs)
 
     def leave(self) -> None:
         """End what still runs."""
-        for process in (self._python, self._board):
+        for process in (self._python, *(board for board, _ in self._boards.values())):
             if process is not None:
                 process.terminate()
                 process.communicate()
@@ -161,12 +189,15 @@ def blocks_of(page: Path) -> list[Block]:
     return [Block(each[1], each[2], text.count("\n", 0, each.start()) + 1) for each in found]
 
 
-def follow(page: Path, home: Path) -> None:
-    """Follow a page. Raises WrongError if it does not work."""
+def follow(page: Path, home: Path, first: Sequence[Block] = ()) -> None:
+    """Follow a page, after some other blocks. Raises WrongError if it does not work."""
     home.mkdir()
     reader = Reader(home)
     shown = ""
     try:
+        for block in first:
+            _do(reader, block, "")
+        reader.folder = str(ROOT)
         for block in blocks_of(page):
             place = f"{page.name}:{block.line}"
             print(
@@ -181,16 +212,22 @@ def follow(page: Path, home: Path) -> None:
         reader.leave()
 
 
+def _run(reader: Reader, line: str) -> None:
+    command = line.partition("  #")[0]
+    if command == "deactivate":
+        reader.deactivate()
+    elif command.startswith(WAITS):
+        reader.waits(command)
+    else:
+        status, printed = reader.shell(command)
+        if status != 0:
+            raise WrongError(f"`{command}` ends with {status}:\n{printed}")
+
+
 def _do(reader: Reader, block: Block, shown: str) -> str:
     if block.kind == "sh":
         for line in block.text.splitlines():
-            command = line.partition("  #")[0]
-            if command == WAITS:
-                reader.waits()
-                continue
-            status, printed = reader.shell(command)
-            if status != 0:
-                raise WrongError(f"`{command}` ends with {status}:\n{printed}")
+            _run(reader, line)
     elif block.kind == "console":
         for part in re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]:
             command, _, expected = part.partition("\n")
@@ -199,7 +236,7 @@ def _do(reader: Reader, block: Block, shown: str) -> str:
         return reader.python(block)
     elif block.kind == "output":
         _compare(block.text, shown)
-    elif block.kind != "bat":
+    elif block.kind not in IGNORED:
         raise WrongError(f"nobody knows what to do with `{block.kind}`")
     return ""
 
@@ -213,7 +250,9 @@ def main() -> int:
     """Follow the named pages; return 1 if one of them does not work."""
     try:
         for name in sys.argv[1:]:
-            follow(ROOT / name, Path.home() / Path(name).stem)
+            installing = INSTALLS.search((ROOT / name).read_text(encoding="utf-8"))
+            blocks = [each for each in blocks_of(INSTALLATION) if each.kind == "sh"]
+            follow(ROOT / name, Path.home() / Path(name).stem, [] if installing else blocks[:1])
     except WrongError as error:
         print(error, file=sys.stderr)
         return 1

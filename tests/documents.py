@@ -167,7 +167,7 @@ class _FastClock(RealClock):
 
 
 class _Bench(contextlib.ExitStack):
-    """What a reader has: a board and, apart from it, a bus of servos; each from its first use on."""
+    """What a reader has: a board and, apart from it, a bus of servos, each from its first use."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -32,6 +32,8 @@ USUAL = ("sum", "xor", "inverted sum", "fletcher-8", "crc-16/modbus")
 
 orders = st.sampled_from(["little", "big"])
 
+_NOTE = {"text": "It was seen.", "cite": "dice, 2"}
+
 
 def _hex(data: Sequence[int]) -> str:
     return bytes(data).hex(" ").upper()
@@ -292,7 +294,7 @@ def specs(draw: st.DrawFn) -> Data:
             "summary": "A protocol that nobody uses.",
         },
         "sources": {"dice": {"title": "Dice", "kind": "document"}},
-        "endpoints": {"host": "Asks.", "device": "Answers."},
+        "endpoints": {"host": "Asks.", "device": {"about": "Answers.", "notes": [_NOTE]}},
         "link": {"baud": 9600},
         "byte_order": draw(orders),
         **({"frames": kinds} if several else {"frame": first}),
@@ -313,6 +315,7 @@ def _messages(
         return None
     fields, variable, optional = draw(_bodies(parts.get("length")))
     message: Data = {"direction": way, "summary": "Say something.", "cite": "dice, 1"}
+    message["notes"] = [_NOTE]
     if given:
         message["id"] = given if len(given) > 1 else next(iter(given.values()))
     rule = _rule(parts, fields, variable)

@@ -46,7 +46,7 @@ def hints(explanation: Explanation) -> list[str]:
 MOVE = "55 55 08 03 01 E8 03 01 20 03"
 MOVE_PAGE = """\
 ServoMove, host -> controller
-Turn one or more servos to positions, all of them arriving after the same time.
+Turn one or more servos to positions, all of them in the same time.
 
   byte  hex    part                 value    meaning
      0  55 55  header                        Two bytes that announce a frame
@@ -71,7 +71,7 @@ The voltage of the battery.
      0  55 55  header                         Two bytes that announce a frame
      2  04     length      4                  always 4
      3  0F     command     15                 BatteryVoltage, CMD_GET_BATTERY_VOLTAGE to the vendor
-     4  4C 1D  voltage_mv  7500 mV = 7.500 V  The voltage at the controller's supply terminals
+     4  4C 1D  voltage_mv  7500 mV = 7.500 V  The voltage of the controller board
 
   answers: BatteryVoltageRead
   example: The battery is at 7500 mV (vendor, section 1.5, example 2)

@@ -169,8 +169,14 @@ def with_prose(data: Data, text: str) -> Data:
 
     hostile: Data = changed(data, change)
     # Fields that the specs leave without them would hide a place from these tests.
+    note = {"text": text, "cite": _cite(hostile, text)}
+    for name, end in hostile["endpoints"].items():
+        hostile["endpoints"][name] = {"about": text, **(end if isinstance(end, dict) else {})}
+    for thing in (hostile["protocol"], *hostile["endpoints"].values(), *_parts(hostile)):
+        thing.setdefault("notes", []).append(note)
     for message in hostile["messages"].values():
         message["vendor_name"] = message["deprecated"] = message["description"] = text
+        message.setdefault("notes", []).append({"text": text, "cite": _cite(hostile, text)})
         # A field that it names has a unit of time, and no other text.
         message.pop("lasts", None)
         for field in _numbers(message.get("fields", {})):
@@ -181,6 +187,11 @@ def with_prose(data: Data, text: str) -> Data:
 
 def _cite(data: Data, text: str) -> str:
     return f"{data['protocol']['authority']}, {text}"
+
+
+def _parts(data: Data) -> list[Data]:
+    frames = data.get("frames") or {"frame": data["frame"]}
+    return [part for frame in frames.values() for part in frame.values()]
 
 
 def _numbers(fields: dict[str, Any]) -> list[dict[str, Any]]:

@@ -35,7 +35,7 @@ def activated(monkeypatch: pytest.MonkeyPatch) -> None:
 
 GOOD = """
 ```sh
-cd docs       # lasts
+cd HERE       # lasts
 export ONE=1  # as this does
 ```
 
@@ -50,6 +50,7 @@ $ seq 3; exit 4
 ```
 
 ```python
+# one.py
 import os
 print(os.environ["ONE"])
 ```
@@ -58,7 +59,13 @@ print(os.environ["ONE"])
 1
 ```
 
+```console
+$ python one.py
+1
+```
+
 ```pycon
+>>> import os
 >>> os.environ["ONE"] * 3
 '111'
 ```
@@ -76,12 +83,21 @@ with busservo.open_controller("COM5") as controller:
 ```bat
 no such command
 ```
+
+```powershell
+no such command
+```
+
+```text
+no such command
+```
 """
 
 
 def test_a_page_that_works_is_followed_to_its_end(follow: ModuleType, tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    page.write_text(GOOD, encoding="utf-8")
+    (tmp_path / "design.md").touch()
+    page.write_text(GOOD.replace("HERE", str(tmp_path)), encoding="utf-8")
     follow.follow(page, tmp_path / "home")
 
 
@@ -94,6 +110,7 @@ def test_a_page_that_works_is_followed_to_its_end(follow: ModuleType, tmp_path: 
         ("console\n$ echo 1", "prints\n1"),
         ("python\nraise ValueError(1)", "ValueError: 1"),
         ("python\nprint(2)\n```\n\n```output\n1", "prints\n2"),
+        ("python\none = 1\n```\n\n```python\nprint(one)", "NameError: name 'one'"),
         ("pycon\n>>> 1 + 1\n3", "Expected:\n    3\nGot:\n    2"),
         ("fish\nset one 1", "nobody knows what to do with `fish`"),
     ],

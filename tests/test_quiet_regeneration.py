@@ -197,7 +197,9 @@ def test_a_changed_word_changes_few_files(name: str, kind: str) -> None:
         at = at[step]
     at[key] = f"Indeed, {at[key]}"
     touched = changed(before, modules_and_pages(as_text(data)))
-    assert 1 <= len(touched) <= MOST, touched
+    # What is noted of an end is shown with every message that it receives.
+    received = len(data["messages"]) if kind.startswith("endpoints.") else 0
+    assert 1 <= len(touched) <= MOST + received, touched
 
 
 def reworded(value: Any, key: str = "") -> Any:

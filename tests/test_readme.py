@@ -57,6 +57,32 @@ def test_a_session_that_lies_is_found_out(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("kind", ["python", "pycon"])
+def test_a_program_that_needs_what_stands_above_it_is_found_out(tmp_path: Path, kind: str) -> None:
+    first, then = ("one = 1\n", "one\n") if kind == "python" else (">>> one = 1\n", ">>> one\n1\n")
+    page = f"```{kind}\n{first}```\n\n```{kind}\n{then}```\n"
+    if kind == "python":
+        with pytest.raises(NameError, match="'one'"):
+            played(page, tmp_path)
+    else:
+        assert "NameError: name 'one' is not defined" in played(page, tmp_path)
+
+
+def test_a_program_that_is_named_is_saved_and_run_by_its_name(tmp_path: Path) -> None:
+    page = "```python\n# one.py\nprint(1)\n```\n\n```console\n$ python one.py\n2\n```\n"
+    assert played(page, tmp_path) == page.replace("2", "1")
+
+
+def test_a_page_has_one_board_whose_motions_are_over_when_a_block_begins(tmp_path: Path) -> None:
+    send = "$ busservo send --port COM5"
+    page = (
+        f"```console\n{send} ServoMove time_ms=2000 targets=1:700\n```\n"
+        f"```console\n{send} ServoPositionsRead servo_ids=1\n...\n```\n"
+        f"```console\n{send} ServoPositionsRead servo_ids=1\nnothing\n```\n"
+    )
+    assert "positions=1:700 |" in played(page, tmp_path)
+
+
 def test_left_out_lines_may_be_anything_but_the_rest_may_not(tmp_path: Path) -> None:
     page = "```console\n$ framegen rules\n...\nreply  {}\n...\n```\n"
     title = "Replies and reports are messages of the other direction"

@@ -65,4 +65,4 @@ def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
 
 def snippets() -> Snippets:
     """Return the function of each language target that shows an example, by the target's name."""
-    return {target.name: target.snippet for target in table.TARGETS if target.snippet is not None}
+    return {target.name: target.snippets for target in table.TARGETS if target.snippets is not None}

@@ -4,12 +4,14 @@
 Binary commands and reports between a host and a bus servo controller, over a serial line.
 
 The host moves servos, runs action groups stored on the board and asks for the battery voltage
-and for servo positions. The controller answers queries and reports, by itself, what its action
-groups do, because a handset, the on-board button and other hosts may start them too.
+and for servo positions. The controller answers queries, and reports by itself what its action
+groups do: it can be operated in other ways at the same time, by a wireless handset for instance.
 
-There is no checksum and no error frame: a frame the controller dislikes is met with silence, a
-buzzer and an LED. Whether a frame is whole can only be judged from its header, its length, its
+A frame has no checksum. Whether it is whole can only be judged from its header, its length, its
 command and, where it has one, its count.
+
+No frame reports an error. All that the host sees of wrong data is silence. (Other vendor
+documents and several independent clients)
 """
 
 # Each is imported when it is first needed: nobody waits for what is not used. Editors and type

@@ -86,7 +86,7 @@ class Device:
         """Handle a piece of noise that is counted in `rejects`; override it to see them."""
 
     def on_servo_move(self, message: ServoMove) -> None:
-        """Turn one or more servos to positions, all of them arriving after the same time."""
+        """Turn one or more servos to positions, all of them in the same time."""
 
     def on_action_group_run(self, message: ActionGroupRun) -> None:
         """Run an action group stored on the controller, a number of times or for ever.
@@ -101,7 +101,7 @@ class Device:
         """
 
     def on_action_group_speed(self, message: ActionGroupSpeed) -> None:
-        """Set the speed of one action group, or of all, in percent of its recorded speed."""
+        """Set the speed of one action group, or of all, in percent of its original speed."""
 
     def on_battery_voltage_read(self, message: BatteryVoltageRead) -> BatteryVoltage | None:
         """Ask for the voltage of the battery.

@@ -76,10 +76,9 @@ class ServoPosition(Element, tuple[int, int]):
 
 
 class ServoMove(Message):
-    """Turn one or more servos to positions, all of them arriving after the same time.
+    """Turn one or more servos to positions, all of them in the same time.
 
-    The controller interpolates: each servo listed travels from where it is to its position in
-    the given time, or as fast as it can if the time is too short. It is never answered.
+    Nothing answers it. (Other vendor documents and several independent clients)
 
     Command 3 (0x03), host to controller, length 3 * servo_count + 5: 8, 11, 14 .. 254. Source:
     Bus Servo Controller Communication Protocol, section 1.1.
@@ -131,8 +130,15 @@ class ServoMove(Message):
 class ActionGroupRun(Message):
     """Run an action group stored on the controller, a number of times or for ever.
 
-    The controller repeats the same parameters as a report once the group starts. A group that
-    ends by itself is reported too; one that runs for ever ends only by ActionGroupStop.
+    The group must have been downloaded into the controller before.
+
+    Once the group starts, the controller repeats the same parameters as ActionGroupStarted. (Bus
+    Servo Controller Communication Protocol)
+
+    ActionGroupStop stops it. (Bus Servo Controller Communication Protocol)
+
+    A group that ends by itself is reported by ActionGroupCompleted. (Other vendor documents and
+    several independent clients)
 
     Command 6 (0x06), host to controller, length 5. Source: Bus Servo Controller Communication
     Protocol, section 1.2.
@@ -163,8 +169,8 @@ class ActionGroupRun(Message):
 class ActionGroupStop(Message):
     """Stop the action group that is running.
 
-    Reported by ActionGroupStopped when there was something to stop; otherwise nothing comes
-    back.
+    ActionGroupStopped reports it where a group was running. (Other vendor documents and several
+    independent clients)
 
     Command 7 (0x07), host to controller, length 2. Source: Bus Servo Controller Communication
     Protocol, section 1.3.
@@ -186,10 +192,12 @@ class ActionGroupStop(Message):
 
 
 class ActionGroupSpeed(Message):
-    """Set the speed of one action group, or of all, in percent of its recorded speed.
+    """Set the speed of one action group, or of all, in percent of its original speed.
 
-    The speed is not kept: after power-off each group runs at its recorded speed again. A servo
-    has a highest speed of its own, and no percentage makes it faster than that. Never answered.
+    The speed is not saved: after a shutdown, each group runs at its default speed again. A servo
+    has a highest speed of its own, and no percentage makes it faster than that.
+
+    Nothing answers it. (Other vendor documents and several independent clients)
 
     Command 11 (0x0B), host to controller, length 5. Source: Bus Servo Controller Communication
     Protocol, section 1.4.
@@ -211,7 +219,7 @@ class ActionGroupSpeed(Message):
     group = U8(4, names={"all": GROUP_ALL})
     """The number of the action group."""
     percent = U16(5, unit="%")
-    """The speed, where 100 is the speed at which the group was recorded."""
+    """The speed, where 100 is the original speed of the group."""
 
     def __new__(cls, group: int, percent: int) -> typing.Self:
         return cls._packed("<2sBBBH", (HEADER, 5, 11), (group, percent))
@@ -220,7 +228,10 @@ class ActionGroupSpeed(Message):
 class BatteryVoltageRead(Message):
     """Ask for the voltage of the battery.
 
-    Answered at once by BatteryVoltage, though a report about an action group may come first.
+    Answered at once by BatteryVoltage.
+
+    A report about an action group may come before the answer. (Other vendor documents and
+    several independent clients)
 
     Command 15 (0x0F), host to controller, length 2. Source: Bus Servo Controller Communication
     Protocol, section 1.5.
@@ -244,8 +255,9 @@ class BatteryVoltageRead(Message):
 class ServoUnload(Message):
     """Switch off the force of one or more servos, so that they can be turned by hand.
 
-    The servos stay limp until the next ServoMove. An arm held up by its servos falls. Never
-    answered.
+    The servos are limp then, and hold nothing up: support the arm first.
+
+    Nothing answers it. (Other vendor documents and several independent clients)
 
     Command 20 (0x14), host to controller, length servo_count + 3: 4..255. Source: Bus Servo
     Controller Communication Protocol, section 1.6.
@@ -318,8 +330,11 @@ class ServoPositionsRead(Message):
 class ActionGroupStarted(Message):
     """An action group has started to run.
 
-    Sent whoever started the group: this host, another one, the handset or the button on the
-    board. It may arrive at any time, also between a request and its reply.
+    Sent once the group starts, with the parameters that it was started with.
+
+    The handset and the button on the board start groups as well, so it may arrive at any time,
+    also between a request and its reply. (Other vendor documents and several independent
+    clients)
 
     Command 6 (0x06), controller to host, length 5. Source: Bus Servo Controller Communication
     Protocol, section 2.1.
@@ -350,7 +365,8 @@ class ActionGroupStarted(Message):
 class ActionGroupStopped(Message):
     """The running action group was stopped before its end.
 
-    Sent when this host, or another controller of the board, stopped it by force.
+    Sent when this host, or another controller of the board, stopped it by force. Like every
+    report, it may arrive at any time, also between a request and its reply.
 
     Command 7 (0x07), controller to host, length 2. Source: Other vendor documents and several
     independent clients, report 7.
@@ -374,7 +390,8 @@ class ActionGroupStopped(Message):
 class ActionGroupCompleted(Message):
     """An action group has ended by itself.
 
-    Sent when the last run of a group is over. The document at hand only hints at it.
+    The vendor document at hand only hints at it. Like every report, it may arrive at any time,
+    also between a request and its reply.
 
     Command 8 (0x08), controller to host, length 5. Source: Other vendor documents and several
     independent clients, report 8.
@@ -419,7 +436,7 @@ class BatteryVoltage(Message):
     LENGTHS = range(4, 5)
 
     voltage_mv = U16(4, unit="mV")
-    """The voltage at the controller's supply terminals. A step is 0.001 V."""
+    """The voltage of the controller board. A step is 0.001 V."""
 
     def __new__(cls, voltage_mv: int) -> typing.Self:
         return cls._packed("<2sBBH", (HEADER, 4, 15), (voltage_mv,))
@@ -428,8 +445,7 @@ class BatteryVoltage(Message):
 class ServoPositions(Message):
     """Where servos are.
 
-    The answer to ServoPositionsRead. It may hold fewer servos than were asked for, down to none:
-    a servo that is off or missing is left out, or given a position that none can have.
+    The answer to ServoPositionsRead.
 
     Command 21 (0x15), controller to host, length 3 * servo_count + 3: 3, 6, 9 .. 255. Source:
     Bus Servo Controller Communication Protocol, section 1.7.
@@ -449,9 +465,10 @@ class ServoPositions(Message):
     servo_count = U8(4)
     """How many servos are listed."""
     positions = Items(5, ServoPosition, 0, 84, count=servo_count)
-    """The servos that answered and where they are, in the order of the frame.
+    """The servos and where they are, in the order of the frame.
 
-    Servos that did not answer may be missing from the list. (Client code in public repositories)
+    A servo that is off or missing may be left out, so there may be fewer than were asked for.
+    (Client code in public repositories)
     """
 
     def __new__(cls, positions: Iterable[tuple[int, int]]) -> typing.Self:

@@ -4,10 +4,11 @@
 Commands and replies between a host and serial bus servos of LewanSoul and Hiwonder, on one
 shared wire.
 
-Every servo on the wire has a number. The host addresses one of them, or all at once, and only a
-question is ever answered, by the servo that it was put to. Nothing is sent unasked.
+Every servo on the wire has a number. The host addresses one of them, or all at once. Only a
+question is answered, by the servo that it was put to.
 
-The same bytes are spoken by LX-16A, LX-15D, LX-224, LX-824 and others of the family.
+The same bytes are spoken by LX-16A, LX-15D, LX-224, LX-824 and others of the family. (Client
+code in public repositories)
 """
 
 # Each is imported when it is first needed: nobody waits for what is not used. Editors and type

@@ -19,7 +19,7 @@ else:
 class Move(Message):
     """Turn to a position, at even speed, and arrive after the given time.
 
-    It sets off at once, and takes longer than the given time where that is too short.
+    It sets off at once.
 
     Command 1 (0x01), host to servo, length 7. Source: LewanSoul Bus Servo Communication
     Protocol, command 1.
@@ -751,7 +751,7 @@ class ModeRead(Message):
 class TorqueWrite(Message):
     """Switch the force of the servo on or off.
 
-    Without force it can be turned by hand, and what it holds up falls.
+    Without force it holds nothing up: support what hangs on it first.
 
     Command 31 (0x1F), host to servo, length 4. Source: LewanSoul Bus Servo Communication
     Protocol, command 31.

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 GUIDE = (ROOT / "docs" / "command.md").read_text(encoding="utf-8")
-SESSION = re.findall(r"^    \$ busservo answer\n((?:    .*\n)*)", GUIDE, re.MULTILINE)
+SESSION = re.findall(r"^```text\n\$ busservo answer\n(.*?)^```$", GUIDE, re.MULTILINE | re.DOTALL)
 
 
 def exchanges() -> Iterator[tuple[str, list[str]]]:
     """Yield each question of the session in the guide, and its answer."""
     (session,) = SESSION
-    for exchange in re.findall(r"(.*?)^    end\n", session, re.MULTILINE | re.DOTALL):
+    for exchange in re.findall(r"(.*?)^end\n", session, re.MULTILINE | re.DOTALL):
         question, *answers = [line.strip() for line in exchange.splitlines()]
         yield question, answers
 

@@ -49,7 +49,8 @@ def marked(data: Data) -> Data:
     for key in _EVIDENCE:
         spec.pop(key, None)
     spec["endpoints"] = {
-        name: {MARK: next(_fresh), "part": part} for name, part in spec["endpoints"].items()
+        name: {**(end if isinstance(end, dict) else {"about": end}), MARK: next(_fresh)}
+        for name, end in spec["endpoints"].items()
     }
     for message in spec["messages"].values():
         message["examples"] = []
@@ -76,8 +77,6 @@ def marked(data: Data) -> Data:
 def unmarked(value: Any) -> Any:
     """Return the spec itself."""
     if isinstance(value, dict):
-        if value.keys() == {MARK, "part"}:
-            return value["part"]
         return {key: unmarked(each) for key, each in value.items() if key != MARK}
     return [unmarked(each) for each in value] if isinstance(value, list) else value
 

@@ -159,7 +159,7 @@ def ends_in_other_order(desk: Desk) -> None:
 
 
 def end_added(desk: Desk) -> None:
-    desk.spec["endpoints"][desk.fresh("third")] = {MARK: 0, "part": "Listens."}
+    desk.spec["endpoints"][desk.fresh("third")] = {MARK: 0, "about": "Listens."}
 
 
 def _dropped(key: str, desk: Desk) -> None:

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from tests.comparison.desk import Desk
+    from tests.factories import Data
 
 
 def about_field(desk: Desk) -> None:
@@ -28,9 +29,35 @@ def description(desk: Desk) -> None:
 
 
 def note(desk: Desk) -> None:
-    field = desk.spot(lambda _: True).field
+    _noted(desk, desk.spot(lambda _: True).field)
+
+
+def _noted(desk: Desk, thing: Data) -> None:
     cite = next(iter(desk.messages.values()))["cite"]
-    field.setdefault("notes", []).append({"text": "It was seen.", "cite": cite})
+    thing.setdefault("notes", []).append({"text": "It was seen.", "cite": cite})
+
+
+def message_note(desk: Desk) -> None:
+    _noted(desk, desk.messages[desk.pick(desk.messages)])
+
+
+def part_note(desk: Desk) -> None:
+    parts = desk.pick(desk.kinds.values())
+    _noted(desk, parts[desk.pick(parts)])
+
+
+def protocol_note(desk: Desk) -> None:
+    _noted(desk, desk.spec["protocol"])
+
+
+def endpoint_note(desk: Desk) -> None:
+    ends = desk.spec["endpoints"]
+    _noted(desk, ends[desk.pick(ends)])
+
+
+def endpoint_about(desk: Desk) -> None:
+    ends = desk.spec["endpoints"]
+    ends[desk.pick(ends)]["about"] = "Said in other words."
 
 
 def part_about(desk: Desk) -> None:
@@ -52,6 +79,11 @@ WORD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "words: summary": summary,
     "words: description": description,
     "words: a note": note,
+    "words: a note on a message": message_note,
+    "words: a note on a part": part_note,
+    "words: a note on the protocol": protocol_note,
+    "words: a note on an end": endpoint_note,
+    "words: an end": endpoint_about,
     "words: a part": part_about,
     "words: the title": title,
     "words: the protocol": protocol_summary,

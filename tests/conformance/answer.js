@@ -1,22 +1,31 @@
-// Answers questions in the line language (framegen.conformance.language) with the codec of a page:
-//     node answer.js build/site/busservo/decoder.html
+// Answers questions in the line language (framegen.conformance.language) with the codec of a page, or
+// with the module that others import:
+//     node answer.js site/reference/busservo/decoder.html
+//     node answer.js site/reference/busservo/downloads/busservo.mjs
 "use strict";
 
 const fs = require("fs");
 const readline = require("readline");
 const vm = require("vm");
+const { pathToFileURL } = require("url");
 
 // The codec as it is published: the scripts of the page, and the protocol that they read.
-function published(page) {
+function ofPage(page) {
   const text = fs.readFileSync(page, "utf8");
   const [, data] = /<script type="application\/json" id="protocol">(.*?)<\/script>/s.exec(text);
   const scripts = [...text.matchAll(/<script>(.*?)<\/script>/gs)].map(([, script]) => script);
   const script = scripts.find((each) => each.includes("function makeCodec"));
   const { makeCodec, Unusable } = vm.runInThisContext(`${script}\n({ makeCodec, Unusable })`);
-  return { codec: makeCodec(JSON.parse(data)), Unusable };
+  const { kinds, decodeFrame, encode, makeStream } = makeCodec(JSON.parse(data));
+  return { kinds, decode: decodeFrame, encode, makeStream, Unusable };
 }
 
-const { codec, Unusable } = published(process.argv[2]);
+// The same of a module.
+async function ofModule(file) {
+  const { protocol, decode, encode, StreamDecoder, Unusable } = await import(pathToFileURL(file));
+  const kinds = protocol.messages.map(({ name, fields }) => ({ name, given: fields }));
+  return { kinds, decode, encode, makeStream: (options) => new StreamDecoder(options), Unusable };
+}
 
 const toHex = (bytes) => Buffer.from(bytes).toString("hex");
 const fromHex = (text) => [...Buffer.from(text, "hex")];
@@ -30,8 +39,9 @@ const word = (value) => (typeof value === "string" ? escaped(value) : String(val
 const inList = (value) => word(value) || "%00";
 
 // A message as it is written: `message ServoMove 5555… time_ms=1000 targets=1:800,9:800`.
-function messageLine({ message, kind, fields }, bytes) {
-  const given = kind.given.filter(({ name }) => fields[name] !== null);
+function messageLine({ message, fields }, bytes) {
+  const { given: slots } = codec.kinds.find(({ name }) => name === message);
+  const given = slots.filter(({ name }) => fields[name] !== null);
   const values = given.map(({ name }) => {
     const value = fields[name];
     if (!Array.isArray(value)) return `${name}=${word(value)}`;
@@ -77,7 +87,7 @@ function itemsIn(list, text) {
 
 const answers = {
   decode(way, hex = "") {
-    const bytes = fromHex(hex), found = codec.decodeFrame(bytes, way);
+    const bytes = fromHex(hex), found = codec.decode(bytes, way);
     if (found.message) return [messageLine(found, bytes)];
     return [`refused ${dashed(found.reason)} ${found.offset}`];
   },
@@ -87,7 +97,7 @@ const answers = {
     try {
       return [`frame ${toHex(codec.encode(name, valuesIn(kind, words)))}`];
     } catch (error) {
-      if (error instanceof Unusable) return ["refused"];
+      if (error instanceof codec.Unusable) return ["refused"];
       throw error;
     }
   },
@@ -106,8 +116,15 @@ function eventLine(event) {
   return `${what} ${toHex(event.bytes)}`;
 }
 
-readline.createInterface({ input: process.stdin }).on("line", (question) => {
-  const [verb, ...words] = question.split(" ");
-  const lines = Object.hasOwn(answers, verb) ? answers[verb](...words) : ["unsupported"];
-  process.stdout.write([...lines, "end", ""].join("\n"));
-});
+let codec;
+
+async function main(file) {
+  codec = file.endsWith(".mjs") ? await ofModule(file) : ofPage(file);
+  readline.createInterface({ input: process.stdin }).on("line", (question) => {
+    const [verb, ...words] = question.split(" ");
+    const lines = Object.hasOwn(answers, verb) ? answers[verb](...words) : ["unsupported"];
+    process.stdout.write([...lines, "end", ""].join("\n"));
+  });
+}
+
+main(process.argv[2]);

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.render import snippets
+from framegen.site.javascript_module import javascript_module
 from framegen.site.project import Project
 from framegen.site.site import render_site
 
 from tests.conformance.harness import run
 from tests.docs.reference import NODE
-from tests.factories import library, library_files
+from tests.factories import library, library_files, write_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -42,8 +43,16 @@ def page_command(compiled: Compiled, folder: Path) -> list[str]:
     return [str(NODE), str(ANSWER), str(page)]
 
 
+def of_the_module(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
+    """Write the JavaScript module to `folder`; return its answers."""
+    write_files(javascript_module(compiled.model), folder)
+    module = folder / f"{compiled.spec.protocol.name}.mjs"
+    return run([str(NODE), str(ANSWER), str(module)], questions)
+
+
 # By language, what answers questions with the codec that is made of a spec.
 ANSWERERS: dict[str, Callable[[Compiled, Path, Sequence[str]], list[list[str]]]] = {
     "python": of_the_library,
     "page": of_the_page,
+    "module": of_the_module,
 }

@@ -30,7 +30,7 @@ def published(spec: Path) -> dict[str, Any]:
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
 @pytest.mark.parametrize("language", ANSWERERS)
 def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: Path) -> None:
-    if language == "page" and NODE is None:
+    if language != "python" and NODE is None:
         pytest.skip("node is not installed")
     questions = [*cases_of(published(spec))]
     answers = ANSWERERS[language](

@@ -91,5 +91,11 @@ def texts(found: Locator) -> list[str]:
 
 
 def decoded(tab: Tab) -> list[str]:
-    """Return the headings of what the live decoder shows."""
-    return texts(tab.locator("#events > li > h3"))
+    """Return what the list of the workbench shows: names of messages, and reasons of noise."""
+    rows = tab.locator("#events [role=option]")
+    names = texts(rows.locator(".what b"))
+    kinds = [str(row.get_attribute("class")).split()[-1] for row in rows.all()]
+    return [
+        name if kind == "message" else f"{kind}: {name}"
+        for kind, name in zip(kinds, names, strict=True)
+    ]

@@ -10,6 +10,7 @@ import pytest
 from framegen.explain import explain
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.protocol_data import protocol_data
+from hypothesis import settings
 
 from tests.docs.peers import noisy_lines
 from tests.docs.reference import NODE, reference
@@ -64,7 +65,7 @@ def right(model: Model, data: bytes, way: str | None) -> Any:
             [each.direction, each.reason, each.offset, each.expected, _rows(each.rows)]
             for each in found.refusals
         ],
-        "hints": [[each.text, each.frame.hex(" ").upper()] for each in found.hints],
+        "hints": [[each.text, _hex(each.frame)] for each in found.hints],
     }
 
 
@@ -83,9 +84,13 @@ def _rows(rows: tuple[Row, ...]) -> list[Any]:
     ]
 
 
+def _hex(data: bytes) -> str:
+    return data.hex(" ").upper()
+
+
 def _value(row: Row) -> Any:
     """Return the value of a row; nan is not equal to itself."""
-    return "nan" if row.value != row.value else row.value  # noqa: PLR0124 - only nan differs
+    return "nan" if row.value != row.value else row.value
 
 
 def _lists(pairs: tuple[tuple[str, str], ...]) -> list[list[str]]:
@@ -105,11 +110,15 @@ def frames_for(model: Model, name: str) -> list[bytes]:
     ]
     found = [b"", *documented]
     for frame in documented:
-        for _ in range(25):
-            found.append(_changed(chance, frame))
-    found += [line[: chance.randrange(2, 30)] for line in noisy_lines(model, 3, 300)]
+        found += [_changed(chance, frame) for _ in range(few(4))]
+    found += [line[: chance.randrange(2, 30)] for line in noisy_lines(model, 3, 30)]
     found += [chance.randbytes(size) for size in range(12)]
     return found
+
+
+def few(number: int) -> int:
+    """Return so many where Hypothesis tries a hundred examples, and as many more as it does."""
+    return max(1, number * settings().max_examples // 100)
 
 
 def _changed(chance: random.Random, frame: bytes) -> bytes:

@@ -16,6 +16,7 @@ from busservo import (
     ActionGroupStop,
     BatteryVoltageRead,
     HostMessage,
+    Message,
     ServoMove,
     ServoPositionsRead,
     ServoUnload,
@@ -88,7 +89,7 @@ def test_an_example_does_what_it_says(block: str, monkeypatch: pytest.MonkeyPatc
 GROUPS = {8: ActionGroup(50 * [Step(100, {1: 600}), Step(100, {1: 400})])}
 RUN = ActionGroupRun(group=8, times=1)
 # Every way in which a message can be received, with what has been received before it.
-RECEIVED: list[list[HostMessage]] = [
+RECEIVED: list[list[Message]] = [
     [ServoMove(time_ms=500, targets=[(1, 700), (2, 510)])],
     [ServoUnload([1, 99])],
     [ServoPositionsRead([1, 99])],
@@ -104,7 +105,7 @@ RECEIVED: list[list[HostMessage]] = [
 ]
 
 
-def board_after(messages: Sequence[HostMessage], seconds: float = 0) -> Board:
+def board_after(messages: Sequence[Message], seconds: float = 0) -> Board:
     board = Board(groups=GROUPS)
     for message in messages:
         board.hear(message.encode())
@@ -116,7 +117,7 @@ def sent_by(board: Board) -> set[str]:
     return {type(report).__name__ for report in board.take()}
 
 
-def sent_after(messages: Sequence[HostMessage]) -> set[str]:
+def sent_after(messages: Sequence[Message]) -> set[str]:
     return sent_by(board_after(messages, 60))
 
 
@@ -128,7 +129,7 @@ def test_the_guide_says_what_each_message_has_the_board_send() -> None:
 
 
 @pytest.mark.parametrize("messages", RECEIVED)
-def test_every_message_has_led2_blink_once(messages: list[HostMessage]) -> None:
+def test_every_message_has_led2_blink_once(messages: list[Message]) -> None:
     log = re.findall(r"LED2 +(.*?)(?::|$)", str(board_after(messages).event_log), re.MULTILINE)
     assert log == len(messages) * ["blinks"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.targets.target import BentName, Comment, Reserved, Target
+from framegen.targets.target import BentName, Comment, Reserved, Snippet, Target
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
@@ -35,8 +35,8 @@ def bent(model: Model) -> list[BentName]:
     ]
 
 
-def snippet(_model: Model, message: MessageLayout, _example: Example) -> str:
-    return f"say {_name(message.name)}\n"
+def snippets(_model: Model, message: MessageLayout, _example: Example) -> list[Snippet]:
+    return [Snippet("Say it", "toy", f"say {_name(message.name)}\n")]
 
 
 def _name(name: str) -> str:
@@ -51,5 +51,5 @@ TARGET = Target(
     comments={".toy": Comment("(* ", " *)")},
     reserved=(WORDS,),
     bent=bent,
-    snippet=snippet,
+    snippets=snippets,
 )

@@ -17,7 +17,7 @@ from framegen.pluralize import pluralize
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from framegen.language.spec import AnyField, Message, Spec
+    from framegen.language.spec import AnyField, Message, Note, Spec
     from framegen.language.values import Citation
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
@@ -49,6 +49,8 @@ class Fact:
             return self.path[-1]
         # A name follows each key.
         *around, last = self.path[3::2]
+        if not around and self.what == "note":
+            return "a note"
         if self.what == "named value":
             return f"{'.'.join(around)} = {last}"
         return f"a note on {'.'.join(around)}" if self.what == "note" else ".".join([*around, last])
@@ -101,16 +103,24 @@ def evidence(model: Model) -> Evidence:
 def facts_of(model: Model) -> Iterator[Fact]:
     """Yield every fact of a spec, in its order."""
     spec = model.spec
+    yield from _notes(spec, ("protocol",), spec.protocol.notes)
+    for name, end in spec.endpoints.items():
+        yield from _notes(spec, ("endpoints", name), end.notes)
     if spec.link.cite is not None:
         yield _fact(spec, ("link",), "link", spec.link.cite)
     for number, board in enumerate(spec.link.usb_hid):
         cite = board.cite or spec.link.cite
         if cite is not None:
             yield _fact(spec, ("link", "usb_hid", str(number)), "board", cite)
+    for kind, parts in spec.envelopes.items():
+        around = ("frames", kind) if spec.frames else ("frame",)
+        for name, part in parts.items():
+            yield from _notes(spec, (*around, name), part.notes)
     for name, message in spec.messages.items():
         shown = _observed(spec, model.messages[name])
         path = ("messages", name)
         yield _fact(spec, path, "message", message.cite, seen=path in shown)
+        yield from _notes(spec, path, message.notes)
         for key, field in message.fields.items():
             yield from _of_field(spec, message, (*path, "fields", key), field, shown)
 
@@ -166,8 +176,7 @@ def _of_field(
 ) -> Iterator[Fact]:
     cite = field.cite or around or message.cite
     yield _fact(spec, path, "field", cite, seen=path in shown)
-    for number, note in enumerate(field.notes):
-        yield _fact(spec, (*path, "notes", str(number)), "note", note.cite)
+    yield from _notes(spec, path, field.notes)
     if isinstance(field, ListField):
         for name, inner in field.fields.items():
             yield from _of_field(spec, message, (*path, "fields", name), inner, shown, cite)
@@ -175,6 +184,11 @@ def _of_field(
     for name, value in field.values.items():
         here = (*path, "values", name)
         yield _fact(spec, here, "named value", value.cite or cite, seen=here in shown)
+
+
+def _notes(spec: Spec, path: Path, notes: list[Note]) -> Iterator[Fact]:
+    for number, note in enumerate(notes):
+        yield _fact(spec, (*path, "notes", str(number)), "note", note.cite)
 
 
 def _fact(spec: Spec, path: Path, what: What, cite: Citation, *, seen: bool = False) -> Fact:

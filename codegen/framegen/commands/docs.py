@@ -16,7 +16,7 @@ EXAMPLES = (
     ("framegen docs --open", "the guides and the reference of spec/*.yaml, in your browser"),
     ("framegen docs SPEC.yaml --open", "the reference of another spec"),
     ("framegen docs --out site", "build it in site/, ready to be served"),
-    ("framegen docs --out site --base https://example.org/", "with a sitemap and whole addresses"),
+    ("framegen docs --out site --base https://example.org/", "to be published there"),
 )
 
 
@@ -28,7 +28,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--out", type=Path, metavar="FOLDER", help="write here instead of into a temporary folder"
     )
     parser.add_argument(
-        "--base", default="", metavar="ADDRESS", help="where the site will be, such as https://…/"
+        "--base",
+        default="",
+        metavar="ADDRESS",
+        help="where the site will be: adds whole addresses, a sitemap and a page for broken links",
     )
     add_force(parser)
 
@@ -43,16 +46,18 @@ def run(arguments: Namespace) -> int:
     from framegen.project import all_specs, guides_folder  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
     from framegen.site.project import read_project  # noqa: PLC0415
+    from framegen.site.publication import base_address  # noqa: PLC0415
     from framegen.site.site import render_site  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 
+    base = base_address(arguments.base)
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
     specs = [compiled(file) for file in files]
     if print_findings(specs):
         return 1
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     docs = None if arguments.spec else guides_folder(files[0])
-    project = read_project(specs, docs, arguments.base)
+    project = read_project(specs, docs, base)
     # All pages are one output: which of the specs they come from, each of them says.
     pages = render_site(project, snippets())
     site = Output("site.manifest", "", pages, data=project.files)

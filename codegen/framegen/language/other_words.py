@@ -94,7 +94,7 @@ _BY_MODEL: dict[type[BaseModel], dict[str, str]] = {
     },
     Message: {
         "code opcode command cmd function msg_id number type": "write `id`",
-        "response answer returns ack replies": "write `reply`, the message that always comes back",
+        "response answer returns ack replies": "write `reply`, the message that comes back",
         "nak nack error errors exception failed": "write `refusal`, the message that comes instead "
         "of the reply; or `failure`, the field of the reply that says so",
         "parameters params payload data body arguments args": "write `fields`",
@@ -104,7 +104,7 @@ _BY_MODEL: dict[type[BaseModel], dict[str, str]] = {
         "example": "write `examples`, a list",
         "address broadcast station": "the address is a part of the frame, `is: address`, and the "
         "first argument of every message",
-        "notes": "write `description`",
+        "note remarks": "write `notes`, a list of `{text: ..., cite: ...}`",
     },
     ListField: {
         "type": "a list of bare numbers has a `type` and no `element`; in one of elements, the "

@@ -7,7 +7,7 @@ what an editor shows while the spec is written.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BaseModel,
@@ -26,6 +26,11 @@ from framegen.language.names import named_once, names_of
 from framegen.language.notation import Ids, Notation, OneOf
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
+
+if TYPE_CHECKING:
+    from pydantic import GetJsonSchemaHandler
+    from pydantic.json_schema import JsonSchemaValue
+    from pydantic_core import CoreSchema
 
 Cite: TypeAlias = Annotated[Citation, Notation("a citation", "vendor, section 1.1", Citation.parse)]
 Hex: TypeAlias = Annotated[bytes, Notation("hex", "55 55 02 07", parse_hex)]
@@ -68,6 +73,13 @@ class Distribution(Part):
     authors: list[str] = Key([], description="Who made it.")
 
 
+class Note(Part):
+    """A fact that no codec can enforce."""
+
+    text: str = Key(description="What there is to know.")
+    cite: Cite = Key(description="Where it is known from.")
+
+
 class Protocol(Part):
     """The protocol: its name, title, version and description."""
 
@@ -77,6 +89,9 @@ class Protocol(Part):
     authority: str = Key(description="The source that decides; facts from any other are marked.")
     summary: str = Key(description="What it is for, in one line.")
     description: str = Key("", description="What a newcomer should know, in a paragraph or two.")
+    notes: list[Note] = Key(
+        [], description="What other sources than the one that decides know, each with its source."
+    )
     distribution: Distribution | None = Key(
         None,
         description="For a library that is a distribution of its own, with a project file in its "
@@ -92,6 +107,30 @@ class SourceDocument(Part):
         description="What kind of evidence it is."
     )
     about: str = Key("", description="What it holds and how far it goes.")
+
+
+class Endpoint(Part):
+    """An end of the line: its part, or a mapping with more."""
+
+    about: str = Key(description="Its part.")
+    notes: list[Note] = Key(
+        [],
+        description="What else is known of it, each with its source: shown with every message that "
+        "it receives.",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _short(cls, value: object) -> object:
+        """Read `Asks.` as `{about: Asks.}`."""
+        return value if isinstance(value, dict) else {"about": value}
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Offer both ways of writing it."""
+        return {**handler(core_schema), "type": ["string", "object"]}
 
 
 class HidBoard(Part):
@@ -136,23 +175,28 @@ class Link(Part):
         return 1 + self.data_bits + (self.parity != "none") + self.stop_bits
 
 
-class ConstantPart(Part):
+class Described(Part):
+    """What every part of a frame can say of itself."""
+
+    about: str = Key("", description="What it is.")
+    notes: list[Note] = Key([], description="What else is known, each with its source.")
+
+
+class ConstantPart(Described):
     """Bytes that never change."""
 
     is_: Literal["constant"] = Key(alias="is")
     bytes_: Hex = Key(alias="bytes", description="The bytes, in hex.")
-    about: str = Key("", description="What it is.")
 
 
-class ReservedPart(Part):
+class ReservedPart(Described):
     """Bytes without a meaning: always written so, and read as anything."""
 
     is_: Literal["reserved"] = Key(alias="is")
     bytes_: Hex = Key(alias="bytes", description="The bytes that are written, in hex.")
-    about: str = Key("", description="What it is.")
 
 
-class LengthPart(Part):
+class LengthPart(Described):
     """The number of bytes in some parts of the frame."""
 
     is_: Literal["length"] = Key(alias="is")
@@ -161,10 +205,9 @@ class LengthPart(Part):
         description="The parts whose bytes it counts, such as `counts: [length, body, checksum]`."
     )
     byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
-    about: str = Key("", description="What it is.")
 
 
-class IdPart(Part):
+class IdPart(Described):
     """The id of the message, or one of its ids."""
 
     is_: Literal["id"] = Key(alias="is")
@@ -175,14 +218,12 @@ class IdPart(Part):
         "covered by a checksum.",
     )
     byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
-    about: str = Key("", description="What it is.")
 
 
-class BodyPart(Part):
+class BodyPart(Described):
     """The place of the message's fields."""
 
     is_: Literal["body"] = Key(alias="is")
-    about: str = Key("", description="What it is.")
 
 
 class NamedAddress(Part):
@@ -199,7 +240,7 @@ class NamedAddress(Part):
     )
 
 
-class AddressPart(Part):
+class AddressPart(Described):
     """The number of a device on the line: the first argument of every message."""
 
     is_: Literal["address"] = Key(alias="is")
@@ -216,10 +257,9 @@ class AddressPart(Part):
     was: Names = Key(
         (), description="What it was called in earlier editions, `OldName`, or a list of names."
     )
-    about: str = Key("", description="What it is.")
 
 
-class CounterPart(Part):
+class CounterPart(Described):
     """A running number that the sender adds to each frame."""
 
     is_: Literal["counter"] = Key(alias="is")
@@ -228,10 +268,9 @@ class CounterPart(Part):
     was: Names = Key(
         (), description="What it was called in earlier editions, `OldName`, or a list of names."
     )
-    about: str = Key("", description="What it is.")
 
 
-class ChecksumPart(Part):
+class ChecksumPart(Described):
     """A number worked out from other parts."""
 
     is_: Literal["checksum"] = Key(alias="is")
@@ -244,7 +283,6 @@ class ChecksumPart(Part):
         description="The parts it is worked out from, in order, such as `covers: [length, body]`."
     )
     byte_order: Order | None = Key(None, description="Which byte comes first, if not as usual.")
-    about: str = Key("", description="What it is.")
 
 
 NumberPart: TypeAlias = LengthPart | IdPart | AddressPart | CounterPart | ChecksumPart
@@ -253,13 +291,6 @@ FramePart: TypeAlias = Annotated[
     Key(discriminator="is_"),
 ]
 Frame: TypeAlias = dict[str, FramePart]
-
-
-class Note(Part):
-    """A fact that no codec can enforce."""
-
-    text: str = Key(description="What there is to know.")
-    cite: Cite = Key(description="Where it is known from.")
 
 
 class NamedValue(Part):
@@ -434,8 +465,13 @@ class Message(Part):
     vendor_name: str = Key("", description="What the vendor calls it.")
     summary: str = Key(description="What it does, in one line.")
     description: str = Key("", description="What else its user should know.")
+    notes: list[Note] = Key(
+        [], description="What other sources than its `cite` know, each with its source."
+    )
     cite: Cite = Key(description="Where it is known from.")
-    reply: str | None = Key(None, description="The message that answers it, always.")
+    reply: str | None = Key(
+        None, description="The message that answers it, where it is received and understood."
+    )
     refusal: str | None = Key(
         None,
         description="The message that comes instead of its `reply` where it is refused: a client "
@@ -584,7 +620,7 @@ class Spec(Part):
     sources: dict[str, SourceDocument] = Key(
         description="What facts are cited from, by short name."
     )
-    endpoints: dict[str, str] = Key(
+    endpoints: dict[str, Endpoint] = Key(
         description="The ends of the line, each with its part: first the one that the library is "
         "for, then the one that it talks to."
     )

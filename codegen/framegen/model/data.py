@@ -16,9 +16,11 @@ if TYPE_CHECKING:
     from framegen.language.spec import (
         Concern,
         Example,
+        Frame,
         ListField,
         Lookalike,
         NamedValue,
+        Note,
         NumberField,
         Reserved,
     )
@@ -35,6 +37,13 @@ def model_data(model: Model) -> dict[str, Any]:
         "title": protocol.title,
         "summary": protocol.summary,
         "description": protocol.description,
+        **_filled(
+            notes=_notes(protocol.notes),
+            endpoints={
+                name: {"about": each.about, **_filled(notes=_notes(each.notes))}
+                for name, each in spec.endpoints.items()
+            },
+        ),
         "authority": protocol.authority,
         "byte_order": spec.byte_order,
         "link": {"baud": link.baud, "bits_per_byte": link.bits_per_byte},
@@ -75,9 +84,11 @@ def model_data(model: Model) -> dict[str, Any]:
 
 def _frames(model: Model) -> dict[str, Any]:
     """Return the only envelope, or all of them by name."""
-    if not model.spec.frames:
-        return {"frame": _envelope(model.frame)}
-    return {"frames": {name: _envelope(frame) for name, frame in model.envelopes.items()}}
+    found = {
+        name: _envelope(frame, model.spec.envelopes[name])
+        for name, frame in model.envelopes.items()
+    }
+    return {"frames": found} if model.spec.frames else {"frame": found["frame"]}
 
 
 def _message(model: Model, layout: MessageLayout) -> dict[str, Any]:
@@ -91,6 +102,7 @@ def _message(model: Model, layout: MessageLayout) -> dict[str, Any]:
             vendor_name=message.vendor_name,
             summary=message.summary,
             description=message.description,
+            notes=_notes(message.notes),
             deprecated=message.deprecated,
             since=message.since,
             reply=message.reply,
@@ -134,7 +146,7 @@ def _reserved(reserved: Reserved) -> dict[str, Any]:
 
 
 def _lookalike(lookalike: Lookalike, frame: Envelope) -> dict[str, Any]:
-    own = {"frame": _envelope(frame)} if lookalike.frame else {}
+    own = {"frame": _envelope(frame, lookalike.frame)} if lookalike.frame else {}
     return {
         "title": lookalike.title,
         "about": lookalike.about,
@@ -145,9 +157,12 @@ def _lookalike(lookalike: Lookalike, frame: Envelope) -> dict[str, Any]:
     }
 
 
-def _envelope(frame: Envelope) -> list[dict[str, Any]]:
+def _envelope(frame: Envelope, parts: Frame) -> list[dict[str, Any]]:
     hidden = [{**_slot(slot), "sent": False} for slot in frame.unsent]
-    return [*(_slot(slot) for slot in frame.slots), *hidden]
+    return [
+        each | _filled(notes=_notes(parts[each["name"]].notes))
+        for each in (*(_slot(slot) for slot in frame.slots), *hidden)
+    ]
 
 
 def _slot(slot: Slot) -> dict[str, Any]:
@@ -270,8 +285,12 @@ def _value(value: NamedValue) -> dict[str, Any]:
 
 def _evidence(field: NumberField | ListField) -> dict[str, Any]:
     """Return what else is known of a field, and from where."""
-    notes = [{"text": note.text, "cite": str(note.cite)} for note in field.notes]
-    return _filled(notes=notes, cite=None if field.cite is None else str(field.cite))
+    cite = None if field.cite is None else str(field.cite)
+    return _filled(notes=_notes(field.notes), cite=cite)
+
+
+def _notes(notes: list[Note]) -> list[dict[str, str]]:
+    return [{"text": note.text, "cite": str(note.cite)} for note in notes]
 
 
 def _filled(**said: Any) -> dict[str, Any]:

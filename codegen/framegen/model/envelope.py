@@ -257,6 +257,7 @@ def _number(name: str, part: NumberPart, at: int, order: ByteOrder) -> Number:
         "type": part.type,
         "about": part.about,
         "byte_order": part.byte_order,
+        "notes": part.notes,
     }
     match part:
         case LengthPart():

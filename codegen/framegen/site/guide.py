@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
     from markdown_it.token import Token
 
-# Files outside the folder of the guides become pages in here.
+# The folder of the guides, by which other files of the project know it.
+_FOLDER = "docs"
+# Files outside of it become pages in here.
 _OUTSIDE = "project"
 # Words of code that are longer may be broken, on a small display.
 _WHOLE = 24
@@ -89,8 +91,10 @@ class Guide:
         path, mark, anchor = link.partition("#")
         if re.match(r"[a-z]+:", path) or not path:
             return link
-        file = posixpath.normpath(posixpath.join(posixpath.dirname(self.path), path))
-        page = self.published.get(file)
+        place = posixpath.join(_FOLDER, posixpath.dirname(self.path), path)
+        file = posixpath.normpath(place)
+        below = file.startswith(f"{_FOLDER}/")
+        page = self.published.get(file.removeprefix(f"{_FOLDER}/") if below else f"../{file}")
         return None if page is None else f"{'../' * self.page.count('/')}{page}{mark}{anchor}"
 
 

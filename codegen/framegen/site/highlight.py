@@ -98,7 +98,7 @@ def _session(code: str, prompt: re.Pattern[str], language: str) -> tuple[list[_P
         # Statements go over several lines, so all are read at once, and prompts put in again.
         for begins, (name, part) in _by_line(_coloured(text, language)):
             pieces += [("prompt", next(prompts))] if begins else []
-            pieces.append((name, part))
+            pieces.append((name or "typed", part))
     return pieces, typed
 
 

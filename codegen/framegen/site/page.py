@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ class Page:
     of the reference that it belongs to, if it does to any. Each of `scripts` is made of files,
     and comes after the script of every page; `context` is what the template gets besides.
     `canonical` is the path of the page that stands for this one in search engines, if another does.
+    `base` is the address of the site, on a page that is shown at any other.
     """
 
     path: str
@@ -28,16 +30,17 @@ class Page:
     scripts: tuple[tuple[str, ...], ...] = ()
     context: Mapping[str, Any] = field(default_factory=dict)
     canonical: str = ""
+    base: str = ""
 
     @property
     def address(self) -> str:
-        """The path of the page that stands for it, from the root of the site."""
-        return self.canonical or self.path
+        """The path of the page that stands for it; of an index, the folder."""
+        return re.sub(r"(^|/)index\.html$", r"\1", self.canonical or self.path)
 
     @property
     def top(self) -> str:
         """The path from the page to the root of the site."""
-        return "../" * self.path.count("/")
+        return self.base or "../" * self.path.count("/")
 
     @property
     def root(self) -> str:

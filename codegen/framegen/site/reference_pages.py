@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
+from framegen.site.line_data import LINE_SCRIPT, line_data
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
 from framegen.site.spec_listing import listing
@@ -14,7 +15,7 @@ from framegen.site.spec_listing import listing
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.targets.docs.reference import ReferenceView
+    from framegen.targets.docs.reference import PageView, ReferenceView
 
 # The files of the workbench, in the order in which they are joined.
 _WORKBENCH = (
@@ -35,10 +36,13 @@ _WORKBENCH = (
     "workbench_address",
     "workbench_detail",
     "workbench_list",
-    "stub",
+    "fields",
     "workbench_encode",
     "workbench",
 )
+
+# Those of the page of a message.
+_LIVE = ("elements", "notation", "fields", "live")
 
 
 class ReferencePages:
@@ -68,19 +72,22 @@ class ReferencePages:
                 context={
                     "reference": reference,
                     "message": view.message,
-                    **self._data(view.template),
+                    **self._data(view),
                 },
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
-        if template != "decoder":
-            return ()
-        return (codec_scripts(self.reference.model), _WORKBENCH)
+        shown = {"decoder": (_WORKBENCH, LINE_SCRIPT), "message": (_LIVE,)}.get(template)
+        return (codec_scripts(self.reference.model), *shown) if shown else ()
 
-    def _data(self, template: str) -> dict[str, object]:
-        match template:
+    def _data(self, view: PageView) -> dict[str, object]:
+        match view.template:
             case "decoder":
-                return {"data": script_json(protocol_data(self.reference.model))}
+                model = self.reference.model
+                return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
+            case "message" if view.message is not None:
+                own = protocol_data(self.reference.model, [view.message.name])
+                return {"live": script_json(own)}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}

@@ -16,9 +16,11 @@ from framegen.site.headings import headings, with_permalinks
 from framegen.site.highlight import code_block
 from framegen.site.home import Introduction, specimen
 from framegen.site.mark import icon, mark
+from framegen.site.mentions import Mention, mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
+from framegen.site.publication import NOT_FOUND, robots, sitemap
 from framegen.site.reference_pages import ReferencePages
 from framegen.site.search.index import SearchIndex
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
@@ -43,7 +45,15 @@ COMMON = ("page", "clipboard", "tabs", "search_box")
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, by path below its root."""
     site = Site(project, snippets)
-    return {page.path: _rendered(site, page) for page in site.pages}
+    files = {page.path: _rendered(site, page) for page in site.pages}
+    if project.base:
+        # Where a page stands for another, or for none at all, it is not for search engines.
+        listed = [
+            page.address for page in site.pages if not page.canonical and page.path != NOT_FOUND
+        ]
+        files["sitemap.xml"] = sitemap(project.base, listed)
+        files["robots.txt"] = robots(project.base)
+    return files
 
 
 @dataclass(frozen=True)
@@ -191,6 +201,16 @@ class Site:
         for reference in self.references:
             yield from reference.pages
         yield self._search_page()
+        if self.project.base:
+            # It is shown at any address, so that its links are whole.
+            yield Page(
+                NOT_FOUND,
+                "404",
+                "There is no such page",
+                "",
+                "Nothing is at this address.",
+                base=self.project.base,
+            )
 
     def _search_page(self) -> Page:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
@@ -225,6 +245,11 @@ class Site:
             "introduction": None if plan is None else Introduction(plan, self._published),
             "specimen": next(iter(shown), None),
         }
+
+    def mentions(self, page: Page) -> list[Mention]:
+        """Return where the guides speak of the message of a page."""
+        message = page.context["message"]
+        return [*mentions(self.guides, message, page.path)]
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""

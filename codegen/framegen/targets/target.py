@@ -13,8 +13,18 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
 
-Snippet: TypeAlias = "Callable[[Model, MessageLayout, Example], str]"
-Snippets: TypeAlias = Mapping[str, Snippet]
+
+@dataclass(frozen=True, slots=True)
+class Snippet:
+    """Code that shows an example of a message: its name beside others, and its language."""
+
+    name: str
+    language: str
+    code: str
+
+
+ShowExample: TypeAlias = "Callable[[Model, MessageLayout, Example], list[Snippet]]"
+Snippets: TypeAlias = Mapping[str, ShowExample]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +76,8 @@ class Target:
     the disk holds. It is handed the snippets of all targets, by name of the target. `folders` are
     those that hold nothing else, `comments` how a line becomes a comment, by suffix: such files get
     the banner. `reserved` are the words that no name may be in this target, and `bent` what became
-    of names that are. `snippet` shows an example of a message as code. `shared` says that the files
-    are the same for every spec: they belong to framegen.
+    of names that are. `snippets` shows an example of a message as code, in several ways. `shared`
+    says that the files are the same for every spec: they belong to framegen.
     """
 
     name: str
@@ -77,5 +87,5 @@ class Target:
     comments: Mapping[str, Comment] = field(default_factory=dict)
     reserved: tuple[Reserved, ...] = ()
     bent: Callable[[Model], list[BentName]] = _nothing_bent
-    snippet: Snippet | None = None
+    snippets: ShowExample | None = None
     shared: bool = False

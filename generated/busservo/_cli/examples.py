@@ -61,7 +61,7 @@ EXAMPLES = {
     "encode": (
         (
             "busservo encode ServoMove time_ms=1000 targets=1:800",
-            "Turn one or more servos to positions, all of them arriving after the same time.",
+            "Turn one or more servos to positions, all of them in the same time.",
         ),
         (
             "busservo encode ActionGroupRun group=8 times=1",
@@ -110,7 +110,7 @@ EXAMPLES = {
     "send": (
         (
             "busservo send --port COM7 ServoMove time_ms=1000 targets=1:800",
-            "Turn one or more servos to positions, all of them arriving after the same time.",
+            "Turn one or more servos to positions, all of them in the same time.",
         ),
         (
             "busservo send --port COM7 ActionGroupRun group=8 times=1",
@@ -119,7 +119,7 @@ EXAMPLES = {
         ("busservo send --port COM7 ActionGroupStop", "Stop the action group that is running."),
         (
             "busservo send --port COM7 ActionGroupSpeed group=8 percent=50",
-            "Set the speed of one action group, or of all, in percent of its recorded speed.",
+            "Set the speed of one action group, or of all, in percent of its original speed.",
         ),
         ("busservo send --port COM7 BatteryVoltageRead", "Ask for the voltage of the battery."),
         (

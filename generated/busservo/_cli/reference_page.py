@@ -32,6 +32,7 @@ def message_list(
         sheet.heading(model.title)
         sheet.paragraph(model.said["summary"])
         sheet.paragraphs(model.said["description"])
+        sheet.paragraphs(_notes(model, model.said))
     digits = max((len(hexed(each)) for each in messages), default=0)
     numbers = max((3, *(len(numbered(each)) for each in messages)))
     width = max(len(message.name) for message in messages)
@@ -91,6 +92,9 @@ def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
     if "deprecated" in said:
         sheet.paragraph(f"Deprecated: {said['deprecated']}", colour="yellow")
     sheet.paragraphs(said.get("description", ""))
+    sheet.paragraphs(_notes(model, said))
+    receiver = message.direction.partition(" -> ")[2]
+    sheet.paragraphs(_notes(model, model.said["endpoints"][receiver]))
     sheet.line()
     sheet.columns([*_facts(model, message)])
     sheet.heading("Bytes")
@@ -109,6 +113,12 @@ def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
     sheet.heading("On the command line")
     for line in said["shell"]:
         sheet.line(f"  {line}")
+
+
+def _notes(model: Protocol, said: Any) -> str:
+    """Return what else is known, a paragraph each."""
+    notes = (f"{note['text']} ({_cited(model, note['cite'])})" for note in said.get("notes", ()))
+    return "\n\n".join(notes)
 
 
 def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:

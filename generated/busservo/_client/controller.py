@@ -38,10 +38,9 @@ class Controller(Client):
         *,
         latest: bool = False,
     ) -> Motion:
-        """Turn one or more servos to positions, all of them arriving after the same time.
+        """Turn one or more servos to positions, all of them in the same time.
 
-        The controller interpolates: each servo listed travels from where it is to its position
-        in the given time, or as fast as it can if the time is too short. It is never answered.
+        Nothing answers it. (Other vendor documents and several independent clients)
 
         `targets`: The servos to turn and where to, in the order of the frame (1..83 items).
 
@@ -65,8 +64,15 @@ class Controller(Client):
     def run_action_group(self, group: int, times: int) -> Run:
         """Run an action group stored on the controller, a number of times or for ever.
 
-        The controller repeats the same parameters as a report once the group starts. A group
-        that ends by itself is reported too; one that runs for ever ends only by ActionGroupStop.
+        The group must have been downloaded into the controller before.
+
+        Once the group starts, the controller repeats the same parameters as ActionGroupStarted.
+        (Bus Servo Controller Communication Protocol)
+
+        ActionGroupStop stops it. (Bus Servo Controller Communication Protocol)
+
+        A group that ends by itself is reported by ActionGroupCompleted. (Other vendor documents
+        and several independent clients)
 
         `group`: The number of the action group (0..255).
 
@@ -85,8 +91,8 @@ class Controller(Client):
     def stop_action_group(self) -> Sent:
         """Stop the action group that is running.
 
-        Reported by ActionGroupStopped when there was something to stop; otherwise nothing comes
-        back.
+        ActionGroupStopped reports it where a group was running. (Other vendor documents and
+        several independent clients)
 
         Returns once the frame is handed over; `delay` of the result is how many seconds later it
         is on the wire.
@@ -98,17 +104,17 @@ class Controller(Client):
         return self.send(ActionGroupStop())
 
     def set_action_group_speed(self, group: int, percent: int) -> Sent:
-        """Set the speed of one action group, or of all, in percent of its recorded speed.
+        """Set the speed of one action group, or of all, in percent of its original speed.
 
-        The speed is not kept: after power-off each group runs at its recorded speed again. A
-        servo has a highest speed of its own, and no percentage makes it faster than that. Never
-        answered.
+        The speed is not saved: after a shutdown, each group runs at its default speed again. A
+        servo has a highest speed of its own, and no percentage makes it faster than that.
+
+        Nothing answers it. (Other vendor documents and several independent clients)
 
         `group`: The number of the action group (0..255). 255 (all): Every action group stored on
         the controller.
 
-        `percent`: The speed, where 100 is the speed at which the group was recorded (0..65535
-        %).
+        `percent`: The speed, where 100 is the original speed of the group (0..65535 %).
 
         Returns once the frame is handed over; `delay` of the result is how many seconds later it
         is on the wire.
@@ -122,10 +128,13 @@ class Controller(Client):
     def read_battery_voltage(self) -> int:
         """Ask for the voltage of the battery.
 
-        Answered at once by BatteryVoltage, though a report about an action group may come first.
+        Answered at once by BatteryVoltage.
 
-        Returns `voltage_mv` of the BatteryVoltage: The voltage at the controller's supply
-        terminals (0..65535 mV, in steps of 0.001 V).
+        A report about an action group may come before the answer. (Other vendor documents and
+        several independent clients)
+
+        Returns `voltage_mv` of the BatteryVoltage: The voltage of the controller board (0..65535
+        mV, in steps of 0.001 V).
 
         Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
         time, and TransportError.
@@ -139,8 +148,9 @@ class Controller(Client):
     def unload_servos(self, servo_ids: Iterable[int]) -> Sent:
         """Switch off the force of one or more servos, so that they can be turned by hand.
 
-        The servos stay limp until the next ServoMove. An arm held up by its servos falls. Never
-        answered.
+        The servos are limp then, and hold nothing up: support the arm first.
+
+        Nothing answers it. (Other vendor documents and several independent clients)
 
         `servo_ids`: The servos to switch off (1..252 items).
 
@@ -161,9 +171,9 @@ class Controller(Client):
 
         `servo_ids`: The servos asked about (1..252 items).
 
-        Returns `positions` of the ServoPositions: The servos that answered and where they are,
-        in the order of the frame (0..84 items). Servos that did not answer may be missing from
-        the list. (Client code in public repositories)
+        Returns `positions` of the ServoPositions: The servos and where they are, in the order of
+        the frame (0..84 items). A servo that is off or missing may be left out, so there may be
+        fewer than were asked for. (Client code in public repositories)
 
         A reply has room for 84: longer lists take several requests, one after the other.
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-PROTOCOL_VERSION = "1.0.0"
+PROTOCOL_VERSION = "1.0.1"
 """The version of the protocol's specification."""
 HEADER = b"\x55\x55"
 LENGTH_AT = 2

@@ -67,7 +67,7 @@ class Controller(Client):
     def move(self, servo_id: int, position: int, time_ms: int, *, latest: bool = False) -> Motion:
         """Turn to a position, at even speed, and arrive after the given time.
 
-        It sets off at once, and takes longer than the given time where that is too short.
+        It sets off at once.
 
         `servo_id`: The servo that is meant, or that replies (0..254). 254 (all): Every servo.
         None replies, save to ServoIdRead.
@@ -473,7 +473,7 @@ class Controller(Client):
     def write_torque(self, servo_id: int, torque: int) -> Sent:
         """Switch the force of the servo on or off.
 
-        Without force it can be turned by hand, and what it holds up falls.
+        Without force it holds nothing up: support what hangs on it first.
 
         `servo_id`: The servo that is meant, or that replies (0..254). 254 (all): Every servo.
         None replies, save to ServoIdRead.

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         AnyField,
         Bits,
         Concern,
+        Endpoint,
         Erratum,
         Example,
         Frame,
@@ -70,7 +71,7 @@ class Both:
         return named(pairing, old, new, ("sources",), ("sources",))
 
     @cached_property
-    def ends(self) -> Things[str]:
+    def ends(self) -> Things[Endpoint]:
         """The ends of the line, each with its part."""
         pairing = Pairing(self.pair.ends, frozenset(), (), ())
         path = ("endpoints",)
@@ -209,7 +210,7 @@ class Both:
 
     @cached_property
     def notes(self) -> Things[Note]:
-        """The notes on fields: the same are those of the same words, or from the same place."""
+        """The notes: the same are those of the same words, or from the same place."""
         return joined(
             listed(
                 each.old.notes,
@@ -218,7 +219,14 @@ class Both:
                 (*each.new_path, "notes"),
                 [lambda note: note.text, lambda note: str(note.cite)],
             )
-            for each in self.fields.twins
+            for each in self._with_notes
+        )
+
+    @property
+    def _with_notes(self) -> Iterator[Twin[Any]]:
+        yield self.part_of("protocol")
+        yield from chain.from_iterable(
+            each.twins for each in (self.ends, self.parts, self.messages, self.fields)
         )
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Change: a field has another note."""
+"""Change: there is another note."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def _look(both: Both) -> Iterator[Change]:
 
 RULE = ChangeRule(
     id="note-added",
-    title="A field has another note",
+    title="There is another note",
     subject="document",
     why="A note is a fact that no codec enforces.",
     do="Read it: what it says may matter to programs.",

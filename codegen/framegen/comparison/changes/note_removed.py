@@ -1,4 +1,4 @@
-"""Change: a note on a field is gone."""
+"""Change: a note is gone."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def _look(both: Both) -> Iterator[Change]:
 
 RULE = ChangeRule(
     id="note-removed",
-    title="A note on a field is gone",
+    title="A note is gone",
     subject="document",
     why="A note is a fact that no codec enforces.",
     do="Nothing.",

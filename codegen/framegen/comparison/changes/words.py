@@ -32,10 +32,7 @@ def _change(twin: Twin[Any], key: KeyPath) -> Change:
 
 def _look(both: Both) -> Iterator[Change]:
     for twin in both.everything():
-        if isinstance(twin.old, str):
-            if twin.old != twin.new:
-                yield _change(twin, ())
-        elif isinstance(twin.old, BaseModel):
+        if isinstance(twin.old, BaseModel):
             # The text of a field is another thing than that of a note.
             keys = (key for key in _WORDS if key != "text" or isinstance(twin.old, Note))
             yield from (_change(twin, (key,)) for key in keys if _differs(twin, key))

@@ -122,8 +122,9 @@ def _facts(reference: ReferenceView, folder: str) -> Iterator[Entry]:
         for part in envelope.parts:
             where = f"Part of {envelope.what}"
             yield Entry("field", part.name, f"{page}#frame", where, part.text, name)
-    for endpoint, role in reference.endpoints.items():
-        yield Entry("page", endpoint, page, "End of the line", role, name)
+    for end in reference.endpoints:
+        about = sentences(end.about, *(note.text for note in end.notes))
+        yield Entry("page", end.name, page, "End of the line", about, name)
     for key, source in reference.sources.items():
         about = sentences(source.title, source.about)
         yield Entry("page", key, f"{page}#source-{key}", f"Source, {source.kind}", about, name)

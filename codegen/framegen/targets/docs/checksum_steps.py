@@ -8,6 +8,8 @@ from framegen.language.values import to_hex
 from framegen.model.checksums import CHECKSUMS, Sum, Xor
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from framegen.model.checksums import Checksum
 
 # Of more bytes, only the checksum is shown.
@@ -30,6 +32,25 @@ def worked_out(name: str, size: int, data: bytes) -> str:
             each = (method.of(data[: end + 1], 8 * size) for end in range(len(data)))
             values = ", ".join(f"{number:0{2 * size}X}" for number in each)
             return f"the {name} of {to_hex(data)} is, from byte to byte, {values}"
+
+
+def as_formula(name: str, size: int, parts: Sequence[str]) -> str:
+    """Write a checksum of named parts as most languages do: `~(id + length) & 0xFF`.
+
+    Nothing is returned for a method that takes more than one operation a byte.
+    """
+    method, mask = CHECKSUMS[name], f"0x{(1 << 8 * size) - 1:X}"
+    match method:
+        case Sum(factor=1, offset=0, word=1, carried=False, left_out=0):
+            return f"({' + '.join(parts)}) & {mask}"
+        case Sum(factor=-1, offset=-1, word=1, carried=False, left_out=0):
+            return f"~({' + '.join(parts)}) & {mask}"
+        case Sum(factor=-1, offset=0, word=1, carried=False, left_out=0):
+            return f"-({' + '.join(parts)}) & {mask}"
+        case Xor(xor_out=0, mask=0xFF, word=1):
+            return " ^ ".join(parts)
+        case _:
+            return ""
 
 
 def _added_up(method: Checksum, size: int, data: bytes, value: str) -> str:

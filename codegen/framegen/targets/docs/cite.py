@@ -29,6 +29,11 @@ class CiteView:
         return f"{self.title}, {self.place}" if self.place else self.title
 
     @property
+    def badge(self) -> str:
+        """The kind of evidence, for another source than the one that decides, and not named so."""
+        return self.kind if self.marked and self.kind not in self.title.lower() else ""
+
+    @property
     def short(self) -> str:
         """The source by its short name, and the place in it."""
         return f"{self.name}, {self.place}" if self.place else self.name

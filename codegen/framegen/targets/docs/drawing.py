@@ -17,14 +17,14 @@ _HEAD = 7
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """One message on its way. `sure` says that it always comes."""
+    """One message on its way; `due` is a request, or the reply that it is due."""
 
     message: str
     note: str
     start: int
     end: int
     y: int
-    sure: bool
+    due: bool
 
     @property
     def head(self) -> str:
@@ -120,7 +120,7 @@ def _caption(model: Model, name: str) -> str:
         listed = ", then perhaps ".join(message.reports)
         may = f"sooner or later the {receiver} may report {listed}."
         return f"The {sender} sends {name}; {may}{known}"
-    silent = "Nothing comes back, whether it was understood or not."
+    silent = "Nothing that comes back tells whether it was understood."
     return f"The {sender} sends {name}. {silent}{known}"
 
 
@@ -149,8 +149,8 @@ def _drawn(model: Model, id_: str, steps: list[tuple[str, str, bool]], caption: 
     ways = [model.messages[name].direction for name, _, _ in steps]
     at = _places(ways)
     arrows = [
-        Arrow(name, note, at[way.sender], at[way.receiver], _TOP + _STEP * index + 24, sure)
-        for index, ((name, note, sure), way) in enumerate(zip(steps, ways, strict=True))
+        Arrow(name, note, at[way.sender], at[way.receiver], _TOP + _STEP * index + 24, due)
+        for index, ((name, note, due), way) in enumerate(zip(steps, ways, strict=True))
     ]
     lines = [Lifeline(name, x) for name, x in at.items()]
     title = "A report between request and reply" if id_ == "interruption" else id_

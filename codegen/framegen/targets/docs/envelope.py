@@ -9,6 +9,7 @@ from framegen.explanation.protocol import listed
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Number
 from framegen.targets.docs.field import order_in_words
+from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.strip import Cell, parts_strip
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ class PartView:
     name: str
     about: str
     facts: list[str]
+    notes: list[NoteView]
 
     @property
     def text(self) -> str:
@@ -80,9 +82,15 @@ class EnvelopeView:
         said = self.model.spec.envelopes[self.name]
         slots = {slot.name: slot for slot in (*self.envelope.slots, *self.envelope.unsent)}
         views = [
-            PartView(name, part.about, [*self._facts(slots[name])]) for name, part in said.items()
+            PartView(
+                name,
+                part.about,
+                [*self._facts(slots[name])],
+                note_views(self.model.spec, part.notes),
+            )
+            for name, part in said.items()
         ]
-        return [view for view in views if view.text]
+        return [view for view in views if view.text or view.notes]
 
     def _facts(self, slot: object) -> Iterator[str]:
         """Yield what is not written of a part, but follows from its keys."""

@@ -32,6 +32,7 @@ class ErratumView:
 class UnknownView:
     """A question that no source answers."""
 
+    number: int
     message: str
     concern: str
     what: str
@@ -59,6 +60,8 @@ def erratum_views(model: Model) -> list[ErratumView]:
 def unknown_views(model: Model) -> list[UnknownView]:
     """Return every unknown, in the order of the spec."""
     return [
-        UnknownView(unknown.concerns.message, concern_in_words(unknown.concerns), unknown.what)
-        for unknown in model.spec.unknowns
+        UnknownView(
+            number, unknown.concerns.message, concern_in_words(unknown.concerns), unknown.what
+        )
+        for number, unknown in enumerate(model.spec.unknowns, 1)
     ]

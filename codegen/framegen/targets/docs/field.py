@@ -5,15 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import ListField, NumberField
 from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.targets.docs.cite import CiteView, Place, cite_view
+from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.strip import place_in_each
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
-    from framegen.language.spec import Spec
+    from framegen.language.number_types import NumberType
+    from framegen.language.spec import NamedValue, Spec
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
@@ -21,12 +24,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ValueView:
-    """A named value; `cite` is None where its source is the message's."""
+    """A named value of a field, in decimal and, as wide as its type, in hex."""
 
+    path: str
     name: str
     value: int
+    hex: str
     about: str
     cite: CiteView | None
+
+    @property
+    def anchor(self) -> str:
+        """The anchor, stable as long as field and value keep their names."""
+        return f"value-{_anchored(self.path)}-{self.name}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +46,6 @@ class BitsView:
     at: str
     name: str
     about: str
-
-
-@dataclass(frozen=True, slots=True)
-class NoteView:
-    """A further fact about a field, and its source."""
-
-    text: str
-    cite: CiteView
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,11 @@ class FieldView:
     @property
     def anchor(self) -> str:
         """The anchor, stable as long as the field keeps its name."""
-        return "field-" + self.path.replace("[i]", "").replace(".", "-")
+        return f"field-{_anchored(self.path)}"
+
+
+def _anchored(path: str) -> str:
+    return path.replace("[i]", "").replace(".", "-")
 
 
 def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
@@ -116,6 +122,16 @@ def _range(slot: Number | Text | Packed | Constant, count: str) -> str:
     return f"{bounds}, {count}" if count else bounds
 
 
+def _counted(message: MessageLayout, slot: object) -> str:
+    """Return what a count can be on the wire: what its list can have, and no more."""
+    lists = (each for each in message.body if isinstance(each, Items) and slot in each.counters)
+    for items in lists:
+        counter = next(each for each in items.counters if each is slot or each == slot)
+        low, high = items.counted(counter, items.low), items.counted(counter, items.high)
+        return f"always {low}" if low == high else f"{low}..{high}"
+    return ""
+
+
 def _type(slot: Number | Text | Packed | Constant) -> str:
     match slot:
         case Packed():
@@ -145,7 +161,7 @@ class _Maker:
         if slot.field is None:
             raise AssertionError(f"{slot.name} is no field")
         derived = isinstance(slot, Number) and slot.counts
-        bounds = _range(slot, count)
+        bounds = _counted(self.message, slot) or _range(slot, count)
         return self.view(slot.field, path, offset, key, _type(slot), bounds, derived=derived)
 
     def view(
@@ -169,22 +185,46 @@ class _Maker:
             unit=_unit(field),
             range=bounds,
             about=field.about,
-            values=[
-                ValueView(
-                    name,
-                    value.value,
-                    value.about,
-                    None if value.cite is None else cite_view(spec, value.cite),
-                )
-                for name, value in values.items()
-            ],
+            values=_values(spec, path, values, NUMBER_TYPES.get(getattr(field, "type", ""))),
             beside=[*_on_the_wire(spec, field), *_beside(path.rpartition(".")[2], field)],
             bits=_bits(field),
-            notes=[NoteView(note.text, cite_view(spec, note.cite)) for note in field.notes],
+            notes=note_views(spec, field.notes),
             cite=cite_view(spec, field.cite or self.message.message.cite),
             place=Place(("messages", self.message.name, *key)),
             derived=derived,
         )
+
+
+def address_values(model: Model, message: MessageLayout) -> list[ValueView]:
+    """Return the addresses that have a name."""
+    address = message.frame.address
+    if address is None:
+        return []
+    values = address.field.values
+    return _values(model.spec, address.name, values, address.number_type)
+
+
+def _values(
+    spec: Spec, path: str, values: Mapping[str, NamedValue], type_: NumberType | None
+) -> list[ValueView]:
+    return [
+        ValueView(
+            path,
+            name,
+            value.value,
+            _in_hex(value.value, type_),
+            value.about,
+            None if value.cite is None else cite_view(spec, value.cite),
+        )
+        for name, value in values.items()
+    ]
+
+
+def _in_hex(number: int, type_: NumberType | None) -> str:
+    """Return a number as the bytes of its type have it; nothing where these are not whole."""
+    if type_ is None or type_.is_float:
+        return ""
+    return f"0x{number % (1 << 8 * type_.size):0{2 * type_.size}X}"
 
 
 def _unit(field: NumberField | ListField) -> str:

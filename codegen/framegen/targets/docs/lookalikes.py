@@ -6,16 +6,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.explanation.lookalikes import recognise
+from framegen.explanation.protocol import listed
 from framegen.language.values import to_hex
+from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Constant
 from framegen.model.verdict import weigh_whole
+from framegen.targets.docs.checksum_steps import as_formula, worked_out
 from framegen.targets.docs.cite import CiteView, cite_view
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.strip import Cell, given_strip, parts_strip
+from framegen.targets.docs.way import in_prose
 
 if TYPE_CHECKING:
     from framegen.language.spec import Lookalike
     from framegen.language.values import Direction
+    from framegen.model.envelope import Envelope
     from framegen.model.model import Model
     from framegen.model.slots import Number
 
@@ -28,7 +33,17 @@ class LookalikeFrame:
     hex: str
     query: str
     cells: list[Cell]
+    proofs: list[str]
     verdicts: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class ChecksumView:
+    """A checksum of a look-alike, which tells its frames for certain: in words and as a formula."""
+
+    name: str
+    text: str
+    formula: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +65,7 @@ class LookalikeEntry:
     about: list[str]
     cite: CiteView
     envelope: list[Cell]
+    checksums: list[ChecksumView]
     frames: list[LookalikeFrame]
     commands: list[LookalikeCommand]
 
@@ -63,26 +79,48 @@ def lookalike_views(model: Model) -> list[LookalikeEntry]:
             paragraphs(other.about),
             cite_view(model.spec, other.cite),
             parts_strip(model.lookalikes[key]) if other.frame else [],
-            [_frame(model, each.title, each.hex) for each in other.examples],
+            _checksums(model.lookalikes[key]) if other.frame else [],
+            [_frame(model, model.lookalikes[key], each.title, each.hex) for each in other.examples],
             _commands(model, other),
         )
         for key, other in model.spec.lookalikes.items()
     ]
 
 
-def _frame(model: Model, title: str, data: bytes) -> LookalikeFrame:
+def _checksums(frame: Envelope) -> list[ChecksumView]:
+    return [
+        ChecksumView(
+            slot.name,
+            f"the {slot.method} of {listed(slot.of)}: {CHECKSUMS[slot.method].about}",
+            as_formula(slot.method, slot.size, slot.of),
+        )
+        for slot in frame.checksums
+    ]
+
+
+def _proofs(frame: Envelope, data: bytes) -> list[str]:
+    """Work out the checksums of a frame."""
+    return [
+        f"{slot.name}: {worked_out(slot.method, slot.size, frame.covered(slot, {}).of(data))}"
+        for slot in frame.checksums
+    ]
+
+
+def _frame(model: Model, frame: Envelope, title: str, data: bytes) -> LookalikeFrame:
     recognised = recognise(model.plain, data)
     cells = [] if recognised is None else given_strip(recognised.parts, data)
     query = f"hex={data.hex()}&direction={model.directions[0].key}"
     verdicts = [_verdict(model, way, data) for way in model.directions]
-    return LookalikeFrame(title, to_hex(data), query, cells, verdicts)
+    return LookalikeFrame(
+        title, to_hex(data), query, cells, _proofs(frame, data) if cells else [], verdicts
+    )
 
 
 def _verdict(model: Model, way: Direction, data: bytes) -> str:
     verdict = weigh_whole(model, [way], data)
     refused = f"no frame, {verdict.refusal}"
     said = refused if verdict.message is None else verdict.message.name
-    return f"{way.sender} to {way.receiver}: {said}"
+    return in_prose(f"{way}: {said}", model)
 
 
 def _commands(model: Model, other: Lookalike) -> list[LookalikeCommand]:

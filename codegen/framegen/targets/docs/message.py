@@ -7,13 +7,16 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.explanation.protocol import listed
+from framegen.model.exchanges import method_of
 from framegen.pluralize import describe_range, pluralize
 from framegen.targets.docs.address import message_page
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.drawing import Drawing, drawing
+from framegen.targets.docs.errata import ErratumView, UnknownView, erratum_views, unknown_views
 from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.examples import ExampleView, example_views
-from framegen.targets.docs.field import FieldView, field_views
+from framegen.targets.docs.field import FieldView, ValueView, address_values, field_views
+from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.strip import Cell, pattern_strip
 from framegen.targets.docs.timing import milliseconds
 from framegen.targets.docs.way import Way, way
@@ -22,7 +25,7 @@ if TYPE_CHECKING:
     from framegen.language.spec import Message
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-    from framegen.targets.target import Snippets
+    from framegen.targets.target import Snippet, Snippets
 
 
 # The roles of what a message holds besides its envelope.
@@ -37,6 +40,19 @@ class IdView:
     number: int
     hex: str
     is_sent: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Usage:
+    """How a target, such as Python, sends or receives a message."""
+
+    target: str
+    snippets: list[Snippet]
+
+    @property
+    def title(self) -> str:
+        """What it is called in a heading."""
+        return self.target.capitalize()
 
 
 @dataclass(frozen=True)
@@ -113,6 +129,21 @@ class MessagePage:
         return paragraphs(self.said.description)
 
     @property
+    def notes(self) -> list[NoteView]:
+        """What other sources know of it."""
+        return note_views(self.model.spec, self.said.notes)
+
+    @property
+    def receiver(self) -> str:
+        """Who receives it."""
+        return self.layout.direction.receiver
+
+    @property
+    def receiver_notes(self) -> list[NoteView]:
+        """What is known of who receives it, which holds for every message to that end."""
+        return note_views(self.model.spec, self.model.spec.endpoints[self.receiver].notes)
+
+    @property
     def cite(self) -> CiteView:
         """The source of the message."""
         return cite_view(self.model.spec, self.said.cite)
@@ -121,6 +152,36 @@ class MessagePage:
     def place(self) -> Place:
         """The place of the message in the spec."""
         return Place(("messages", self.name))
+
+    @property
+    def errata(self) -> list[ErratumView]:
+        """Where the documents are wrong about it."""
+        return [each for each in erratum_views(self.model) if each.message == self.name]
+
+    @property
+    def unknowns(self) -> list[UnknownView]:
+        """What no source says of it."""
+        return [each for each in unknown_views(self.model) if each.message == self.name]
+
+    @cached_property
+    def values(self) -> list[ValueView]:
+        """The values with a name: those of its address first, then those of its fields."""
+        address = address_values(self.model, self.layout)
+        return [*address, *(value for field in self.fields for value in field.values)]
+
+    @property
+    def bits(self) -> list[FieldView]:
+        """The fields whose bits have names."""
+        return [field for field in self.fields if field.bits]
+
+    @property
+    def method(self) -> str:
+        """The method of a client that sends it, as the spec has it; empty where there is none."""
+        if not self.sends:
+            return ""
+        method = method_of(self.name, self.said)
+        address = [self.address] if self.address else []
+        return f"{method.name}({', '.join([*address, *method.arguments])})"
 
     @property
     def answers(self) -> list[str]:
@@ -156,11 +217,15 @@ class MessagePage:
         return found.get(self.name, [])
 
     @property
+    def measure(self) -> str:
+        """What the length rule gives: the length part by its name, or the size of the frame."""
+        length = self.layout.frame.length_part
+        return "size of the frame" if length is None else length.name
+
+    @property
     def formula(self) -> str:
         """The length rule."""
-        length, rule = self.layout.frame.length_part, self.layout.formula
-        value = self.lengths if self.layout.optional else rule
-        return f"{'size of the frame' if length is None else length.name} = {value}"
+        return self.lengths if self.layout.optional else str(self.layout.formula)
 
     @property
     def without_fields(self) -> str:
@@ -217,12 +282,13 @@ class MessagePage:
         return self.layout.direction == self.model.roles.sent
 
     @property
-    def snippet(self) -> str:
-        """Python that sends or receives it; empty where the spec has no example."""
-        show = self.snippets.get("python")
-        if show is None or not self.said.examples:
-            return ""
-        return show(self.model, self.layout, self.said.examples[0])
+    def usage(self) -> list[Usage]:
+        """How each target sends or receives it; nothing where the spec has no example."""
+        return [
+            Usage(target, show(self.model, self.layout, example))
+            for target, show in self.snippets.items()
+            for example in self.said.examples[:1]
+        ]
 
     @property
     def drawing(self) -> Drawing | None:

@@ -14,6 +14,7 @@ from framegen.targets.docs.escape import paragraphs
 from framegen.targets.docs.examples import ExampleSequence, example_sequences
 from framegen.targets.docs.lookalikes import LookalikeEntry, lookalike_views
 from framegen.targets.docs.message import MessagePage
+from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.stream_examples import StreamExample, stream_examples
 from framegen.targets.docs.stream_rules import StreamRules
 from framegen.targets.docs.timing import (
@@ -81,6 +82,15 @@ class HidBoardView:
 
 
 @dataclass(frozen=True, slots=True)
+class EndpointView:
+    """An end of the line: its part, and what else is known of it."""
+
+    name: str
+    about: str
+    notes: list[NoteView]
+
+
+@dataclass(frozen=True, slots=True)
 class ReservedView:
     """A reserved id or name, and why it is reserved."""
 
@@ -132,9 +142,18 @@ class ReferenceView:
         return paragraphs(self.protocol.description)
 
     @property
-    def endpoints(self) -> dict[str, str]:
-        """The endpoints, by name, with their descriptions."""
-        return self.model.spec.endpoints
+    def notes(self) -> list[NoteView]:
+        """What other sources know of the protocol."""
+        return note_views(self.model.spec, self.protocol.notes)
+
+    @property
+    def endpoints(self) -> list[EndpointView]:
+        """The endpoints, with their descriptions."""
+        spec = self.model.spec
+        return [
+            EndpointView(name, each.about, note_views(spec, each.notes))
+            for name, each in spec.endpoints.items()
+        ]
 
     @property
     def sources(self) -> dict[str, SourceDocument]:

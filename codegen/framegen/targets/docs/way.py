@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A direction. `variant` is `to` where the user of the library sends, `from` elsewhere."""
+    """A direction. `variant` is `to` where the user's end sends, whoever receives; else `from`."""
 
     sender: str
     receiver: str
@@ -28,7 +28,14 @@ class Way:
         return f"{self.sender} to {self.receiver}"
 
 
+def in_prose(text: str, model: Model) -> str:
+    """Write directions as prose does, `host to controller`, and not as a spec does."""
+    for direction in model.directions:
+        text = text.replace(str(direction), f"{direction.sender} to {direction.receiver}")
+    return text
+
+
 def way(model: Model, direction: Direction) -> Way:
     """Return how a direction of a protocol is shown."""
-    variant = "to" if direction == model.roles.sent else "from"
+    variant = "to" if direction.sender == model.roles.sent.sender else "from"
     return Way(direction.sender, direction.receiver, direction.key, variant)

@@ -15,7 +15,7 @@ from framegen.targets.python.files import SHARED, placed
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.python.names import bent, names_of, package_of
 from framegen.targets.python.reserved import RESERVED
-from framegen.targets.python.snippet import snippet
+from framegen.targets.python.snippet import snippets
 from framegen.targets.target import Comment, Target
 from framegen.targets.templates import environment
 
@@ -89,5 +89,5 @@ TARGET = Target(
     },
     reserved=RESERVED,
     bent=bent,
-    snippet=snippet,
+    snippets=snippets,
 )

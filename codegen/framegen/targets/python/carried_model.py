@@ -9,7 +9,7 @@ from framegen.model.data import model_data
 from framegen.output import banner
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.names import names_of, package_of
-from framegen.targets.python.snippet import snippet
+from framegen.targets.python.snippet import codec_snippet
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
@@ -41,7 +41,7 @@ def _usage(model: Model, layout: MessageLayout, methods: dict[str, Method]) -> d
     given = MessageView(message, library).command_words(names.values(layout.name, example.values))
     words = " ".join([message.name, *given])
     usage: dict[str, Any] = {
-        "python": snippet(model, layout, example).rstrip().split("\n"),
+        "python": codec_snippet(model, layout, example).rstrip().split("\n"),
         "shell": [f"{program} encode {words}"],
     }
     if message.name != layout.name:

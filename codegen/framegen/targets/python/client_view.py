@@ -16,6 +16,7 @@ from framegen.targets.python.errors_view import ErrorsView
 from framegen.targets.python.escape import Bracketed, Part, Text, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.method_view import Flavour, MethodView
+from framegen.targets.python.notes import noted
 from framegen.targets.python.pose_view import PoseView
 from framegen.targets.python.spelling import direction_member
 
@@ -69,7 +70,14 @@ class ClientView:
             f"A client for asyncio: {self._title}",
             self._shared.format("AsyncClient", "tasks"),
             *self._about_devices,
+            *self._about_the_other_end,
         ]
+
+    @property
+    def _about_the_other_end(self) -> list[str]:
+        """What is known of who receives what it sends."""
+        spec = self.model.spec
+        return noted(spec.endpoints[self.model.roles.sent.receiver].notes, spec)
 
     @property
     def _shared(self) -> str:

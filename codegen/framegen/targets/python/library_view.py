@@ -24,6 +24,7 @@ from framegen.targets.python.exports import (
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
+from framegen.targets.python.notes import noted
 from framegen.targets.python.plain import is_plain
 from framegen.targets.python.proof_view import proof_in_place
 from framegen.targets.python.spelling import direction_member, struct_order
@@ -277,8 +278,9 @@ class LibraryView:
     @property
     def doc(self) -> list[str]:
         """The docstring of the package."""
-        protocol = self.model.spec.protocol
-        return [protocol.title, protocol.summary, protocol.description]
+        spec, protocol = self.model.spec, self.model.spec.protocol
+        said = [protocol.title, protocol.summary, protocol.description]
+        return [*said, *noted(protocol.notes, spec)]
 
     @property
     def title(self) -> str:

@@ -10,8 +10,9 @@ from framegen.model.slots import Items, Packed
 from framegen.model.slots import Text as TextSlot
 from framegen.targets.python.element_view import ElementView
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, literal
+from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import RETURN, NumberView, bounded
-from framegen.targets.python.text_view import TextView, counters, noted
+from framegen.targets.python.text_view import TextView, counters
 
 if TYPE_CHECKING:
     from typing import Any
@@ -137,7 +138,7 @@ class ListView:
         """The description of the list, or of the numbers in it."""
         if self.bare is not None:
             return self.bare.doc
-        return [" ".join([self.slot.field.about, *noted(self.slot.field, self.spec)])]
+        return [" ".join([self.slot.field.about, *noted(self.slot.field.notes, self.spec)])]
 
     @property
     def argument_doc(self) -> list[str]:
@@ -145,7 +146,7 @@ class ListView:
         slot = self.slot
         bounds = str(slot.low) if slot.is_fixed else f"{slot.low}..{slot.high}"
         about = bounded(slot.field.about, f"{bounds} items")
-        return [about, *noted(slot.field, self.spec)]
+        return [about, *noted(slot.field.notes, self.spec)]
 
     @property
     def argument(self) -> Part:

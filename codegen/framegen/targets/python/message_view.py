@@ -20,6 +20,7 @@ from framegen.targets.python.escape import (
 )
 from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.names import id_name, strategy_name
+from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.plain import is_plain
 from framegen.targets.python.spelling import direction_member, range_expression, struct_order
@@ -64,7 +65,7 @@ class MessageView:
     def doc(self) -> list[str]:
         """The summary, and a paragraph for each further fact."""
         message, frame, formula = self.layout.message, self.layout.frame, self.layout.formula
-        found = [message.summary, message.description]
+        found = [message.summary, message.description, *noted(message.notes, self.model.spec)]
         if message.deprecated:
             found.append(f"Deprecated: {message.deprecated}")
         if message.reply and message.reply not in _WORD.findall(message.description):

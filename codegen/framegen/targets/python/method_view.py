@@ -9,6 +9,7 @@ from framegen.model.slots import Number
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, session
 from framegen.targets.python.list_view import given
 from framegen.targets.python.message_view import field_view
+from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import NumberView
 
 if TYPE_CHECKING:
@@ -118,7 +119,7 @@ class MethodView:
     def doc(self) -> list[str]:
         """The docstring: what it does, its arguments with units, its result, and its errors."""
         message = self.exchange.request.message
-        found = [message.summary, message.description]
+        found = [message.summary, message.description, *noted(message.notes, self.model.spec)]
         if message.deprecated:
             found.append(f"Deprecated: {message.deprecated}")
         for name in self._names:
@@ -314,13 +315,17 @@ class MethodView:
         return field_view(field, self.model, message)
 
     def _session(self, before: str) -> list[str]:
-        """Return a call in an interactive session: the first argument by place, others by name."""
+        """Return a call in an interactive session."""
+        return session(self.example_call(before), 8)
+
+    def example_call(self, before: str) -> Bracketed:
+        """Return a call with the values of an example: the first by place, the others by name."""
         values = self._example_values
         shown = [
             given(self._field(name), values[name], f"{name}=" if at else "")
             for at, name in enumerate(self._names)
         ]
-        return session(Bracketed(before, shown, ")"), 8)
+        return Bracketed(before, shown, ")")
 
     @property
     def _example_values(self) -> dict[str, Any]:

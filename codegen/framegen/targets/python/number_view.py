@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.targets.python.escape import WIDTH, Bracketed, Part, Text, literal
 from framegen.targets.python.names import bit_name, constant_name, mask_name, signed_name
+from framegen.targets.python.notes import noted
 
 if TYPE_CHECKING:
     from framegen.language.spec import Bits, Spec
@@ -86,10 +87,7 @@ class NumberView:
 
     @property
     def _notes(self) -> list[str]:
-        sources = self.spec.sources
-        return [
-            f"{note.text} ({sources[note.cite.source].title})" for note in self.slot.field.notes
-        ]
+        return noted(self.slot.field.notes, self.spec)
 
     @property
     def _sent(self) -> list[str]:

@@ -1,4 +1,4 @@
-"""Python snippets that send or receive a message, with the bytes of a documented example."""
+"""Snippets that send or receive a message: by the client, by the codec, and from a shell."""
 
 from __future__ import annotations
 
@@ -7,24 +7,60 @@ from typing import TYPE_CHECKING
 from framegen.language.values import to_hex
 from framegen.model.codec import encode
 from framegen.model.slots import Items, Packed
+from framegen.targets.python.client_snippet import client_snippet
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
-from framegen.targets.python.names import names_of
+from framegen.targets.python.names import names_of, package_of
 from framegen.targets.python.spelling import direction_member
+from framegen.targets.target import Snippet
 
 if TYPE_CHECKING:
     from framegen.language.spec import Example
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
+PORT = "COM5"
 
-def snippet(model: Model, message: MessageLayout, example: Example) -> str:
+
+def snippets(model: Model, message: MessageLayout, example: Example) -> list[Snippet]:
+    """Show how an example is sent, or how such messages are received.
+
+    What comes from a third end of the line has neither a client nor a command.
+    """
+    names = names_of(model)
+    library, layout = names.library, names.message(message.name)
+    values = names.values(message.name, example.values)
+    shown = example.model_copy(update={"values": values})
+    client = client_snippet(library, layout)
+    shell = _shell(model, library, layout, shown)
+    return [
+        *([Snippet("Client", "python", client)] if client else []),
+        Snippet("Codec", "python", codec_snippet(model, message, example)),
+        *([Snippet("Shell", "sh", shell)] if shell else []),
+    ]
+
+
+def codec_snippet(model: Model, message: MessageLayout, example: Example) -> str:
     """Write code that makes what the user sends, or finds what the user receives."""
     show = _sending if message.direction == model.roles.sent else _receiving
     names = names_of(model)
     values = names.values(message.name, example.values)
     shown = example.model_copy(update={"values": values})
     return show(names.library, names.message(message.name), shown)
+
+
+def _shell(model: Model, library: Model, message: MessageLayout, example: Example) -> str:
+    """Write a command that sends a message or asks for it, or shows those that come."""
+    program = package_of(model)
+    asked = next((each.request for each in library.exchanges if message in each.answers), None)
+    if asked is not None and asked.message.examples:
+        message, example = asked, asked.message.examples[0]
+    if message.direction == library.roles.sent:
+        given = MessageView(message, library).command_words(example.values)
+        return f"{program} send --port {PORT} {' '.join([message.name, *given])}\n"
+    if message.direction == library.roles.received:
+        return f"{program} monitor --port {PORT} --only {message.name}\n"
+    return ""
 
 
 def _sending(model: Model, message: MessageLayout, example: Example) -> str:

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, ClassVar
 
 from framegen.model.slots import Items
 from framegen.targets.python.escape import Bracketed, Part, Text, byte_literal, literal
+from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import BitsView, Constant, SignedView, bounded
 from framegen.targets.python.spelling import struct_order
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from framegen.language.spec import ListField, NumberField, Spec
+    from framegen.language.spec import Spec
     from framegen.model.slots import Constant as Fixed
     from framegen.model.slots import Packed
     from framegen.model.slots import Text as TextSlot
@@ -35,11 +36,6 @@ def constants_call(constants: Sequence[Fixed]) -> str:
 def constant_classes(constants: Sequence[Fixed]) -> dict[str, str]:
     """Return the classes that declare them, each with its module."""
     return {"Reserved" if each.role == "reserved" else "Always": "fixed" for each in constants}
-
-
-def noted(field: NumberField | ListField, spec: Spec) -> list[str]:
-    """Return what else is known of a field, each with its source."""
-    return [f"{note.text} ({spec.sources[note.cite.source].title})" for note in field.notes]
 
 
 class _NoNumber:
@@ -104,7 +100,7 @@ class TextView(_NoNumber):
     @property
     def doc(self) -> list[str]:
         """The description."""
-        return [" ".join([self.slot.field.about, *noted(self.slot.field, self.spec)])]
+        return [" ".join([self.slot.field.about, *noted(self.slot.field.notes, self.spec)])]
 
     @property
     def argument_doc(self) -> list[str]:
@@ -112,7 +108,7 @@ class TextView(_NoNumber):
         slot = self.slot
         bounds = f"{slot.low}..{slot.high}" if isinstance(slot, Items) else f"at most {slot.size}"
         about = bounded(slot.field.about, f"{bounds} characters")
-        return [about, *noted(slot.field, self.spec)]
+        return [about, *noted(slot.field.notes, self.spec)]
 
 
 @dataclass(frozen=True)
@@ -148,7 +144,7 @@ class PackedView(_NoNumber):
         """The description."""
         field = self.slot.field
         scale = [f"A step is {field.scale}."] if field.scale else []
-        return [" ".join([field.about, *scale, *noted(field, self.spec)])]
+        return [" ".join([field.about, *scale, *noted(field.notes, self.spec)])]
 
     @property
     def argument_doc(self) -> list[str]:
@@ -156,7 +152,7 @@ class PackedView(_NoNumber):
         slot = self.slot
         unit = f" {slot.field.unit}" if slot.field.unit else ""
         about = bounded(slot.field.about, f"{slot.count} of {slot.low}..{slot.high}{unit}")
-        return [about, *noted(slot.field, self.spec)]
+        return [about, *noted(slot.field.notes, self.spec)]
 
 
 def counters(items: Items, tail: int) -> list[Part]:

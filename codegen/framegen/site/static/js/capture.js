@@ -44,12 +44,12 @@ function makeCapture(codec, protocol, direction = null) {
       wire.times.push(said.time);
     }
     wire.log.add(bytes);
-    if (said.noise) {
+    if (!wire.stream) wire.stream = codec.makeStream({ direction: way });
+    if (typeof said.noise === "string") {
       quiet(wire);
-      put(wire, CAPTURE_NOISE + Math.max(0, reasons.indexOf(said.noise)), bytes.length);
+      if (bytes.length) put(wire, codeOfNoise(bytes, way, said.noise), bytes.length);
       return;
     }
-    if (!wire.stream) wire.stream = codec.makeStream({ direction: way });
     if (said.whole) {
       take(wire, wire.stream.flush(bytes));
       wire.last = null;
@@ -67,6 +67,17 @@ function makeCapture(codec, protocol, direction = null) {
       }
       isFirst = false;
     }
+  }
+
+  // The code of what was recorded as noise: it stays that, even if it would be a message by itself; save
+  // for a frame whose command was not known.
+  function codeOfNoise(bytes, way, reason) {
+    const events = codec.makeStream({ direction: way }).flush(bytes);
+    if (reason === protocol.reasons.unknown && events.length === 1 && events[0].type === "unknown") {
+      return CAPTURE_UNKNOWN + reasons.indexOf(reason);
+    }
+    const found = events.find(({ type }) => type !== "message");
+    return CAPTURE_NOISE + reasons.indexOf(reason || (found ? found.reason : protocol.reasons.header));
   }
 
   // The code of a message: an odd one, if the bytes may have been sent in another direction as well.

@@ -13,7 +13,7 @@ function recognise(sample, says) {
   const header = csvHeader(lines);
   if (header) {
     const name = header.isOurs ? "a table of the command" : "a table of a logic analyser";
-    const make = () => makeCsvReader(header, lines, says.senders, says.reasons);
+    const make = () => makeCsvReader(header, lines, says.senders);
     return { name, byLine: true, make };
   }
   const plain = text.replace(/#[^\n]*|\/\/[^\n]*|\/\*[^]*?(?:\*\/|$)/g, " ");
@@ -30,8 +30,10 @@ function firstLines(text) {
   return found;
 }
 
-function captureWords(protocol) {
+// `received` is the direction of what comes to the end that records, if there is one.
+function captureWords(protocol, received = null) {
   return {
+    received,
     senders: new Map(protocol.directions.map(({ key, sender }) => [sender, key])),
     reasons: protocol.reasons,
   };
@@ -62,8 +64,8 @@ function makeCodeReader() {
 
 // A reader of text in pieces: `feed` takes some, and `end` what was kept back of it. It counts lines,
 // so that Unreadable is thrown with the place in all that was fed. `take` gets bytes and what is said
-// of them: direction, channel, time, isClock; `whole` if nothing goes on in the next; or the reason
-// for which they are noise.
+// of them: direction, channel, time, isClock; `whole` if nothing goes on in the next; and the
+// reason for which they are noise, which is empty if they do not say it.
 function makeTextReader(says, take) {
   let form = null, reader = null, held = "", line = 1, column = 1, place = 0;
   const seen = { name: "", lines: 0, bytes: 0 };

@@ -4,7 +4,7 @@
 const CODE_TOKEN = new RegExp([
   /(?<comment>#[^\n]*|\/\/[^\n]*|\/\*[^]*?(?:\*\/|$))/,
   /(?<literal>[bB])?(?<quote>"""|'''|"|')(?<text>(?:\\[^]|(?!\k<quote>)[^])*)(?<close>\k<quote>)?/,
-  /(?<number>0[xX][0-9A-Fa-f]+|[0-9][0-9A-Za-z_]*)/,
+  /(?<number>[0-9][0-9A-Za-z_]*)/,
   /(?<word>[A-Za-z_][0-9A-Za-z_]*)/,
   /(?<open>[[{(])|(?<shut>[\]})])/,
   /(?<other>[^])/,
@@ -81,8 +81,10 @@ function numberIn(word, at, asHex) {
 
 function readLiteral({ 0: all, groups, index: at }, bytes, kinds) {
   const { literal, quote, text } = groups;
-  if (groups.close === undefined) throw new Unreadable(quote, at, "is never closed", `end the text with ${quote}`);
-  const start = at + (literal ? literal.length : 0) + quote.length;
+  const begin = at + (literal ? literal.length : 0), start = begin + quote.length;
+  if (groups.close === undefined) {
+    throw new Unreadable(quote, begin, "is never closed", `end the text with ${quote}`);
+  }
   if (!literal && !text.includes("\\")) {
     kinds.add("hex in quotes");
     try {

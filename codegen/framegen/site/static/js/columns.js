@@ -29,19 +29,19 @@ function makeColumn(Numbers) {
   };
 }
 
-// Bytes that grow at their end.
+// Bytes that grow at their end, in blocks of 2 to the power of 20.
 function makeByteLog() {
   const blocks = [], most = 1 << 20;
   let size = 0;
 
   function add(bytes) {
     for (let from = 0; from < bytes.length;) {
-      const at = size % most;
+      const at = size % most, left = bytes.length - from;
       // The first block is small, and grows: most captures are.
-      if (at === 0) blocks.push(new Uint8Array(blocks.length ? most : 1024));
+      if (at === 0) blocks.push(new Uint8Array(blocks.length ? most : Math.min(most, Math.max(1024, left))));
       const last = blocks.length - 1;
-      if (at + bytes.length - from > blocks[last].length && blocks[last].length < most) {
-        const wider = new Uint8Array(Math.min(most, 2 * (at + bytes.length - from)));
+      if (at + left > blocks[last].length && blocks[last].length < most) {
+        const wider = new Uint8Array(Math.min(most, 2 * (at + left)));
         wider.set(blocks[last]);
         blocks[last] = wider;
       }

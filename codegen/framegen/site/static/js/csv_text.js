@@ -51,7 +51,7 @@ function csvNumbers(lines, header) {
 }
 
 // A reader of whole lines behind the header; `sample` are the first lines of the table.
-function makeCsvReader(header, sample, senders, reasons) {
+function makeCsvReader(header, sample, senders) {
   const form = header.isOurs ? null : csvNumbers(sample, header);
   let isBegun = false;
 
@@ -95,7 +95,7 @@ function makeCsvReader(header, sample, senders, reasons) {
   function takeOurs(cells, start, take) {
     const who = textIn(cells, header.names.indexOf("from")), reason = textIn(cells, header.reason);
     const known = senders.has(who) || who === "either" ? who : "either";
-    const isNoise = reason && !textIn(cells, header.names.indexOf("message")) && reason !== reasons.unknown;
+    const isNoise = reason && !textIn(cells, header.names.indexOf("message"));
     const time = textIn(cells, header.time), hex = textIn(cells, header.value);
     take(readHexOf(hex, start + cells[header.value][1]), {
       whole: true, direction: senders.get(known) ?? null, noise: isNoise ? reason : null,

@@ -22,12 +22,14 @@ function makeEncode({ kindOf, frameWith, slotsIn, layOut, due }, { checksumOf })
     const placed = layOut(frame), bytes = new Uint8Array(frame.size);
     for (const { path, slot, at } of placed) {
       const follows = due(slot, frame);
-      if (countsList(slot)) checked(slot.name, slot.role === "size" ? frame.count * kind.list.size : frame.count, slot);
+      const each = slot.role === "size" ? kind.list.size : 1;
+      if (countsList(slot)) checked(slot.name, frame.count * each, slot);
       if (follows.length) bytes.set(follows, at);
       else if (slot.role !== "checksum") bytes.set(written(path, slot, values.get(path)), at);
     }
     for (const { at, slot } of placed.filter((each) => each.slot.role === "checksum")) {
-      bytes.set(writeNumber(slot, checksumOf(kind.envelope, slot, kind.ids, frame.size, lookAt(bytes), 0)), at);
+      const value = checksumOf(kind.envelope, slot, kind.ids, frame.size, lookAt(bytes), 0);
+      bytes.set(writeNumber(slot, value), at);
     }
     return bytes;
   };

@@ -37,8 +37,8 @@ function digitsIn(word, at) {
   }
   const digits = word.replace(/0x|\\x/gi, (prefix) => "0".repeat(prefix.length));
   const wrong = /[^0-9a-f]/iu.exec(digits);
-  if (wrong === null) throw new Unusable(`“${word}” is no whole number of bytes`, { at, size: word.length });
-  const place = { at: at + wrong.index, size: wrong[0].length };
+  const place = wrong ? { at: at + wrong.index, size: wrong[0].length } : { at, size: word.length };
+  if (!wrong) throw new Unusable(`“${word}” is no whole number of bytes`, place);
   throw new Unusable(`“${wrong[0]}” in “${word}” is no hex digit`, place);
 }
 

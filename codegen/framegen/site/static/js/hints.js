@@ -43,7 +43,8 @@ function makeHints(layout, { judge, checksumsOf, sealed }, nearby, { largest }, 
   // The envelopes that frames of these directions have.
   function envelopesOf(ways) {
     const keys = ways.map(({ key }) => key);
-    return [...new Set(kinds.filter(({ direction }) => keys.includes(direction)).map((kind) => kind.envelope))];
+    const carried = kinds.filter(({ direction }) => keys.includes(direction));
+    return [...new Set(carried.map(({ envelope }) => envelope))];
   }
 
   // What an unknown id means elsewhere, or why it is reserved.

@@ -15,7 +15,10 @@ const fixed = (slot) => (slot.role === "constant" ? slot.bytes : []);
 // slots of an element that have a value.
 function prepared(slot) {
   const made = { ...slot, beyond: slot.beyond || [] };
-  if (made.wide) Object.assign(made, { low: BigInt(made.low), high: BigInt(made.high) });
+  if (made.wide) {
+    const names = Object.entries(made.names).map(([name, value]) => [name, BigInt(value)]);
+    Object.assign(made, { low: BigInt(made.low), high: BigInt(made.high), names: Object.fromEntries(names) });
+  }
   if (made.slots) {
     made.slots = made.slots.map(prepared);
     made.fields = made.slots.filter((each) => !("bytes" in each));

@@ -8,6 +8,7 @@ const LINE_SKIPPED = /^\s*(?:#|\$ |\^C$|hint: |[0-9]+ bytes?: )/;
 const LINE_FORMS = [
   {
     name: "lines of a recording",
+    isReceived: true,
     pattern: /^(?<hex>[^#]*)#+ *(?<at>[0-9]{1,9}(?:\.[0-9]{1,9})?) s, (?<who>[^:]*): ?(?<what>.*)$/,
   },
   {
@@ -45,7 +46,7 @@ function lineFormOf(lines) {
 
 // A reader of whole lines. `senders` are directions by the name of who sends them, and `reasons`
 // those that noise has. It hands `take` the bytes of a line with what the line says of them.
-function makeLineReader(form, { senders, reasons }) {
+function makeLineReader(form, { senders, reasons, received }) {
   function read(text, take) {
     for (const [line, start] of linesOf(text)) {
       const found = form.pattern.exec(line);
@@ -85,7 +86,9 @@ function makeLineReader(form, { senders, reasons }) {
       throw new Unreadable(sender, start + line.indexOf(sender), "is none of those who send", `write one of ${known}`);
     }
     const why = Object.values(reasons).find((reason) => what === reason || what.startsWith(`${reason}:`));
-    return { direction: senders.get(sender) ?? null, noise: isNoise ? why || reasons.header : null };
+    // A recording names no sender where noise came to the end that recorded.
+    const unnamed = form.isReceived && !sender ? received : null;
+    return { direction: senders.get(sender) ?? unnamed, noise: isNoise ? why || "" : null };
   }
 
   return { read };

@@ -118,7 +118,8 @@ function makeRefusals(layout, { checksumsOf, isField }, nearby) {
   function named({ envelope, bytes, way }) {
     const parts = sentIds(envelope);
     if (!parts.every((part) => isIn(part, bytes))) return [];
-    return sent(way, envelope).filter((kind) => parts.every((part, i) => kind.ids[i] === readIn(part, bytes)));
+    const ids = parts.map((part) => readIn(part, bytes));
+    return sent(way, envelope).filter((kind) => ids.every((id, i) => kind.ids[i] === id));
   }
 
   return { expected, largest };

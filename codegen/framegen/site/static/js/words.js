@@ -41,8 +41,8 @@ function decimalInWords({ negative, digits, power }) {
 // A value in its larger unit, exactly: 7500 steps of 0.001 V are 7.500 V.
 function scaled(value, { step, unit, offset }, isFloat = false) {
   if (typeof value === "number" && !Number.isFinite(value)) {
-    const found = Number.isNaN(value) ? "NaN" : (value < 0) === step.startsWith("-") ? "Infinity" : "-Infinity";
-    return `${found} ${unit}`.trimEnd();
+    const sign = (value < 0) === step.startsWith("-") ? "" : "-";
+    return `${Number.isNaN(value) ? "NaN" : `${sign}Infinity`} ${unit}`.trimEnd();
   }
   const one = decimal(numberInWords(value, isFloat)), other = decimal(step);
   const product = { negative: one.negative !== other.negative, digits: one.digits * other.digits,

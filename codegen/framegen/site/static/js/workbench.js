@@ -7,7 +7,8 @@ const codec = makeCodec(protocol);
 window.workbench = (() => {
   const field = byId("hex"), direction = byId("direction"), status = byId("decoded");
   const problem = byId("problem"), bar = byId("progress"), source = byId("source");
-  const says = captureWords(protocol), exports = makeExport(codec, protocol);
+  const incoming = [...direction.options].filter(({ dataset }) => dataset.variant === "from");
+  const says = captureWords(protocol, incoming.length === 1 ? incoming[0].value : null), exports = makeExport(codec, protocol);
   // What is decoded: a file, a pasted text that is too long for the field, or what the field holds.
   let file = null, capture = null, seen = null, isLive = false, isReading = false, addressTimer = 0, drawn = 0;
 

@@ -5,10 +5,20 @@
 // noise are explained.
 const DETAIL_ENDS = 32, DETAIL_MORE = 4096, DETAIL_EXPLAINED = 2048;
 
+// Who sends, and who receives.
+function badgeOf({ key, sender, receiver }) {
+  const option = [...byId("direction").options].find(({ value }) => value === key);
+  return make("span", { class: `way ${option ? option.dataset.variant : ""}` }, sender, " ",
+    make("span", { "aria-hidden": "true" }, "→"), make("span", { class: "visually-hidden" }, "to"), " ", receiver);
+}
+
+// Text with the pieces in backticks as code.
+const withCode = (text) => text.split("`").map((piece, i) => (i % 2 ? make("code", {}, piece) : piece));
+
 // `take(event, frame)` puts a frame in the place of an event, and `edit(event)` shows it in the encoder.
 function makeDetail(element, { codec, take, edit }) {
   function show(event) {
-    const explained = stubExplain(codec)(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
+    const explained = codec.explain(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
     element.replaceChildren(heading(event), ...(event.kind ? readings(event, explained) : refused(event, explained)));
     element.hidden = false;
   }
@@ -29,11 +39,9 @@ function makeDetail(element, { codec, take, edit }) {
 
   function readings(event, explained) {
     const shown = explained.readings.map((reading) => {
-      const kind = codec.kinds.find((each) => each.name === reading.message);
-      const link = make("a", { href: `${kind.page}.html` }, reading.message);
-      const rest = explained.readings.length > 1 ? make("h4", {}, link, ` ${reading.direction}`)
-        : make("p", { class: "way-of" }, link, ` ${reading.direction}`);
-      return make("section", {}, rest, make("p", {}, reading.summary), strip(reading.rows, event.at),
+      const link = make("a", { href: `${reading.kind.page}.html` }, reading.message);
+      const name = make(explained.readings.length > 1 ? "h4" : "p", {}, link, " ", badgeOf(reading.way));
+      return make("section", {}, name, make("p", {}, reading.summary), strip(reading.rows, event.at),
         facts(reading.facts));
     });
     const many = explained.readings.length > 1
@@ -63,25 +71,25 @@ function makeDetail(element, { codec, take, edit }) {
       bytesOf(event, at),
       isPart ? make("p", { class: "quiet small" }, `Its first ${counted(DETAIL_EXPLAINED, "byte")} are explained.`) : null,
       whole.length ? make("p", {}, `It was recorded as noise, though by itself it would be ${whole.map(({ message }) => message).join(" or ")}.`) : null,
-      reasons(refusals),
+      reasons(event, refusals),
       refusals.length && refusals[0].rows.length
         ? make("div", {}, make("p", { class: "small quiet" }, "Right up to there:"), strip(refusals[0].rows, event.at)) : null,
       ...hints.map((hint) => hinted(event, hint)),
     ].filter(Boolean);
   }
 
-  function reasons(refusals) {
+  function reasons(event, refusals) {
     const said = refusals.map(({ reason, expected }) => `${reason}: ${expected}`);
     const isSame = said.length > 1 && new Set(said).size === 1;
     const lines = isSame ? [["In every direction", said[0], refusals[0].offset]]
-      : refusals.map(({ direction, offset }, i) => [direction, said[i], offset]);
+      : refusals.map(({ way, offset }, i) => [badgeOf(way), said[i], offset]);
     return make("dl", { class: "reasons" }, ...lines.flatMap(([way, text, offset]) => [
-      make("dt", {}, way), make("dd", {}, `${text} (byte ${offset} of these)`)]));
+      make("dt", {}, way), make("dd", {}, `${text} (byte ${event.at + offset})`)]));
   }
 
   function hinted(event, { text, frame }) {
     const hex = frame && frame.length ? toHex(frame) : "";
-    return make("div", { class: "note" }, make("p", {}, text[0].toUpperCase() + text.slice(1)),
+    return make("div", { class: "note" }, make("p", {}, ...withCode(text[0].toUpperCase() + text.slice(1))),
       hex ? make("p", {}, make("code", { class: "bytes" }, hex)) : null,
       hex ? make("div", { class: "actions" },
         button("Take this frame", () => take(event, frame), { class: "take" }),

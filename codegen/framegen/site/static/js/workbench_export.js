@@ -52,7 +52,7 @@ function makeExport(codec, protocol) {
   function asRecording(event) {
     const who = originOf(event), time = (event.time ?? 0).toFixed(6);
     const what = event.kind ? `${who}: ${event.names.join(" or ")}`
-      : `${event.type === "unknown" ? who : who === "either" ? "noise" : `${who} noise`}: ${event.reason}`;
+      : `${event.type === "unknown" ? who : `${who} noise`}: ${event.reason}`;
     return `${toHex(event.bytes)}  # ${time} s, ${what}`;
   }
 

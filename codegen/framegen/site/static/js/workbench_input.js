@@ -2,7 +2,7 @@
 "use strict";
 
 // So many milliseconds are worked at once; as much of a file, or of bytes, is looked at in one go.
-const INPUT_SLICE = 12, INPUT_FILE = 1 << 20, INPUT_BYTES = 16384, INPUT_TEXT = 32768;
+const INPUT_SLICE = 12, INPUT_FILE = 1 << 18, INPUT_BYTES = 4096, INPUT_TEXT = 32768;
 // Up to so many characters of a text are decoded before anything else happens.
 const INPUT_SHORT = 20000;
 
@@ -25,6 +25,24 @@ function encodingOf(bytes) {
     return "utf-8";
   } catch {
     return null;
+  }
+}
+
+// The pieces of a file with their places. All of them come in the same room, so that nothing is left
+// behind of a long one.
+async function* piecesOf(file) {
+  const reader = file.stream().getReader({ mode: "byob" });
+  let room = new ArrayBuffer(INPUT_FILE);
+  try {
+    for (let at = 0; at < file.size;) {
+      const { value, done } = await reader.read(new Uint8Array(room));
+      if (done || !value.length) return;
+      yield [at, value];
+      at += value.length;
+      room = value.buffer;
+    }
+  } finally {
+    reader.cancel();
   }
 }
 
@@ -74,8 +92,7 @@ function makeInput({ says, progress }) {
     const encoding = isRaw ? null : encodingOf(new Uint8Array(await file.slice(0, 4096).arrayBuffer()));
     const text = encoding ? new TextDecoder(encoding) : null;
     const reader = text ? makeTextReader(says, capture.add) : null;
-    for (let at = 0; at < file.size; at += INPUT_FILE) {
-      const bytes = new Uint8Array(await file.slice(at, at + INPUT_FILE).arrayBuffer());
+    for await (const [at, bytes] of piecesOf(file)) {
       const piece = text ? text.decode(bytes, { stream: true }) : bytes;
       const step = text ? INPUT_TEXT : INPUT_BYTES;
       for (let from = 0; from < piece.length; from += step) {

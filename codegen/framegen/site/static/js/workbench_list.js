@@ -33,7 +33,7 @@ function makeEventList({ codec, protocol, detail }) {
     if (!kind) return type;
     if (direction === null || names.length > 1) return "either";
     const way = protocol.directions.find(({ key }) => key === direction);
-    return `${variantOf({ kind, names, direction }) === "to" ? "→" : "←"} ${way.sender}`;
+    return variantOf({ kind, names, direction }) === "to" ? `${way.sender} →` : `← ${way.sender}`;
   }
 
   function variantOf({ kind, direction, names }) {
@@ -72,6 +72,7 @@ function makeEventList({ codec, protocol, detail }) {
     if (found) scan();
     const count = found ? found.size : capture.size;
     box.hidden = byId("finding").hidden = !capture.size;
+    box.classList.toggle("timed", capture.seen.isTimed);
     list.update(count, { grew });
     showTally();
   }

@@ -1,0 +1,68 @@
+// The list of what the line says: the newest at the end, and no more than so many rows.
+"use strict";
+
+const LOG_ROWS = 300;
+// So many bytes of an entry are shown; the recording has all of them.
+const LOG_BYTES = 48;
+
+// `element` scrolls, and holds a list. `draw` is called when the page has time to draw, once for many rows.
+function makeLineLog(element, draw = requestAnimationFrame) {
+  const list = element.querySelector("ol");
+  // The rows to be drawn, and whether that is under way.
+  let rows = [], fresh = 0, isDue = false, isHeld = false;
+
+  function span(name, text) {
+    const made = document.createElement("span");
+    made.className = name;
+    made.textContent = text;
+    return made;
+  }
+
+  function item(row) {
+    const made = document.createElement("li");
+    if (row.comment !== undefined) {
+      made.className = "comment";
+      made.textContent = row.comment;
+      return made;
+    }
+    made.className = [row.isSent ? "sent" : "", row.isNoise ? "noise" : ""].join(" ").trim();
+    const rest = row.bytes.length - LOG_BYTES;
+    const hex = hexOf(row.bytes.slice(0, LOG_BYTES)) + (rest > 0 ? ` … and ${rest} more` : "");
+    made.append(span("time", `${row.time.toFixed(3)} s`), span("way-of", row.way), span("says", row.says),
+      span("bytes", hex));
+    return made;
+  }
+
+  function redraw() {
+    isDue = false;
+    if (isHeld || !fresh) return;
+    const isAtEnd = element.scrollHeight - element.scrollTop - element.clientHeight < 40;
+    list.append(...rows.slice(rows.length - Math.min(fresh, rows.length)).map(item));
+    fresh = 0;
+    while (list.childElementCount > LOG_ROWS) list.firstElementChild.remove();
+    if (isAtEnd) element.scrollTop = element.scrollHeight;
+  }
+
+  function soon() {
+    if (!isDue) draw(redraw);
+    isDue = true;
+  }
+
+  return {
+    // A row is {time, way, says, bytes, isSent, isNoise}, or a {comment}.
+    add(row) {
+      rows.push(row);
+      fresh += 1;
+      if (rows.length >= 2 * LOG_ROWS) rows = rows.slice(-LOG_ROWS);
+      soon();
+    },
+    clear() {
+      [rows, fresh] = [[], 0];
+      list.replaceChildren();
+    },
+    hold(held) {
+      isHeld = held;
+      soon();
+    },
+  };
+}

@@ -1,0 +1,61 @@
+"""A snippet that sends or receives a message with a client, from the first line to the last."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from framegen.targets.python.client_view import ClientView
+from framegen.targets.python.escape import Bracketed
+from framegen.targets.python.exports import import_order
+
+if TYPE_CHECKING:
+    from framegen.model.layout import MessageLayout
+    from framegen.model.model import Model
+    from framegen.targets.python.method_view import MethodView
+
+_OPEN = 'with open_controller("COM5") as controller:  # or "/dev/ttyUSB0"'
+
+
+def client_snippet(library: Model, message: MessageLayout) -> str:
+    """Write a program for a message under the names of the library; empty where no client has it.
+
+    What is sent is called. Of what is received, a reply is what a method returns, a refusal what it
+    raises, and a report what one waits for.
+    """
+    methods = ClientView(library).methods
+    if message.direction == library.roles.sent:
+        (method,) = (each for each in methods if each.request == message.name)
+        return _program(library, [], [_call(method)])
+    if message.direction != library.roles.received:
+        return ""
+    for method in methods:
+        if method.exchange.reply is message:
+            return _program(library, [], [_call(method)])
+        if method.exchange.refusal is message:
+            lines = ["try:", f"    {_call(method, 8)}", "except RefusedError as error:"]
+            return _program(library, ["RefusedError"], [*lines, "    print(error.refusal)"])
+    causes = [each for each in methods if message.name in each.exchange.reports]
+    return _program(
+        library,
+        [message.name],
+        [
+            *(_call(method) for method in causes[:1]),
+            "# Or controller.on_report(print): every report, as it comes.",
+            f"print(controller.wait_for({message.name}, timeout=30))",
+        ],
+    )
+
+
+def _call(method: MethodView, indent: int = 4) -> str:
+    """Return the call of a method, which is printed where it returns what came back."""
+    before = f"controller.{method.name}("
+    if method.exchange.reply is None:
+        return method.example_call(before).fitted(indent)
+    call = method.example_call(f"print({before}")
+    return Bracketed(call.before, call.items, f"{call.after})").fitted(indent)
+
+
+def _program(library: Model, names: list[str], lines: list[str]) -> str:
+    imported = ", ".join(sorted([*names, "open_controller"], key=import_order))
+    body = "".join(f"    {line}\n" for line in lines)
+    return f"from {library.spec.protocol.name} import {imported}\n\n{_OPEN}\n{body}"

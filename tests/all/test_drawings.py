@@ -1,0 +1,64 @@
+"""The drawings of the guides in a real browser: shown from the disk, and readable."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.cli import main
+
+from tests.docs.browser import Visit, launched, needs_chromium
+from tests.docs.test_drawings import DRAWINGS, drawings
+from tests.documents import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+pytestmark = needs_chromium
+
+# Of each text, what lies outside of the paper.
+OUTSIDE = """() => [...document.querySelectorAll("text")].filter((text) => {
+    const box = text.getBBox(), paper = document.querySelector(".paper").getBBox();
+    return box.x < paper.x || box.x + box.width > paper.x + paper.width - 4 ||
+        box.y < paper.y || box.y + box.height > paper.y + paper.height;
+}).map((text) => text.textContent)"""
+# Of each picture, its name, whether it was loaded, and whether it fits.
+PICTURES = """() => [...document.images].map((image) => [
+    image.src.split("/").pop(),
+    image.naturalWidth > 0 && image.getBoundingClientRect().right <= innerWidth,
+])"""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with launched() as running:
+        yield running
+
+
+@drawings
+def test_no_words_leave_the_paper(browser: Browser, drawing: Path) -> None:
+    tab = browser.new_page()
+    tab.goto(drawing.as_uri())
+    assert tab.evaluate(OUTSIDE) == []
+    tab.close()
+
+
+@pytest.mark.parametrize("width", [380, 1440])
+def test_the_policy_of_a_page_lets_its_drawings_show(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, width: int
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert main(["docs", "--out", str(tmp_path / "site")]) == 0
+    context = browser.new_context(viewport={"width": width, "height": 900})
+    visit = Visit(context, tmp_path / "site")
+    tab = visit.open("getting-started.html")
+    assert tab.evaluate(PICTURES) == [[f"wiring-{each}.svg", True] for each in ORDER]
+    assert sorted(ORDER) == [drawing.stem.removeprefix("wiring-") for drawing in DRAWINGS]
+    assert visit.troubles == []
+    context.close()
+
+
+ORDER = ["adapter", "header", "hid", "servos"]
