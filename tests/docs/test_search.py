@@ -82,8 +82,8 @@ SEARCHES: dict[str, set[str]] = {
     # The words of users, which no page of the reference has.
     "limp": {"ServoUnload"},
     "torque off": {"ServoUnload"},
-    "beep": {"Troubleshooting"},
-    "LED2": {"Troubleshooting"},
+    "beep": {"What the board shows", "Troubleshooting"},
+    "LED2": {"What the board shows", "Troubleshooting"},
     "permission denied": {"Troubleshooting"},
     "echo": {"Servos without the controller"},
     "baud rate": {"Hiwonder bus servo controller"},
@@ -368,6 +368,7 @@ def test_words_of_users_lead_to_the_first_entry_at_an_address() -> None:
     entries = index()["entries"]
     led = {word: each["path"] for each in entries for word in each.get("also", [])}
     assert led["limp"] == "reference/busservo/messages/ServoUnload.html"
+    assert led["beep"] == "troubleshooting.html"
     assert led["dialout"] == "troubleshooting.html"
     rows = re.findall(
         r"^\| (.+?) \|", (ROOT / "docs" / "words.md").read_text("utf-8"), re.MULTILINE
