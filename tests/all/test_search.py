@@ -269,6 +269,18 @@ def test_a_part_of_a_frame_is_marked_where_it_stands(visit: Visit) -> None:
     assert code.locator("mark").inner_text() == "03 01 E8"
 
 
+def test_numbers_and_words_of_hex_digits_are_words_first(visit: Visit) -> None:
+    tab = visit.open("search.html?q=9600")
+    assert "9600" in said(tab)
+    assert "Nothing comes back" in titles(tab)
+    box(tab).fill("dead beef")
+    assert said(tab).startswith("Nothing has all of these words.")
+    box(tab).fill("01e803")
+    assert said(tab).endswith("found for 3 bytes.")
+    box(tab).fill("55550207")
+    assert titles(tab)[:2] == ["ActionGroupStop", "ActionGroupStopped"]
+
+
 def test_half_a_byte_and_wrong_digits_are_told(visit: Visit) -> None:
     tab = visit.open("search.html?q=55 55 02 0")
     assert said(tab).endswith("The last digit, 0, is half a byte.")

@@ -159,6 +159,9 @@ def test_words_with_a_slip_are_corrected() -> None:
     for answer in found([*MISSPELLED.values()]):
         assert answer["titles"]
         assert answer["suggestions"] == []
+    # What is offered has hits, or else it is no help.
+    (far,) = found(["dead beef"])
+    assert far["suggestions"] == []
     # Two slips are another word, and short words are too like each other.
     assert [each["suggestions"] for each in found(["bttry", "qzx"])] == [[], []]
 

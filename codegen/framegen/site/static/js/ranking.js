@@ -156,7 +156,11 @@ function makeSearch(index) {
     };
     const wrong = sought.filter(({ found }) => !found.some(Boolean));
     let hits = rank(sought.length);
-    const suggestions = wrong.length ? corrected(query, wrong.map(({ word }) => word)) : [];
+    const better = wrong.length ? corrected(query, wrong.map(({ word }) => word)) : [];
+    const suggestions = better.filter((text) => {
+      const answer = find(text);
+      return answer.hits.length && !answer.loose;
+    });
     const loose = !hits.length && sought.length > 1 && !suggestions.length && wrong.length < sought.length;
     if (loose) {
       const had = (_, number) => sought.filter(({ found }) => found[number]).length;

@@ -59,7 +59,9 @@
     if (!read) return { ...said, bytes: null };
     const { judged, known, whole } = bytesSearch.find(read.bytes);
     // What may be a number or a word is taken for bytes if it is a frame, or nothing else.
-    if (!read.certain && !whole && said.hits.length) return { ...said, bytes: null };
+    const isWords = Object.keys(said.counts).length > 0 && !said.loose;
+    const isBytes = read.certain || whole || (!isWords && judged.length + known.length > 0);
+    if (!isBytes) return { ...said, bytes: null };
     const framed = [...judged, ...known].filter((entry) => !protocol || entry.protocol === protocol);
     const hits = framed.filter(mayTake).map((entry) => ({ entry }));
     const counts = { frame: framed.length };
