@@ -274,7 +274,7 @@ def test_numbers_and_words_of_hex_digits_are_words_first(visit: Visit) -> None:
     assert "9600" in said(tab)
     assert "Nothing comes back" in titles(tab)
     box(tab).fill("dead beef")
-    assert said(tab).startswith("Nothing has all of these words.")
+    assert said(tab).startswith("Nothing found for “dead beef”.")
     box(tab).fill("01e803")
     assert said(tab).endswith("found for 3 bytes.")
     box(tab).fill("55550207")

@@ -160,8 +160,12 @@ def test_words_with_a_slip_are_corrected() -> None:
         assert answer["titles"]
         assert answer["suggestions"] == []
     # What is offered has hits, or else it is no help.
-    (far,) = found(["dead beef"])
-    assert far["suggestions"] == []
+    pairs = [f"batery {word}" for word in ("limp", "baud", "unlimited", "modbus")]
+    offered = [text for answer in found(pairs) for text in answer["suggestions"]]
+    assert len(offered) < len(pairs)
+    for answer in found(offered):
+        assert answer["titles"]
+        assert not answer["loose"]
     # Two slips are another word, and short words are too like each other.
     assert [each["suggestions"] for each in found(["bttry", "qzx"])] == [[], []]
 
