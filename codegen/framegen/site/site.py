@@ -10,6 +10,7 @@ from urllib.parse import quote
 
 from framegen import __version__
 from framegen.output import banner
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.downloads import size_in_words
 from framegen.site.escape import anchor, linked, said, script_json
 from framegen.site.guide import Guide, page_of
@@ -223,7 +224,9 @@ class Site:
 
     def _search_page(self) -> Page:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
-        scripts = (("checksums", "codec"), ("ranking", "bytes_found"), ("search",))
+        models = [each.reference.model for each in self.references]
+        codec = max(map(codec_scripts, models), key=len, default=("hex",))
+        scripts = (codec, ("ranking", "bytes_found"), ("search",))
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
