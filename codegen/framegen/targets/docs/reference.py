@@ -325,7 +325,7 @@ class ReferenceView:
                 "decoder",
                 "Workbench",
                 "Workbench",
-                f"Decode captures of the {title}, and make frames of values. Nothing leaves the page.",
+                f"Decode captures of the {title}, and encode frames. Nothing leaves the page.",
                 in_markdown=False,
             ),
             PageView(

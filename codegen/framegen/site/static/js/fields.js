@@ -87,6 +87,7 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
   // A list: its items in order, each with a way to take it out, and a way to add one.
   function listOf(list) {
     const { low, high } = list.count === undefined ? kind.counts : { low: list.count, high: list.count };
+    const itemsOf = (number) => `${number} item${number === 1 ? "" : "s"}`;
     const rows = make("ol", { class: "items" });
     const problem = make("p", { class: "error", id: `field-${++fieldCount}-error` });
     const add = button("Add an item", () => {
@@ -95,12 +96,11 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       changed();
     });
     const legend = make("legend", {}, list.name, " ",
-      make("span", { class: "hint" }, low === high ? counted(low) : `${low}..${high} items`));
+      make("span", { class: "hint" }, low === high ? itemsOf(low) : `${low}..${high} items`));
     const fieldset = make("fieldset", { "aria-describedby": problem.id }, legend, rows,
       low === high ? null : make("div", { class: "actions" }, add), problem);
     let items = [];
 
-    const counted = (number) => `${number} item${number === 1 ? "" : "s"}`;
     const blank = () => Object.fromEntries(list.fields.map((field) => [field.name, field.low ?? 0]));
     const asObject = (item) => (list.element === null ? { [list.fields[0].name]: item } : item);
     const asItem = (values) => (list.element === null ? values[list.fields[0].name] : values);
