@@ -110,6 +110,8 @@ class ReferenceView:
 
     compiled: Compiled
     snippets: Snippets
+    # Where the spec lies, from the root of the reference in Markdown; "" where the project has it.
+    spec_file: str = ""
 
     @property
     def model(self) -> Model:
@@ -134,6 +136,8 @@ class ReferenceView:
     @property
     def spec_link(self) -> str:
         """The path from the root of the reference to the spec; empty where it lies elsewhere."""
+        if self.spec_file:
+            return self.spec_file
         return f"{_TO_ROOT}{self.spec}" if self.spec.startswith("spec/") else ""
 
     @property
@@ -145,6 +149,12 @@ class ReferenceView:
     def notes(self) -> list[NoteView]:
         """What other sources know of the protocol."""
         return note_views(self.model.spec, self.protocol.notes)
+
+    @property
+    def shows(self) -> bool:
+        """Whether it is known what the device shows of what it receives."""
+        spec = self.model.spec
+        return bool(spec.endpoints[self.model.roles.sent.receiver].notes)
 
     @property
     def endpoints(self) -> list[EndpointView]:
@@ -304,7 +314,7 @@ class ReferenceView:
     @property
     def releases(self) -> list[Release]:
         """The history, the latest version first."""
-        return self.model.spec.history[::-1]
+        return self.model.spec.history
 
     @cached_property
     def pages(self) -> list[PageView]:
@@ -325,7 +335,7 @@ class ReferenceView:
                 "decoder",
                 "Workbench",
                 "Workbench",
-                f"Decode captures of the {title}, and encode frames. Nothing leaves the page.",
+                f"Decode captures of the {title}, and make frames. Nothing leaves the page.",
                 in_markdown=False,
             ),
             PageView(
@@ -367,9 +377,17 @@ class ReferenceView:
             PageView(
                 "changelog",
                 "changelog",
-                "Changelog",
-                "Changelog",
-                f"What changed from version to version of the {title}.",
+                "Versions and changes",
+                "Versions",
+                f"What changed from version to version of the {title}, and what that breaks.",
+            ),
+            PageView(
+                "downloads",
+                "downloads",
+                "Downloads",
+                "Downloads",
+                f"The spec, the test vectors and the pages of the {title} as files.",
+                in_markdown=False,
             ),
             PageView(
                 "spec",
