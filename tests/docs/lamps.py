@@ -77,10 +77,15 @@ def greenhouse() -> Compiled:
 @cache
 def lamps(base: str = "", preview: bool = False) -> dict[str, Page]:
     """Return a small site of guides and one reference, a page by its path."""
-    files = {"images/preview.png": b""} if preview else {}
-    project = Project([greenhouse()], GUIDES, files, base, "4.5.6")
-    made = render_site(project, snippets())
+    made = rendered_lamps(base, preview)
     return {path: Page(path, text) for path, text in made.items() if path.endswith(".html")}
+
+
+@cache
+def rendered_lamps(base: str = "", preview: bool = False) -> dict[str, str]:
+    """Return all files of that site by path."""
+    files = {"images/preview.png": b""} if preview else {}
+    return render_site(Project([greenhouse()], GUIDES, files, base, "4.5.6"), snippets())
 
 
 def metas(page: Page) -> dict[str, str]:

@@ -19,6 +19,8 @@ from framegen.site.site import render_site
 from framegen.targets import docs
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Mapping
+
     from framegen.model.model import Model
 
 ROOT = Path(__file__).parent.parent.parent
@@ -155,8 +157,32 @@ class Reference:
     @cached_property
     def site(self) -> dict[str, Page]:
         """Each page of the site that has this reference alone, by path below its root."""
-        rendered = render_site(Project([self.compiled]), snippets())
-        return {path: Page(path, text) for path, text in rendered.items() if isinstance(text, str)}
+        return pages_of(self.rendered)
+
+    @cached_property
+    def rendered(self) -> dict[str, str]:
+        """Each file of that site, by path below its root."""
+        return render_site(Project([self.compiled]), snippets())
+
+
+def pages_of(rendered: Mapping[str, str]) -> dict[str, Page]:
+    """Return the pages among the files of a site, by path below its root."""
+    return {path: Page(path, text) for path, text in rendered.items() if path.endswith(".html")}
+
+
+def broken_links(
+    pages: Mapping[str, Page], files: Collection[str], of: Iterable[Page] | None = None
+) -> list[tuple[str, str]]:
+    """Return the links of pages, or of all, that lead to no page, file or anchor of a site."""
+    found: list[tuple[str, str]] = []
+    for page in pages.values() if of is None else of:
+        for link in page.links:
+            where, anchor = page.leads_to(link)
+            is_there = where in pages or (where in files and not anchor)
+            known = pages[where].ids if anchor and where in pages else [anchor]
+            if "://" not in link and not (is_there and anchor in known):
+                found.append((page.path, link))
+    return found
 
 
 def reference_of(source: Source) -> Reference:

@@ -8,7 +8,8 @@ import pytest
 from framegen.site.guide import Guide, page_of
 from framegen.site.project import read_project
 
-from tests.docs.lamps import lamps, links
+from tests.docs.lamps import lamps, links, rendered_lamps
+from tests.docs.reference import broken_links
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,11 +36,7 @@ def test_links_of_a_guide_lead_to_pages_or_are_text() -> None:
 @pytest.mark.parametrize("path", sorted(lamps()))
 def test_no_link_is_dead(path: str) -> None:
     site = lamps()
-    page = site[path]
-    for link in page.links:
-        where, anchor = page.leads_to(link)
-        assert "://" in link or where in site, link
-        assert "://" in link or not anchor or anchor in site[where].ids, link
+    assert broken_links(site, rendered_lamps(), [site[path]]) == []
 
 
 @pytest.mark.parametrize(
@@ -72,8 +69,14 @@ def test_files_outside_the_guides_are_pages_where_the_plan_lists_them(tmp_path: 
     for file in ("../A.md", "../../B.md", "../D.txt", "../E.md"):
         (docs / file).write_text("# X\n", encoding="utf-8")
     (docs / "images" / "a.png").write_bytes(b"\x89")
-    assert read_project([], docs).guides.keys() == {"README.md", "../A.md"}
-    assert read_project([], docs).files == {"images/a.png": b"\x89"}
-    assert read_project([], docs).version == ""
+    assert read_project({}, docs).guides.keys() == {"README.md", "../A.md"}
+    assert read_project({}, docs).files == {"images/a.png": b"\x89", "files/D.txt": b"# X\n"}
+    assert read_project({}, docs).version == ""
     (docs / "../pyproject.toml").write_text('[project]\nversion = "1.2.3"\n', encoding="utf-8")
-    assert read_project([], docs).version == "1.2.3"
+    assert read_project({}, docs).version == "1.2.3"
+
+
+def test_cells_are_aligned_by_classes() -> None:
+    body = Guide("a.md", "| a | b | c |\n|---|--:|:-:|\n| 1 | 2 | 3 |\n").body
+    assert "style" not in body
+    assert '<td>1</td>\n<td class="right">2</td>\n<td class="center">3</td>' in body

@@ -21,6 +21,7 @@ from tests.docs.reference import (
     SPECS,
     Page,
     Reference,
+    broken_links,
     reference,
     reference_of,
     respelled,
@@ -45,11 +46,9 @@ def test_ids_are_unique(name: str, path: str) -> None:
 
 @pytest.mark.parametrize(("name", "path"), EVERY)
 def test_every_link_leads_somewhere(name: str, path: str) -> None:
-    page, pages = reference(name).pages[path], reference(name).site
-    for link in page.links:
-        where, anchor = page.leads_to(link)
-        assert where in pages, link
-        assert not anchor or anchor in pages[where].ids, link
+    site = reference(name)
+    found = broken_links(site.site, site.rendered, [site.pages[path]])
+    assert found == []
 
 
 @pytest.mark.parametrize(("name", "path"), EVERY)
@@ -126,7 +125,7 @@ def test_protocols_of_one_project_are_in_one_site() -> None:
     sites = [reference(name) for name in SPECS]
     together = render_site(Project([site.compiled for site in sites]), snippets())
     home = Page("index.html", together["index.html"])
-    assert set(together) == {path for site in sites for path in site.site}
+    assert set(together) == {path for site in sites for path in site.rendered}
     main = home.text.partition("<main")[2]
     for site in sites:
         assert f'href="{site.folder}index.html"' in main

@@ -23,8 +23,8 @@ needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
 @cache
 def project() -> Project:
-    specs = [compiled_file(ROOT / "spec" / f"{name}.yaml") for name in ("busservo", "lxservo")]
-    return read_project(specs, ROOT / "docs")
+    files = [ROOT / "spec" / f"{name}.yaml" for name in ("busservo", "lxservo")]
+    return read_project({file: compiled_file(file) for file in files}, ROOT / "docs")
 
 
 @cache

@@ -41,7 +41,7 @@ def run(arguments: Namespace) -> int:
     from tempfile import mkdtemp  # noqa: PLC0415
     from webbrowser import open as open_in_browser  # noqa: PLC0415
 
-    from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
+    from framegen.commands.spec_argument import compiled, print_findings, spec_file  # noqa: PLC0415
     from framegen.output import Output  # noqa: PLC0415
     from framegen.project import all_specs, guides_folder  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
@@ -51,9 +51,9 @@ def run(arguments: Namespace) -> int:
     from framegen.writing import write  # noqa: PLC0415
 
     base = base_address(arguments.base)
-    files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
-    specs = [compiled(file) for file in files]
-    if print_findings(specs):
+    files = [spec_file(arguments.spec)] if arguments.spec else all_specs()
+    specs = {file: compiled(file) for file in files}
+    if print_findings([*specs.values()]):
         return 1
     folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     docs = None if arguments.spec else guides_folder(files[0])

@@ -18,16 +18,17 @@ if TYPE_CHECKING:
     from framegen.compile import Compiled
 
 
+def spec_file(word: Path) -> Path:
+    """Return the file that is meant: by its path, or by the name of a spec of the project."""
+    return word if word.exists() else named_spec(str(word)) or word
+
+
 def compiled(file: Path | None) -> Compiled:
     """Compile `file`, the named spec of the project, or the only spec.
 
     Raises Unusable, with the place in the text, where it is no spec at all.
     """
-    if file is None:
-        file = default_spec()
-    elif not file.exists():
-        file = named_spec(str(file)) or file
-    source = read_source(file)
+    source = read_source(default_spec() if file is None else spec_file(file))
     try:
         return compile_spec(source)
     except Unusable as error:

@@ -24,6 +24,18 @@ def linked(text: str, addresses: Mapping[str, str], root: str) -> Markup:
     return result
 
 
+def said(text: str, addresses: Mapping[str, str], root: str) -> Markup:
+    """Return a sentence of a report as HTML: what stands between two backticks is code."""
+    parts = text.replace(" -> ", " → ").split("`")
+    if not len(parts) % 2:
+        return linked(text, addresses, root)
+    result = Markup()
+    for at, part in enumerate(parts):
+        inner = linked(part, addresses, root)
+        result += Markup("<code>{}</code>").format(inner) if at % 2 else inner
+    return result
+
+
 def anchor(text: str) -> str:
     """Return `text` as part of an anchor: what is no letter, digit or dot becomes a dash."""
     return re.sub(r"[^\w.]+", "-", text)

@@ -34,26 +34,33 @@ class Section:
     code: list[str] = field(default_factory=list)
 
 
-def mentions(guides: Iterable[Guide], message: MessagePage, page: str) -> Iterator[Mention]:
-    """Yield the guides that speak of a message, whose page has this path.
+class Mentions:
+    """Where guides speak of messages; each guide is gone through once."""
 
-    Its name, and that of the client's method, count in code alone, and only in a guide that names
-    the library: elsewhere they may be words like any other.
-    """
-    used = [rf"(?<![\w.]){re.escape(message.name)}\b"]
-    if message.method:
-        used.append(rf"\.{re.escape(message.method.partition('(')[0])}\(")
-    library = re.compile(rf"\b{re.escape(message.model.spec.protocol.name)}\b")
-    for guide in guides:
-        named = re.compile("|".join(used)) if library.search(guide.text) else None
-        found = [
-            section
-            for section in _sections(guide)
-            if any(link.partition("#")[0].endswith(page) for link in section.links)
-            or (named is not None and any(map(named.search, section.code)))
-        ]
-        if found:
-            yield Mention(guide.title, guide.page, [each for each in found if each.anchor])
+    def __init__(self, guides: Iterable[Guide]) -> None:
+        """Take the guides of a site."""
+        self._guides = [(guide, [*_sections(guide)]) for guide in guides]
+
+    def of(self, message: MessagePage, page: str) -> Iterator[Mention]:
+        """Yield the guides that speak of a message, whose page has this path.
+
+        Its name, and that of the client's method, count in code alone, and only in a guide that
+        names the library: elsewhere they may be words like any other.
+        """
+        used = [rf"(?<![\w.]){re.escape(message.name)}\b"]
+        if message.method:
+            used.append(rf"\.{re.escape(message.method.partition('(')[0])}\(")
+        library = re.compile(rf"\b{re.escape(message.model.spec.protocol.name)}\b")
+        for guide, sections in self._guides:
+            named = re.compile("|".join(used)) if library.search(guide.text) else None
+            found = [
+                section
+                for section in sections
+                if any(link.partition("#")[0].endswith(page) for link in section.links)
+                or (named is not None and any(map(named.search, section.code)))
+            ]
+            if found:
+                yield Mention(guide.title, guide.page, [each for each in found if each.anchor])
 
 
 def _sections(guide: Guide) -> Iterator[Section]:

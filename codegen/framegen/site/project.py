@@ -6,12 +6,17 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from framegen.console import visible
+from framegen.reading.yamltree import Unusable
+from framegen.site.linked_files import linked_files
 from framegen.site.plan import README, Plan
+from framegen.site.released import read_released
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
+    from framegen.comparison.edition import Edition
     from framegen.compile import Compiled
 
 _VERSION = re.compile(r'^version *= *"([^"]+)"', re.MULTILINE)
@@ -23,7 +28,7 @@ class Project:
 
     Paths are below the folder of the guides. `base` is the address where the site will be, for
     links that must be whole; "" where nobody knows it. `version` is that of the project, if it
-    has any.
+    has any. `released` are the released editions of each protocol, the newest first.
     """
 
     specs: Sequence[Compiled]
@@ -31,19 +36,29 @@ class Project:
     files: Mapping[str, bytes] = field(default_factory=dict)
     base: str = ""
     version: str = ""
+    released: Mapping[str, Sequence[Edition]] = field(default_factory=dict)
 
 
-def read_project(specs: Sequence[Compiled], docs: Path | None, base: str = "") -> Project:
-    """Read the guides below a folder, others that their README lists, and the pictures in them."""
+def read_project(
+    specs: Mapping[Path, Compiled], docs: Path | None = None, base: str = ""
+) -> Project:
+    """Read what was released of specs, by their files, and the guides below a folder.
+
+    With the guides come others that their README lists, the pictures in them, and the files that
+    they link to. Raises Unusable, with the name of the file.
+    """
+    names = {file: compiled.spec.protocol.name for file, compiled in specs.items()}
+    editions = {name: read_released(file, name) for file, name in names.items()}
     if docs is None:
-        return Project(specs, base=base)
-    guides = {file.name: file.read_text(encoding="utf-8") for file in sorted(docs.glob("*.md"))}
+        return Project([*specs.values()], base=base, released=editions)
+    guides = {file.name: _text(file) for file in sorted(docs.glob("*.md"))}
     guides |= _listed(docs, Plan(guides[README]))
     files = {
         file.relative_to(docs).as_posix(): file.read_bytes()
         for file in sorted((docs / "images").glob("*"))
     }
-    return Project(specs, guides, files, base, _version(docs.parent))
+    files |= linked_files(guides, docs)
+    return Project([*specs.values()], guides, files, base, _version(docs.parent), editions)
 
 
 def _listed(docs: Path, plan: Plan) -> Iterator[tuple[str, str]]:
@@ -54,7 +69,7 @@ def _listed(docs: Path, plan: Plan) -> Iterator[tuple[str, str]]:
             file = (docs / entry.link).resolve()
             outside = entry.link.startswith("../") and entry.link.endswith(".md")
             if outside and file.is_file() and file.is_relative_to(root):
-                yield entry.link, file.read_text(encoding="utf-8")
+                yield entry.link, _text(file)
 
 
 def _version(root: Path) -> str:
@@ -62,3 +77,15 @@ def _version(root: Path) -> str:
     file = root / "pyproject.toml"
     found = _VERSION.search(file.read_text(encoding="utf-8")) if file.is_file() else None
     return "" if found is None else found[1]
+
+
+def _text(file: Path) -> str:
+    try:
+        return file.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise Unusable(
+            f"{visible(file.as_posix())} is not UTF-8 text: byte {error.start}",
+            hint="save it as UTF-8",
+        ) from None
+    except OSError as error:
+        raise Unusable(f"{visible(file.as_posix())} cannot be read: {error.strerror}") from None

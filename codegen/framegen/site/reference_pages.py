@@ -6,16 +6,21 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.site.codec_scripts import codec_scripts
+from framegen.site.downloads import Downloads
 from framegen.site.escape import script_json
 from framegen.site.line_data import LINE_SCRIPT, line_data
 from framegen.site.page import Page
 from framegen.site.protocol_data import protocol_data
 from framegen.site.spec_listing import listing
+from framegen.site.what_changed import what_changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
-    from framegen.targets.docs.reference import PageView, ReferenceView
+    from framegen.comparison.edition import Edition
+    from framegen.site.project import Project
+    from framegen.site.shelf import Shelf
+    from framegen.targets.docs.reference import PageView
 
 # The files of the workbench, in the order in which they are joined.
 _WORKBENCH = (
@@ -42,16 +47,38 @@ _WORKBENCH = (
 )
 
 # Those of the page of a message.
-_LIVE = ("elements", "notation", "fields", "live")
+_LIVE = ("elements", "capture_place", "notation", "fields", "live")
 
 
 class ReferencePages:
-    """A reference below `folder`, which ends with a slash."""
+    """The reference of one edition, below `folder`, which ends with a slash."""
 
-    def __init__(self, reference: ReferenceView, folder: str) -> None:
-        """Take what is to be shown, and where."""
-        self.reference = reference
-        self.folder = folder
+    def __init__(
+        self,
+        shelf: Shelf,
+        edition: Edition,
+        project: Project,
+        rules: Callable[[], Mapping[str, str]],
+    ) -> None:
+        """Take what is to be shown, and what stands beside it."""
+        self.shelf = shelf
+        self.edition = edition
+        self.reference = shelf.views[edition]
+        self.folder = shelf.root(edition)
+        self.downloads = Downloads(self.reference, project.files)
+        self._rules = rules
+
+    @property
+    def full_title(self) -> str:
+        """The title of the protocol, and the version where that is not the newest."""
+        title = self.reference.protocol.title
+        is_newest = self.edition is self.shelf.versions.newest
+        return title if is_newest else f"{title} {self.edition.version}"
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The files that are no pages, by path below the root of the site."""
+        return {f"{self.folder}{path}": text for path, text in self.downloads.texts.items()}
 
     @cached_property
     def pages(self) -> list[Page]:
@@ -61,6 +88,7 @@ class ReferencePages:
     def _made(self) -> Iterator[Page]:
         reference = self.reference
         for view in (*reference.pages, *reference.message_pages):
+            notice = self.shelf.notice(self.edition, view)
             yield Page(
                 path=f"{self.folder}{view.html}",
                 template=view.template,
@@ -72,8 +100,10 @@ class ReferencePages:
                 context={
                     "reference": reference,
                     "message": view.message,
+                    "edition": notice,
                     **self._data(view),
                 },
+                canonical=notice.canonical,
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
@@ -91,5 +121,9 @@ class ReferencePages:
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}
+            case "changelog":
+                return {"versions": what_changed(self.shelf, self.edition, self._rules())}
+            case "downloads":
+                return {"downloads": self.downloads}
             case _:
                 return {}

@@ -6,24 +6,27 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from framegen import __version__
 from framegen.output import banner
-from framegen.site.escape import anchor, linked, script_json
+from framegen.site.downloads import size_in_words
+from framegen.site.escape import anchor, linked, said, script_json
 from framegen.site.guide import Guide, page_of
 from framegen.site.headings import headings, with_permalinks
 from framegen.site.highlight import code_block
 from framegen.site.home import Introduction, specimen
+from framegen.site.linked_files import is_linked, link_to
 from framegen.site.mark import icon, mark
-from framegen.site.mentions import Mention, mentions
+from framegen.site.mentions import Mention, Mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.policy import assets
 from framegen.site.publication import NOT_FOUND, robots, sitemap
-from framegen.site.reference_pages import ReferencePages
+from framegen.site.references import References
+from framegen.site.rule_pages import rule_pages
 from framegen.site.search.index import SearchIndex
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
-from framegen.targets.docs.reference import ReferenceView
 from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
     from framegen.site.project import Project
+    from framegen.site.reference_pages import ReferencePages
     from framegen.targets.target import Snippets
 
 _HERE = Path(__file__).parent
@@ -42,9 +46,9 @@ COMMON = ("page", "clipboard", "tabs", "search_box")
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
-    """Render every page of a site, by path below its root."""
+    """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
-    files = {page.path: _rendered(site, page) for page in site.pages}
+    files = {page.path: render_page(site, page) for page in site.pages} | site.collection.files
     if project.base:
         # Where a page stands for another, or for none at all, it is not for search engines.
         listed = [
@@ -70,8 +74,11 @@ class Site:
 
     @cached_property
     def title(self) -> str:
-        """What the site is called."""
-        return "Reference" if self.plan is None else self.plan.title
+        """What the site is called; without guides, as the only protocol is."""
+        if self.plan is not None:
+            return self.plan.title
+        titles = [each.reference.protocol.title for each in self.references]
+        return titles[0] if len(titles) == 1 else "Reference"
 
     @property
     def generator(self) -> str:
@@ -95,17 +102,20 @@ class Site:
 
     def full_title(self, page: Page) -> str:
         """Return the title of a page with that of the site, or of the reference it belongs to."""
-        names = [
-            each.reference.protocol.title for each in self.references if each.folder == page.folder
-        ]
-        whole = names[0] if names and names[0] != page.title else self.title
+        reference = self.collection.of(page)
+        name = "" if reference is None else reference.full_title
+        whole = name if name not in ("", page.title) else self.title
         return page.title if page.title == whole else f"{page.title} \u2013 {whole}"
 
     @cached_property
+    def collection(self) -> References:
+        """The references of all editions."""
+        return References(self.project, self.snippets, lambda: rule_pages(self.guides))
+
+    @property
     def references(self) -> list[ReferencePages]:
         """The reference of each protocol, as it is now."""
-        views = [ReferenceView(compiled, self.snippets) for compiled in self.project.specs]
-        return [ReferencePages(view, f"reference/{view.folder}/") for view in views]
+        return self.collection.newest
 
     @cached_property
     def guides(self) -> list[Guide]:
@@ -122,6 +132,7 @@ class Site:
     def _published(self) -> dict[str, str]:
         """What a link of a guide may lead to: files by path below the guides, and their pages."""
         found = {path: path for path in self.project.files}
+        found |= {link_to(path): quote(path) for path in self.project.files if is_linked(path)}
         found |= {path: page_of(path) for path in self.project.guides}
         for pages in self.references:
             view, above = pages.reference, f"reference/{pages.reference.folder}/"
@@ -197,8 +208,7 @@ class Site:
             yield Page(
                 guide.page, "guide", guide.title, link.label, link.about, context={"guide": guide}
             )
-        for reference in self.references:
-            yield from reference.pages
+        yield from self.collection.pages
         yield self._search_page()
         if self.project.base:
             # It is shown at any address, so that its links are whole.
@@ -244,9 +254,14 @@ class Site:
         }
 
     def mentions(self, page: Page) -> list[Mention]:
-        """Return where the guides speak of the message of a page."""
-        message = page.context["message"]
-        return [*mentions(self.guides, message, page.path)]
+        """Return where the guides speak of the message of a page: as it is now, not as it was."""
+        if self.collection.is_older(page):
+            return []
+        return [*self._mentions.of(page.context["message"], page.path)]
+
+    @cached_property
+    def _mentions(self) -> Mentions:
+        return Mentions(self.guides)
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
@@ -270,10 +285,26 @@ class Site:
                 above = [Link(group.path, group.title) for group in groups]
                 here = Link(f"index.html#{section.id}", section.title)
                 return [home, here, *(link for link in above if link.path != page.path)]
-        return [] if page.path == home.path else [home]
+        return [] if page.path == home.path else [home, *self._trail_of_older(page)]
+
+    def _trail_of_older(self, page: Page) -> Iterator[Link]:
+        reference = self.collection.of(page)
+        if reference is not None:
+            newest, title = reference.shelf.folder, reference.reference.protocol.title
+            yield Link(f"{newest}index.html", title)
+            yield Link(f"{newest}changelog.html", "Versions")
+            start = f"{reference.folder}index.html"
+            if start != page.path:
+                yield Link(start, reference.edition.version)
 
 
-def _rendered(site: Site, page: Page) -> str:
+def render_page(site: Site, page: Page) -> str:
+    """Render one of the pages of a site."""
+    with site.collection.blaming(page):
+        return _filled(site, page)
+
+
+def _filled(site: Site, page: Page) -> str:
     before, after = site.neighbours(page)
     reference = page.context.get("reference")
     return (
@@ -284,6 +315,7 @@ def _rendered(site: Site, page: Page) -> str:
                 "site": site,
                 "page": page,
                 "reference": None,
+                "edition": None,
                 "before": before,
                 "after": after,
                 "banner": banner("" if reference is None else reference.spec),
@@ -299,9 +331,11 @@ def _environment() -> Environment:
     made = environment(_HERE / "templates", "html", autoescape=True)
     made.filters |= {
         "anchor": anchor,
+        "bytes": size_in_words,
         "code": code_block,
         "headings": headings,
         "linked": linked,
+        "said": said,
         "with_permalinks": with_permalinks,
     }
     return made

@@ -10,7 +10,7 @@ from framegen.reading.yamltree import dotted
 
 if TYPE_CHECKING:
     from framegen.reading.source import Source
-    from framegen.reading.yamltree import Tree
+    from framegen.reading.yamltree import KeyPath, Tree
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +35,13 @@ def listing(source: Source, tree: Tree) -> list[SpecLine]:
     begins = _begins(tree)
     lines = source.text.rstrip("\n").split("\n")
     return [_line(number, text, begins.get(number, [])) for number, text in enumerate(lines, 1)]
+
+
+def nearest_anchor(tree: Tree, path: KeyPath) -> str:
+    """Return the anchor of a key in the listing, or of the nearest one around it; "" for none."""
+    while path and not (path in tree.keys and all(map(_plain, path))):
+        path = path[:-1]
+    return dotted(path)
 
 
 def _line(number: int, text: str, begins: list[tuple[int, str]]) -> SpecLine:

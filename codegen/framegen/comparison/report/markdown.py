@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.comparison.accepted import places
-from framegen.comparison.report.verdict import AXES, standing
+from framegen.comparison.report.verdict import AXES, STANDING_WORDS, standing
 from framegen.comparison.report.words import between, effect_text, hex_of
 from framegen.pluralize import pluralize
 from framegen.reading.yamltext import block, scalar
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from framegen.comparison.effect import Effect
     from framegen.comparison.report.view import View
 
-_WORDS = {"breaks": "breaks", "uncertain": "uncertain", "accepted": "on purpose"}
 # Rows of a table, and items of a list: a comment on a pull request has room for 65 536 characters.
 _MOST = 100
 # Up to so many rows, long frames are shown as a whole.
@@ -79,7 +78,7 @@ def _breaks(effects: list[Effect]) -> Iterator[str]:
         what = _prose(effect_text(effect, str(effect.path[1]) if effect.path[1:] else ""))
         if effect.accepted:
             what += f" (accepted: {_prose(effect.accepted)})"
-        kind = f"{_WORDS[standing(effect)]}: {effect.axis}"
+        kind = f"{STANDING_WORDS[standing(effect)]}: {effect.axis}"
         where = code(dotted(effect.path))
         ends = markdown(between(effect).replace("->", "→"))
         yield f"| {kind} | {where} | {what} | {ends} | {frame} |"

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.comparison.accepted import ignored_breaks
-from framegen.comparison.report.verdict import AXES, standing
+from framegen.comparison.report.titles import group_title, shortened_list
+from framegen.comparison.report.verdict import AXES, STANDING_WORDS, standing
 from framegen.comparison.report.view import rule_of
 from framegen.comparison.report.words import between, call_of, effect_text, hex_of
 from framegen.console import visible
@@ -17,10 +18,8 @@ if TYPE_CHECKING:
     from framegen.comparison.effect import Effect
     from framegen.comparison.report.view import Section, View
 
-_WORDS = {"breaks": "breaks", "uncertain": "uncertain", "accepted": "on purpose", "adds": "new"}
-# Of what has no effect, so much is listed; and so many names of messages in one line.
+# Of what has no effect, so much is listed.
 _MOST_LISTED = 10
-_MOST_NAMES = 4
 
 
 def render(view: View) -> str:
@@ -72,7 +71,7 @@ def _notes(view: View) -> Iterator[str]:
         yield f"  note: {view.new.label} is not right yet: `framegen check` shows {found}"
     if view.capped:
         yield f"  note: at most {view.most_tried} frames a message are tried out, of " + (
-            _names(view.capped)
+            shortened_list(view.capped)
         )
     for line, why in ignored_breaks(view.pair):
         yield f"  note: version {visible(line.version)} accepts nothing by `breaks`: {visible(why)}"
@@ -83,7 +82,7 @@ def _notes(view: View) -> Iterator[str]:
 
 def _group(view: View, group: Sequence[Section], explained: set[str]) -> Iterator[str]:
     first = group[0]
-    yield _title(view, group)
+    yield group_title(view, group)
     for change in first.changes:
         yield f"  {visible(change.text)}"
         yield f"    {view.places(change)}"
@@ -99,34 +98,11 @@ def _group(view: View, group: Sequence[Section], explained: set[str]) -> Iterato
         yield from _effect(effect, first.title, frames)
 
 
-def _title(view: View, group: Sequence[Section]) -> str:
-    if len(group) > 1:
-        return f"{pluralize(len(group), 'message')}: {_names([each.title for each in group])}"
-    title = group[0].title
-    if not title:
-        return "all messages"
-    before = view.pair.messages.to_old.get(title)
-    if title in view.pair.messages.added and title in view.new.spec.messages:
-        return f"{title} (new)"
-    if title not in view.new.spec.messages:
-        return f"{title} (gone)"
-    if before in (None, title):
-        return title
-    was = "may be" if before in view.pair.messages.guessed else "was"
-    return f"{title} ({was} {before})"
-
-
-def _names(names: Sequence[str]) -> str:
-    shown = ", ".join(names[:_MOST_NAMES])
-    more = len(names) - _MOST_NAMES
-    return f"{shown} and {more} more" if more > 0 else shown
-
-
 def _effect(effect: Effect, title: str, frames: set[bytes]) -> Iterator[str]:
     """Yield the lines of an effect; a frame that an effect before it has shown is not repeated."""
     who = between(effect)
     where = f"{effect.axis}, {who}" if who else effect.axis
-    yield f"  {_WORDS[standing(effect)]}: {where}: {effect_text(effect, title)}"
+    yield f"  {STANDING_WORDS[standing(effect)]}: {where}: {effect_text(effect, title)}"
     if effect.witness is not None and effect.witness.data not in frames:
         frames.add(effect.witness.data)
         yield f"    {hex_of(effect.witness.data)}"

@@ -14,6 +14,13 @@ if TYPE_CHECKING:
 
 Standing: TypeAlias = Literal["breaks", "uncertain", "accepted", "adds"]
 STANDINGS: tuple[Standing, ...] = ("breaks", "uncertain", "accepted", "adds")
+# What users read of each.
+STANDING_WORDS: dict[Standing, str] = {
+    "breaks": "breaks",
+    "uncertain": "uncertain",
+    "accepted": "on purpose",
+    "adds": "new",
+}
 AXES: tuple[Axis, ...] = ("wire", "conversation", "programs")
 
 FAILURES = (*AXES, "uncertain", "version", "never")

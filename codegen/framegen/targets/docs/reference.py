@@ -110,6 +110,8 @@ class ReferenceView:
 
     compiled: Compiled
     snippets: Snippets
+    # Where the spec lies, from the root of the reference in Markdown; "" where the project has it.
+    spec_file: str = ""
 
     @property
     def model(self) -> Model:
@@ -134,6 +136,8 @@ class ReferenceView:
     @property
     def spec_link(self) -> str:
         """The path from the root of the reference to the spec; empty where it lies elsewhere."""
+        if self.spec_file:
+            return self.spec_file
         return f"{_TO_ROOT}{self.spec}" if self.spec.startswith("spec/") else ""
 
     @property
@@ -304,7 +308,7 @@ class ReferenceView:
     @property
     def releases(self) -> list[Release]:
         """The history, the latest version first."""
-        return self.model.spec.history[::-1]
+        return self.model.spec.history
 
     @cached_property
     def pages(self) -> list[PageView]:
@@ -367,9 +371,17 @@ class ReferenceView:
             PageView(
                 "changelog",
                 "changelog",
-                "Changelog",
-                "Changelog",
-                f"What changed from version to version of the {title}.",
+                "Versions and changes",
+                "Versions",
+                f"What changed from version to version of the {title}, and what that breaks.",
+            ),
+            PageView(
+                "downloads",
+                "downloads",
+                "Downloads",
+                "Downloads",
+                f"The spec, the test vectors and the pages of the {title} as files.",
+                in_markdown=False,
             ),
             PageView(
                 "spec",
