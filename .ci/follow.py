@@ -113,7 +113,12 @@ class Reader:
                 check=False,
             )
             self.environment, self.folder = json.loads(left.read_text(encoding="utf-8"))
-        return done.returncode, done.stdout
+        printed = done.stdout
+        # What is printed has the port where the page has the name that stands for it.
+        if named := PORT.search(command):
+            for _, port in self._boards.values():
+                printed = printed.replace(port, named[0])
+        return done.returncode, printed
 
     def python(self, block: Block) -> str:
         """Return the output of a program or a session."""

@@ -28,7 +28,7 @@ LARGEST = 150_000
 
 @dataclass(frozen=True)
 class Screenshot:
-    """A picture of the top of a page: the name of the picture, and how the page is looked at."""
+    """A picture of a page from its top or an anchor on: its name, and how the page is looked at."""
 
     name: str
     address: str
@@ -37,14 +37,16 @@ class Screenshot:
     scheme: Literal["light", "dark"] = "light"
 
 
-# One frame and a stray byte, so that noise is seen.
-BYTES = "13%2055%2055%2004%200F%204C%201D"
+# A frame and a stray byte, so that noise is seen.
+BYTES = "55%2055%2004%200F%204C%201D%2013"
 SCREENSHOTS = [
-    Screenshot("reference-message.png", "reference/busservo/messages/ServoMove.html", 1280, 800),
+    Screenshot(
+        "reference-message.png", "reference/busservo/messages/ServoMove.html#try", 1200, 760
+    ),
     Screenshot(
         "reference-decoder.png",
         f"reference/busservo/decoder.html?hex={BYTES}&direction=controller_to_host",
-        *(1000, 940),
+        *(1000, 1040),
         scheme="dark",
     ),
     Screenshot("reference-phone.png", "reference/busservo/messages/BatteryVoltage.html", 390, 720),
@@ -53,11 +55,14 @@ SCREENSHOTS = [
 
 def take(browser: Browser, site: Path, each: Screenshot) -> bytes:
     """Return a screenshot as PNG."""
-    size = {"width": each.width, "height": each.height}
-    context = browser.new_context(viewport=size, color_scheme=each.scheme)  # type: ignore[arg-type]
+    context = browser.new_context(
+        viewport={"width": each.width, "height": each.height},
+        color_scheme=each.scheme,
+        reduced_motion="reduce",
+    )
     tab = context.new_page()
-    page, mark, rest = each.address.partition("?")
-    tab.goto((site / page).as_uri() + mark + rest)
+    tab.goto(site.as_uri() + "/" + each.address)
+    tab.wait_for_timeout(500)  # for what a script does when the page is there
     picture = tab.screenshot()
     context.close()
     return picture

@@ -463,10 +463,11 @@ def framegen(capsys: pytest.CaptureFixture[str]) -> Command:
 
 def test_the_reference_shows_the_bent_name_in_code() -> None:
     [python] = [target for target in TARGETS if target.name == "python"]
-    assert python.snippet is not None
+    assert python.snippets is not None
     model = layout_of(renamed(renamed(data_of(DEMO), "TextShow", "Reason"), "number", "class"))
     message = model.messages["Reason"]
-    shown = python.snippet(model, message, message.message.examples[0])
+    (codec,) = python.snippets(model, message, message.message.examples[0])
+    shown = codec.code
     assert "from greenhouse import Direction, ReasonMessage, StreamDecoder" in shown
     assert "print(event.class_)  # -2" in shown
 
@@ -513,7 +514,9 @@ def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
     for page in tmp_path.rglob("*"):
         linking = page.suffix in (".md", ".html")
         text = page.read_text(encoding="utf-8").partition("<script")[0] if linking else ""
-        for link in re.findall(r'href="([^"#:?]+)["#?]', text) + re.findall(r"\]\(([^)#:?]+)", text):
+        for link in re.findall(r'href="([^"#:?]+)["#?]', text) + re.findall(
+            r"\]\(([^)#:?]+)", text
+        ):
             assert (page.parent / link).exists(), (page, link)
             links += link.endswith(("Con_.html", "Con_.md", "Nul_.html", "Nul_.md"))
     assert links > 20

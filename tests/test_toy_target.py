@@ -116,7 +116,8 @@ def test_its_snippet_is_there_for_every_target(project: Path) -> None:
     compiled = compile_spec(read_source(project / "spec" / "demo.yaml"))
     message = compiled.model.messages["StationRead"]
     show = snippets()["toy"]
-    assert show(compiled.model, message, message.message.examples[0]) == "say StationRead\n"
+    (snippet,) = show(compiled.model, message, message.message.examples[0])
+    assert (snippet.language, snippet.code) == ("toy", "say StationRead\n")
     assert {"python", "toy"} <= set(snippets())
 
 
@@ -124,6 +125,10 @@ def test_it_changes_no_other_output(project: Path, monkeypatch: pytest.MonkeyPat
     compiled = compile_spec(read_source(project / "spec" / "demo.yaml"))
     with_it = render(compiled).files
     monkeypatch.setattr(table, "TARGETS", table.TARGETS[:-1])
-    assert {path: text for path, text in with_it.items() if FOLDER not in path} == (
-        render(compiled).files
-    )
+    without = render(compiled).files
+    others = {path: text for path, text in with_it.items() if FOLDER not in path}
+    assert others.keys() == without.keys()
+    # The page of a message shows how each target says it.
+    assert all("/messages/" in path for path in without if others[path] != without[path])
+    page = others["docs/reference/greenhouse/messages/StationRead.md"]
+    assert "```toy\nsay StationRead\n```" in page

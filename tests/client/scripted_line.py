@@ -18,6 +18,7 @@ class ScriptedLine:
         self.written: list[bytes] = []
         self.answer = answer
         self._arrived = b""
+        self.unasked = False
 
     def clock(self) -> float:
         return self.now
@@ -30,6 +31,11 @@ class ScriptedLine:
     def write(self, data: bytes) -> None:
         self.written.append(data)
         self._arrived += self.answer(data)
+
+    def come(self, data: bytes) -> None:
+        """Let bytes arrive that nobody asked for."""
+        self.unasked = True
+        self._arrived += data
 
     def drain(self, _timeout: float) -> None:
         pass

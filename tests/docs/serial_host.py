@@ -7,6 +7,8 @@ from collections import deque
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+from tests.timeouts import GENEROUS
+
 if TYPE_CHECKING:
     from busservo_simulator.virtual_line import VirtualLine
     from playwright.sync_api import BrowserContext
@@ -18,8 +20,12 @@ FAKE_SERIAL = Path(__file__).parent / "fake_serial.js"
 _HOST = """
 (() => {
   const call = (name) => (...given) => window[`serial_${name}`](...given);
-  const names = ["choose", "open", "write", "read", "close"];
-  const fake = makeFakeSerial(Object.fromEntries(names.map((name) => [name, call(name)])));
+  const names = ["choose", "open", "write", "close"];
+  const host = Object.fromEntries(names.map((name) => [name, call(name)]));
+  // Bytes come as hex, which takes less of the time of both ends than a list of numbers.
+  host.read = async (id) => (await call("read")(id)).map(({ hex, ...rest }) => (
+    hex ? { bytes: hex.match(/../g).map((digits) => parseInt(digits, 16)) } : rest));
+  const fake = makeFakeSerial(host);
   Object.defineProperty(navigator, "serial", { value: fake, configurable: true });
 })();
 """
@@ -79,7 +85,7 @@ class SerialHost:
         self.written = b""
         # What the page was given of what the board said.
         self.given = b""
-        # What the line says besides: {"bytes": […]}, or {"error": name, "fatal": bool}.
+        # What the line says besides: {"hex": digits}, or {"error": name, "fatal": bool}.
         self.said: deque[dict[str, Any]] = deque()
         for name in ("choose", "open", "write", "read", "close"):
             context.expose_function(f"serial_{name}", getattr(self, f"_{name}"))
@@ -125,7 +131,7 @@ class SerialHost:
         data = self.end.read()
         self.given += data
         pieces = [data[at : at + 1] for at in range(len(data))] if self.one_by_one else [data]
-        said = [{"bytes": [*piece]} for piece in pieces if piece]
+        said: list[dict[str, Any]] = [{"hex": piece.hex()} for piece in pieces if piece]
         while self.said:
             said.append(self.said.popleft())
         return said
@@ -140,10 +146,16 @@ class LiveTab:
     def __init__(self, tab: Tab) -> None:
         self.tab = tab
 
-    def connect(self) -> None:
-        """Press the button, and wait until the port is open."""
+    def connect(self, timeout: int = 1000 * int(GENEROUS)) -> None:
+        """Press the button, and wait until the port is open; replies have so many milliseconds."""
+        self.settings()
+        self.tab.locator("#line-timeout").fill(str(timeout))
         self.tab.get_by_role("button", name="Connect your board").click()
         self.status("Connected to")
+
+    def settings(self) -> None:
+        """Show the settings of the line."""
+        self.tab.locator(".line-settings").evaluate("(details) => { details.open = true; }")
 
     def send(self, name: str, **values: str) -> None:
         """Choose a message in the encoder, and press Send."""

@@ -65,6 +65,7 @@ def test_output_is_no_code_and_cannot_be_copied() -> None:
         ("$ x\ny", "console", ("printed", "y\n")),
         ("if true; then", "sh", ("keyword", "if")),
         ("REM why", "bat", ("comment", "REM why")),
+        ("# why", "powershell", ("comment", "# why")),
         ("a: 1", "yaml", ("name", "a")),
         ('{"a": 1}', "json", ("name", '"a"')),
         ("+a\n", "diff", ("inserted", "+a")),

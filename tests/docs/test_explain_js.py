@@ -118,7 +118,8 @@ def frames_for(model: Model, name: str) -> list[bytes]:
 
 def few(number: int) -> int:
     """Return so many where Hypothesis tries a hundred examples, and as many more as it does."""
-    return max(1, number * settings().max_examples // 100)
+    many: int = settings().max_examples
+    return max(1, number * many // 100)
 
 
 def _changed(chance: random.Random, frame: bytes) -> bytes:

@@ -74,3 +74,9 @@ def test_files_outside_the_guides_are_pages_where_the_plan_lists_them(tmp_path: 
     assert read_project({}, docs).version == ""
     (docs / "../pyproject.toml").write_text('[project]\nversion = "1.2.3"\n', encoding="utf-8")
     assert read_project({}, docs).version == "1.2.3"
+
+
+def test_cells_are_aligned_by_classes() -> None:
+    body = Guide("a.md", "| a | b | c |\n|---|--:|:-:|\n| 1 | 2 | 3 |\n").body
+    assert "style" not in body
+    assert '<td>1</td>\n<td class="right">2</td>\n<td class="center">3</td>' in body

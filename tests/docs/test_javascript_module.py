@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from framegen.site.javascript_module import javascript_module
 
-from tests.docs.reference import NODE, NODE_MODULES, reference
+from tests.docs.reference import NODE, NODE_MODULES, ROOT, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import BUSSERVO, DEMO, compiled_file, write_files
 from tests.protocols.specs import FILES
@@ -28,6 +28,11 @@ SPECS = {"busservo": BUSSERVO, "demo": DEMO, **FILES}
 
 def run_module(folder: Path, model: Model, program: str) -> Any:
     """Run a program that imports the module; return what it prints as JSON."""
+    return json.loads(run_program(folder, model, program))
+
+
+def run_program(folder: Path, model: Model, program: str) -> str:
+    """Run a program that imports the module; return what it prints."""
     write_files(javascript_module(model), folder)
     file = folder / "program.mjs"
     file.write_text(program, encoding="utf-8")
@@ -35,7 +40,7 @@ def run_module(folder: Path, model: Model, program: str) -> Any:
         [str(NODE), str(file)], capture_output=True, encoding="utf-8", check=False
     )
     assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    return done.stdout
 
 
 WAYS = "host_to_controller, controller_to_host"
@@ -108,6 +113,13 @@ def test_the_module_does_what_its_types_say(tmp_path: Path) -> None:
             [True, "“G” in “5G” is no hex digit", ""],
         ],
     }
+
+
+def test_the_guide_shows_what_the_module_does(tmp_path: Path) -> None:
+    guide = (ROOT / "docs" / "conformance.md").read_text("utf-8")
+    (shown,) = re.findall(r"```js\n(.*?)```\n\n```text\n(.*?)```", guide, re.DOTALL)
+    program, printed = shown
+    assert run_program(tmp_path, reference("busservo").model, program) == printed
 
 
 def test_types_name_every_message_and_every_field() -> None:

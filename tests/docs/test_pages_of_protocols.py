@@ -109,7 +109,7 @@ FACTS = [
     ),
     ("dynamixel1", "messages/Ping.html", "Frame instruction"),
     ("dynamixel1", "messages/BulkRead.html", "Nothing. Never given."),
-    ("dynamixel1", "messages/BulkRead.html", "length = 3 * items + 3: 6, 9, 12 .. 255"),
+    ("dynamixel1", "messages/BulkRead.html", "Length 3 * items + 3: 6, 9, 12 .. 255"),
     (
         "dynamixel1",
         "sequences.html",
@@ -138,7 +138,7 @@ FACTS = [
     ("modbus", "index.html", "The crc-16/modbus of unit, function and data: CRC of 16 bits"),
     ("modbus", "stream.html", "Every byte may begin a frame that can be its unit"),
     ("modbus", "stream.html", "An unknown function costs one byte. Nothing proves where its frame"),
-    ("modbus", "messages/Holding.html", "size of the frame = 2 * registers + 5: 7, 9, 11 .. 255"),
+    ("modbus", "messages/Holding.html", "Size of the frame 2 * registers + 5: 7, 9, 11 .. 255"),
     ("modbus", "messages/Holding.html", "Never given: the library counts."),
     ("modbus", "messages/HoldingRead.html", "Refused by HoldingReadRefused"),
     ("modbus", "messages/HoldingReadRefused.html", "Refuses HoldingRead"),
@@ -147,7 +147,7 @@ FACTS = [
     ("sbus", "stream.html", "There is no checksum. A header is believed only while everything"),
     ("tfmini", "messages/Measurement.html", "one step is 0.125 °C, and 0 is -256 °C"),
     ("ubx", "index.html", "0x06 0x08 6, 8"),
-    ("ubx", "messages/NavPvt.html", "length = 84 or 92"),
+    ("ubx", "messages/NavPvt.html", "Length 84 or 92"),
     ("ubx", "messages/NavPvt.html", "May be absent, with all that is behind it."),
     ("ubx", "messages/InfNotice.html", "characters"),
 ]

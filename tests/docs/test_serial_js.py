@@ -37,11 +37,16 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 MODEL = reference("busservo").model
 # All but what touches the page.
-SCRIPTS = [name for name in LINE_SCRIPT if name not in ("serial_log", "serial_panel")]
+SCRIPTS = [
+    name
+    for name in LINE_SCRIPT
+    if name not in ("serial_settings", "serial_file", "serial_log", "serial_panel")
+]
 _BEGIN = """
 const asked = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const wait = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });
 """
+_END = "(found) => console.log(JSON.stringify(found))"
 
 
 def answers(program: str, asked: object = None) -> Any:
@@ -53,8 +58,7 @@ def answers(program: str, asked: object = None) -> Any:
             str(NODE),
             "--input-type=commonjs",
             "-e",
-            f"{text}\n{_BEGIN}(async () => {{{program}}})()"
-            ".then((found) => console.log(JSON.stringify(found)));",
+            f"{text}\n{_BEGIN}(async () => {{{program}}})().then({_END});",
         ],
         input=json.dumps(asked),
         capture_output=True,
@@ -69,20 +73,30 @@ def answers(program: str, asked: object = None) -> Any:
 # ---------------------------------------------------------------------------- the port
 
 _PORT = """
-const said = [], board = { refused: [], written: [], pieces: [], stuck: false };
+const said = [], board = { refused: [], written: [], pieces: [], stuck: false, slow: 0 };
 let number = 1;
 const given = () => ({ id: `port ${number}`, info: asked.adapter });
 const fake = makeFakeSerial({
   choose: async () => (board.nothing ? null : given()),
-  open: async () => { await wait(board.slow ?? 0); said.push("OPEN"); return board.refused.shift() ?? false; },
-  write: async (id, bytes) => { if (board.stuck) await new Promise(() => {}); board.written.push(bytes); return board.wrong ?? ""; },
+  open: async () => {
+    await wait(board.slow);
+    said.push("OPEN");
+    return board.refused.shift() ?? false;
+  },
+  write: async (id, bytes) => {
+    if (board.stuck) await new Promise(() => {});
+    board.written.push(bytes);
+    return board.wrong ?? "";
+  },
   read: async () => board.pieces.splice(0),
   close: async () => { said.push("CLOSE"); },
 }, wait);
 const line = makeSerialLine({
   serial: fake, wait: (ms) => wait(ms / 10),
   received: (bytes) => said.push(`got ${[...bytes]}`),
-  changed: (state, error) => { if (state !== said.at(-1)) said.push(error ? `${state}: ${error.name}` : state); },
+  changed: (state, error) => {
+    if (state !== said.at(-1)) said.push(error ? `${state}: ${error.name}` : state);
+  },
   failed: (error) => said.push(`failed: ${error.name}`),
 });
 const settings = { baudRate: 9600, dataBits: 8, stopBits: 1, parity: "none", flowControl: "none" };
@@ -91,96 +105,102 @@ const unplug = () => fake.unplug(given().id);
 const plugIn = () => { number += 1; fake.plugIn(given()); };
 """
 
+OPENED = "choosing | opening | OPEN | open"
 # What is done with a port, and what is said of it.
 PORTS = {
     "opened, read and closed": (
         "await open(); board.pieces.push({bytes: [1, 2]}); await wait(20); await line.close();",
-        ["choosing", "opening", "OPEN", "open", "got 1,2", "closing", "CLOSE", "closed"],
+        f"{OPENED} | got 1,2 | closing | CLOSE | closed",
     ),
     "closed twice at once, and again": (
         "await open(); await Promise.all([line.close(), line.close()]); await line.close();",
-        ["choosing", "opening", "OPEN", "open", "closing", "CLOSE", "closed"],
+        f"{OPENED} | closing | CLOSE | closed",
     ),
     "nothing was chosen": (
         "board.nothing = true; await open();",
-        ["choosing", "closed: NotFoundError"],
+        "choosing | closed: NotFoundError",
     ),
     "in use elsewhere, and then not": (
         "board.refused = [true]; await open(); await open();",
-        ["choosing", "opening", "OPEN", "closed: NetworkError"]
-        + ["choosing", "opening", "OPEN", "open"],
+        "choosing | opening | OPEN | closed: NetworkError | choosing | opening | OPEN | open",
     ),
     "closed while it is being opened": (
-        "board.slow = 20; const opened = open(); await wait(5); await line.close(); await opened;",
-        ["choosing", "opening", "closing", "OPEN", "CLOSE", "closed"],
+        """
+        board.slow = 20; const opened = open(); await wait(5); await line.close();
+        await opened;
+        """,
+        "choosing | opening | closing | OPEN | CLOSE | closed",
     ),
     "opened twice at once": (
         "await Promise.all([open(), open()]);",
-        ["choosing", "opening", "OPEN", "open"],
+        OPENED,
     ),
     "errors of the line after which it goes on": (
-        "await open();"
-        'for (const error of ["FramingError", "ParityError", "BreakError", "BufferOverrunError"])'
-        "  board.pieces.push({error}, {bytes: [7]});"
-        "await wait(60);",
-        ["choosing", "opening", "OPEN", "open"]
-        + ["failed: FramingError", "got 7", "failed: ParityError", "got 7"]
-        + ["failed: BreakError", "got 7", "failed: BufferOverrunError", "got 7"],
+        """
+        await open();
+        for (const error of ["FramingError", "BreakError"])
+          board.pieces.push({ error }, { bytes: [7] });
+        await wait(60);
+        """,
+        f"{OPENED} | failed: FramingError | got 7 | failed: BreakError | got 7",
     ),
     "an error after which nothing is read": (
         'await open(); board.pieces.push({error: "UnknownError", fatal: true}); await wait(20);',
-        ["choosing", "opening", "OPEN", "open", "lost: UnknownError", "CLOSE"],
+        f"{OPENED} | lost: UnknownError | CLOSE",
     ),
     "unplugged and plugged in again": (
-        "await open(); unplug(); await wait(20); plugIn(); await wait(20);"
-        "board.pieces.push({bytes: [3]}); await wait(20);",
-        ["choosing", "opening", "OPEN", "open", "lost", "CLOSE"]
-        + ["opening", "OPEN", "open", "got 3"],
+        """
+        await open(); unplug(); await wait(20); plugIn(); await wait(20);
+        board.pieces.push({bytes: [3]}); await wait(20);
+        """,
+        f"{OPENED} | lost | CLOSE | opening | OPEN | open | got 3",
     ),
     "back, and not to be opened at once": (
-        "await open(); unplug(); await wait(20); board.refused = [true, true]; plugIn();"
-        "await wait(200);",
-        ["choosing", "opening", "OPEN", "open", "lost", "CLOSE", "opening", "OPEN"]
-        + [
-            "lost: NetworkError",
-            "opening",
-            "OPEN",
-            "lost: NetworkError",
-            "opening",
-            "OPEN",
-            "open",
-        ],
+        """
+        await open(); unplug(); await wait(20); board.refused = [true]; plugIn();
+        await wait(200);
+        """,
+        f"{OPENED} | lost | CLOSE | opening | OPEN | lost: NetworkError | opening | OPEN | open",
     ),
     "given up while it is lost": (
         "await open(); unplug(); await wait(20); await line.close(); plugIn(); await wait(20);",
-        ["choosing", "opening", "OPEN", "open", "lost", "CLOSE", "closing", "closed"],
+        f"{OPENED} | lost | CLOSE | closing | closed",
     ),
     "unplugged while a frame is being sent": (
-        "await open(); board.stuck = true;"
-        'const sent = line.write([1]).catch(() => said.push("not sent"));'
-        "await wait(10); unplug(); await sent; await wait(20);",
-        ["choosing", "opening", "OPEN", "open", "lost", "not sent", "CLOSE"],
+        """
+        await open(); board.stuck = true;
+        const sent = line.write([1]).catch(() => said.push("not sent")); await wait(10);
+        unplug(); await sent; await wait(20);
+        """,
+        f"{OPENED} | lost | not sent | CLOSE",
     ),
     "closed while a frame is being sent": (
-        "await open(); board.stuck = true;"
-        'const sent = line.write([1]).catch(() => said.push("not sent"));'
-        "await wait(10); await line.close(); await sent;",
-        ["choosing", "opening", "OPEN", "open", "closing", "not sent", "CLOSE", "closed"],
+        """
+        await open(); board.stuck = true;
+        const sent = line.write([1]).catch(() => said.push("not sent")); await wait(10);
+        await line.close(); await sent;
+        """,
+        f"{OPENED} | closing | not sent | CLOSE | closed",
     ),
     "a write that fails, and the next": (
-        'await open(); board.wrong = "UnknownError";'
-        "await line.write([1]).catch((error) => said.push(error.name));"
-        'board.wrong = ""; await line.write([2]); said.push("sent");',
-        ["choosing", "opening", "OPEN", "open", "UnknownError", "sent"],
+        """
+        await open(); board.wrong = "UnknownError";
+        await line.write([1]).catch((error) => said.push(error.name)); board.wrong = "";
+        await line.write([2]); said.push("sent");
+        """,
+        f"{OPENED} | UnknownError | sent",
     ),
     "a write before it is open": (
         "await line.write([1]).catch((error) => said.push(error.name));",
-        ["InvalidStateError"],
+        "InvalidStateError",
     ),
-    "closed before it was opened": ("await line.close();", []),
+    "closed before it was opened": (
+        "await line.close();",
+        "",
+    ),
     "a choice that comes after it was closed": (
         "const opened = open(); await line.close(); await opened;",
-        ["choosing", "closing", "closed"],
+        "choosing | closing | closed",
     ),
 }
 
@@ -198,7 +218,9 @@ def test_the_line_is_what_has_happened_to_its_port() -> None:
         name: [each for at, each in enumerate(said) if at == 0 or each != said[at - 1]]
         for name, said in found.items()
     }
-    assert without_repeats == {name: expected for name, (_, expected) in PORTS.items()}
+    assert without_repeats == {
+        name: expected.split(" | ") if expected else [] for name, (_, expected) in PORTS.items()
+    }
 
 
 def test_frames_are_sent_whole_and_in_order() -> None:
@@ -216,7 +238,7 @@ _SESSION = """
 const protocol = asked.protocol, codec = makeCodec(protocol), said = [];
 const hex = (text) => text.match(/../g).map((digits) => parseInt(digits, 16));
 const session = makeSession({
-  codec, protocol, direction: protocol.line.received, baud: asked.baud ?? 9600, localEcho: asked.echo ?? false,
+  codec, protocol, direction: protocol.line.received, baud: 9600, localEcho: asked.echo ?? false,
   show: ({ at, isSent, event, sender, names }) => said.push(
     [at, isSent ? ">" : "<", sender, names.join(" or ") || event.reason, hexOf(event.bytes)]),
   answered: ({ question, event, took, late, missing }) => said.push(
@@ -293,8 +315,12 @@ ANSWERS: dict[str, tuple[list[tuple[float, str, bytes]], list[list[Any]]]] = {
         ],
     ),
     "just before its time is over": (
-        [(0, "sent", ASK), (255, "received", VOLTAGE[:3]), (262, "tick", b"")]
-        + [(270, "received", VOLTAGE[3:])],
+        [
+            (0, "sent", ASK),
+            (255, "received", VOLTAGE[:3]),
+            (262, "tick", b""),
+            (270, "received", VOLTAGE[3:]),
+        ],
         [["answer", "BatteryVoltageRead", "BatteryVoltage", 270, False, []]],
     ),
     "the line is closed": (
@@ -339,7 +365,7 @@ def test_ones_own_bytes_are_taken_out_of_what_comes_back() -> None:
 
 
 def test_echoes_are_taken_out_as_the_client_does() -> None:
-    random_ = random.Random(13)
+    random_ = random.Random(13)  # noqa: S311 - to be repeated
     streams = []
     for _ in range(300):
         frames = [bytes(random_.choices(b"ab", k=random_.randint(1, 4))) for _ in range(3)]
@@ -357,7 +383,8 @@ def test_echoes_are_taken_out_as_the_client_does() -> None:
           for (const frame of frames) echo.sent(frame, 9);
           const taken = chunks.map((chunk) => echo.takeOut(chunk));
           const rest = echo.expire(9);
-          return [taken.map(({ bytes, echoes, lost }) => [bytes, echoes, lost]), rest.bytes, rest.lost];
+          const counted = taken.map(({ bytes, echoes, lost }) => [bytes, echoes, lost]);
+          return [counted, rest.bytes, rest.lost];
         });""",
         streams,
     )
@@ -372,13 +399,13 @@ def by_the_client(frames: list[list[int]], chunks: list[list[int]]) -> list[Any]
         echo.sent(request, bytes(frame), 9.0)
     taken = []
     for chunk in chunks:
-        due = len(echo._expected)
+        before = len(echo._expected)
         pieces = [*echo.take_out(bytes(chunk))]
         lost = sum(len(each) for _, _, each in pieces)
-        came = due - len(echo._expected) - lost
-        taken.append([[*b"".join(before for before, _, _ in pieces)], came, lost])
-    held, lost = echo.expire(9.0)
-    return [taken, [*held], len(lost)]
+        came = before - len(echo._expected) - lost
+        taken.append([[*b"".join(others for others, _, _ in pieces)], came, lost])
+    held, missing = echo.expire(9.0)
+    return [taken, [*held], len(missing)]
 
 
 # ---------------------------------------------------------------------------- the recording
@@ -386,12 +413,13 @@ def by_the_client(frames: list[list[int]], chunks: list[list[int]]) -> list[Any]
 _RECORDED = """
 const recording = makeRecording(new Date(1767344947250), asked.bounds);
 for (const [time, who, what, bytes] of asked.entries) recording.add({ time, who, what, bytes });
-return { text: [...recording.pieces("USB 1A86:7523")].join(""), size: recording.size, dropped: recording.dropped };
+const text = [...recording.pieces("USB 1A86:7523")].join("");
+return { text, size: recording.size, dropped: recording.dropped };
 """
 
 
 def test_python_reads_a_recording_of_the_page() -> None:
-    random_ = random.Random(7)
+    random_ = random.Random(7)  # noqa: S311 - to be repeated
     stream = b"".join(
         random_.choice([VOLTAGE, THERE, b"\x00\xff", b"\x55\x55\x02", b"\x55\x55\x03\x63\x01"])
         for _ in range(200)
@@ -437,7 +465,7 @@ def test_noise_that_is_larger_than_a_chunk_is_recorded() -> None:
     assert (entry.event.data, entry.event.reason.value) == (bytes(noise), "bad header")  # type: ignore[union-attr]
 
 
-# ---------------------------------------------------------------------------- where there is no port
+# ---------------------------------------------------------------------------- no port at all
 
 WHERE_FROM = [
     ({"isSecure": True, "hasSerial": True, "protocol": "file:"}, None),

@@ -53,6 +53,7 @@ class Guide:
             if before.type == "heading_open":
                 before.attrSet("id", slug(token.content))
             self._lead(token.children or [])
+            _align(token)
         return tokens
 
     @cached_property
@@ -96,6 +97,13 @@ class Guide:
         below = file.startswith(f"{_FOLDER}/")
         page = self.published.get(file.removeprefix(f"{_FOLDER}/") if below else f"../{file}")
         return None if page is None else f"{'../' * self.page.count('/')}{page}{mark}{anchor}"
+
+
+def _align(token: Token) -> None:
+    """Align a cell by a class: the policy of the pages allows no other style."""
+    style = str(token.attrs.pop("style", ""))
+    if style:
+        token.attrSet("class", style.removeprefix("text-align:"))
 
 
 def page_of(path: str) -> str:

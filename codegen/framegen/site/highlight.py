@@ -18,11 +18,12 @@ if TYPE_CHECKING:
 
 # What the languages of the guides are called by readers.
 _TITLES = {
-    "bat": "Windows",
+    "bat": "the command prompt",
     "c": "C",
     "console": "a shell",
     "diff": "a difference",
     "json": "JSON",
+    "powershell": "PowerShell",
     "pycon": "Python",
     "python": "Python",
     "sh": "a shell",

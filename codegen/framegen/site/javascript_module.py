@@ -16,6 +16,7 @@ from framegen.output import banner
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.policy import script
 from framegen.site.protocol_data import REASONS, protocol_data
+from framegen.site.slot_data import is_wide
 from framegen.targets.filenames import file_stem
 from framegen.targets.templates import environment
 
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
     from framegen.model.slots import Field
 
 _HERE = Path(__file__).parent
-# Numbers of so many bytes are exact in JavaScript.
-_EXACT = 6
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
@@ -73,8 +72,7 @@ def _type(field: Field, *, given: bool) -> str:
         case Text():
             return "string"
         case Packed():
-            wide = field.number_type.bits > 8 * _EXACT
-            return "bigint[]" if wide else "number[]"
+            return "bigint[]" if is_wide(field) else "number[]"
         case Number():
             return _number(field, given=given)
         case Items():
@@ -82,10 +80,9 @@ def _type(field: Field, *, given: bool) -> str:
 
 
 def _number(number: Number, *, given: bool) -> str:
-    wide = number.size > _EXACT and not number.is_float
-    kinds = ["bigint" if wide else "number"]
+    kinds = ["bigint" if is_wide(number) else "number"]
     if given:
-        kinds += ["number"] if wide else []
+        kinds += ["number"] if is_wide(number) else []
         kinds += map(json.dumps, number.field.values)
     return " | ".join([*kinds, *(["null"] if number.optional else [])])
 

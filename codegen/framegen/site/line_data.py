@@ -16,6 +16,8 @@ LINE_SCRIPT = (
     "serial_recording",
     "serial_session",
     "serial_words",
+    "serial_settings",
+    "serial_file",
     "serial_log",
     "serial_panel",
 )

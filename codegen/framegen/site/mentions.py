@@ -44,15 +44,16 @@ class Mentions:
     def of(self, message: MessagePage, page: str) -> Iterator[Mention]:
         """Yield the guides that speak of a message, whose page has this path.
 
-        Its name, and that of the client's method, count in code alone, and only in a guide that
-        names the library: elsewhere they may be words like any other.
+        Its name, and that of the client's method, count in code alone, and only in a guide whose
+        code names the library: elsewhere they may be words like any other.
         """
         used = [rf"(?<![\w.]){re.escape(message.name)}\b"]
         if message.method:
             used.append(rf"\.{re.escape(message.method.partition('(')[0])}\(")
         library = re.compile(rf"\b{re.escape(message.model.spec.protocol.name)}\b")
         for guide, sections in self._guides:
-            named = re.compile("|".join(used)) if library.search(guide.text) else None
+            is_named = any(library.search(code) for section in sections for code in section.code)
+            named = re.compile("|".join(used)) if is_named else None
             found = [
                 section
                 for section in sections

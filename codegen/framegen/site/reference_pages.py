@@ -47,7 +47,7 @@ _WORKBENCH = (
 )
 
 # Those of the page of a message.
-_LIVE = ("elements", "notation", "fields", "live")
+_LIVE = ("elements", "capture_place", "notation", "fields", "live")
 
 
 class ReferencePages:

@@ -261,7 +261,15 @@ class Site:
 
     @cached_property
     def _mentions(self) -> Mentions:
-        return Mentions(self.guides)
+        return Mentions(self._for_users)
+
+    @cached_property
+    def _for_users(self) -> list[Guide]:
+        """The guides of the sections down to the one that lists the references."""
+        listing = [at for at, section in enumerate(self.sidebar) if section.groups]
+        shown = self.sidebar[: listing[0] + 1] if listing else self.sidebar
+        paths = {link.path for section in shown for link in section.links}
+        return [guide for guide in self.guides if guide.page in paths]
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from framegen.language.number_types import NumberType
     from framegen.language.spec import NamedValue, Spec
+    from framegen.language.values import Citation
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.reading.yamltree import KeyPath
@@ -24,7 +25,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ValueView:
-    """A named value of a field, in decimal and, as wide as its type, in hex."""
+    """A named value of a field, in decimal and, as wide as its type, in hex.
+
+    `cite` is None for an address whose source the spec does not say.
+    """
 
     path: str
     name: str
@@ -178,6 +182,7 @@ class _Maker:
         """Return the row of a field."""
         spec = self.model.spec
         values = getattr(field, "values", {})
+        source = field.cite or self.message.message.cite
         return FieldView(
             path=path,
             offset=offset,
@@ -185,11 +190,13 @@ class _Maker:
             unit=_unit(field),
             range=bounds,
             about=field.about,
-            values=_values(spec, path, values, NUMBER_TYPES.get(getattr(field, "type", ""))),
+            values=_values(
+                spec, path, values, NUMBER_TYPES.get(getattr(field, "type", "")), source
+            ),
             beside=[*_on_the_wire(spec, field), *_beside(path.rpartition(".")[2], field)],
             bits=_bits(field),
             notes=note_views(spec, field.notes),
-            cite=cite_view(spec, field.cite or self.message.message.cite),
+            cite=cite_view(spec, source),
             place=Place(("messages", self.message.name, *key)),
             derived=derived,
         )
@@ -201,12 +208,18 @@ def address_values(model: Model, message: MessageLayout) -> list[ValueView]:
     if address is None:
         return []
     values = address.field.values
-    return _values(model.spec, address.name, values, address.number_type)
+    return _values(model.spec, address.name, values, address.number_type, None)
 
 
 def _values(
-    spec: Spec, path: str, values: Mapping[str, NamedValue], type_: NumberType | None
+    spec: Spec,
+    path: str,
+    values: Mapping[str, NamedValue],
+    type_: NumberType | None,
+    around: Citation | None,
 ) -> list[ValueView]:
+    """Return named values; those without a source have that of what is around them."""
+    cites = [value.cite or around for value in values.values()]
     return [
         ValueView(
             path,
@@ -214,9 +227,9 @@ def _values(
             value.value,
             _in_hex(value.value, type_),
             value.about,
-            None if value.cite is None else cite_view(spec, value.cite),
+            None if cite is None else cite_view(spec, cite),
         )
-        for name, value in values.items()
+        for (name, value), cite in zip(values.items(), cites, strict=True)
     ]
 
 

@@ -151,6 +151,12 @@ class ReferenceView:
         return note_views(self.model.spec, self.protocol.notes)
 
     @property
+    def shows(self) -> bool:
+        """Whether it is known what the device shows of what it receives."""
+        spec = self.model.spec
+        return bool(spec.endpoints[self.model.roles.sent.receiver].notes)
+
+    @property
     def endpoints(self) -> list[EndpointView]:
         """The endpoints, with their descriptions."""
         spec = self.model.spec
@@ -329,7 +335,7 @@ class ReferenceView:
                 "decoder",
                 "Workbench",
                 "Workbench",
-                f"Decode captures of the {title}, and make frames of values. Nothing leaves the page.",
+                f"Decode captures of the {title}, and make frames. Nothing leaves the page.",
                 in_markdown=False,
             ),
             PageView(

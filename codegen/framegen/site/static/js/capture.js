@@ -62,7 +62,8 @@ function makeCapture(codec, protocol, direction = null) {
       const size = event.size ?? event.bytes.length;
       if (event.type === "message") put(wire, codeOf(wire, event, size), size);
       else {
-        const code = reasons.indexOf(event.reason) + (event.type === "unknown" ? CAPTURE_UNKNOWN : CAPTURE_NOISE);
+        const base = event.type === "unknown" ? CAPTURE_UNKNOWN : CAPTURE_NOISE;
+        const code = base + reasons.indexOf(event.reason);
         put(wire, code, size, isFirst && wire.last === code && event.type === "noise");
       }
       isFirst = false;
@@ -149,25 +150,29 @@ function makeCapture(codec, protocol, direction = null) {
 
   // An event as it is shown: its bytes up to `most` of them.
   function event(index, most = Infinity) {
-    const wire = wires[index < wireOf.size ? wireOf.at(index) : 0], at = starts.at(index), size = sizeOf(index);
+    const wire = wires[index < wireOf.size ? wireOf.at(index) : 0];
+    const at = starts.at(index), size = sizeOf(index);
     const place = index < places.size ? places.at(index) : at, said = meaning(codes.at(index));
     const bytes = wire.log.slice(place, place + Math.min(size, most));
     const direction = said.kind && !said.isEither ? said.kind.direction : wire.direction;
     return {
       ...said, index, at, size, bytes, direction, channel: wire.channel, time: timeOf(wire, place),
-      names: namesOf(said, bytes), rest: (from, to) => wire.log.slice(place + from, place + Math.min(to, size)),
+      names: namesOf(said, bytes),
+      rest: (from, to) => wire.log.slice(place + from, place + Math.min(to, size)),
     };
   }
 
   // The names of the messages that bytes may be.
   function namesOf({ kind, isEither }, bytes) {
     if (!kind) return [];
-    const others = isEither ? rivals[numbers.get(kind)].map((key) => codec.decodeFrame(bytes, key).message) : [];
-    return [kind.name, ...others.filter(Boolean)];
+    const ways = isEither ? rivals[numbers.get(kind)] : [];
+    return [kind.name, ...ways.map((key) => codec.decodeFrame(bytes, key).message).filter(Boolean)];
   }
 
   return {
     add, end, event, meaning, counts, seen, sizeOf,
+    // The bytes from one place to another, where there is one wire.
+    slice: (start, end) => (wires.length ? wires[0].log.slice(start, end) : new Uint8Array(0)),
     quiet: (way) => wires.filter((wire) => wire.direction === way).forEach(quiet),
     codeAt: (index) => codes.at(index),
     startAt: (index) => starts.at(index),

@@ -37,6 +37,7 @@ const isStretch = (piece) => Array.isArray(piece);
 // A register is what the last byte, the one `word` bytes before, and so on make.
 function makeWords(word, bytes, base, joined) {
   const sums = makeRegisters(Float64Array, 0, bytes, base, joined, word);
+  if (word === 1) return ofBytes(sums, joined);
   // What the bytes of all pieces make at each place of a number.
   return (pieces, without) => {
     const places = new Array(word).fill(0);
@@ -62,6 +63,18 @@ function makeWords(word, bytes, base, joined) {
       }
     }
     return places;
+  };
+}
+
+// The same where a number is a byte.
+function ofBytes(sums, joined) {
+  return (pieces, without) => {
+    let total = 0;
+    for (const piece of pieces) {
+      total = joined(total, isStretch(piece) ? without(sums(piece[1]), sums(piece[0]))
+        : piece.unsent.reduce(joined, 0));
+    }
+    return [total];
   };
 }
 

@@ -38,18 +38,19 @@ function readCode(text) {
 // `frame[4]` has a size in its brackets, and `bytes(…)` an argument; a list has neither before it.
 function opened(mark, at, before) {
   const named = /^[\w\])]+$/.test(before);
-  return { mark, at, numbers: [], isIndex: mark === "[" && named, isSize: /^byte(s|array)$/.test(before) };
+  return { mark, at, numbers: [], isIndex: mark === "[" && named, isCall: mark === "(" && named };
 }
 
 function takeWord({ 0: word, groups, index: at }, open, text) {
   const inside = open.at(-1), isPair = /^[0-9A-F]{2}$/i.test(word);
   if (inside?.isIndex) return;
-  if (inside?.isSize && groups.number) {
-    throw new Unreadable(word, at, "is a number of bytes, not a byte", "write a list, like bytes([85, 85])");
+  if (inside?.isCall && groups.number) {
+    throw new Unreadable(word, at, "is an argument, not a byte", "write a list, like bytes([85, 85])");
   }
   if (inside && (groups.number || (isPair && inside.mark !== "("))) inside.numbers.push([word, at]);
   else if (groups.number || (!inside && isPair && !/^\s*[=([:.]/.test(text.slice(at + word.length)))) {
-    throw new Unreadable(word, at, "stands outside of the list", "put it into the brackets, or write hex alone");
+    throw new Unreadable(word, at, "stands outside of the list",
+      "put it into the brackets, or write hex alone");
   } else if (inside && inside.mark !== "(" && !/^(?:u?int8_t|u8|byte|char|unsigned)$/i.test(word)) {
     throw new Unreadable(word, at, "is no byte", "write numbers, like 0x55 or 85");
   }
@@ -75,7 +76,9 @@ function numberIn(word, at, asHex) {
     throw new Unreadable(word, at, "is no number", "write it like 0x55 or 85");
   }
   const value = parseInt(digits, isHex ? 16 : 10);
-  if (value > 255) throw new Unreadable(word, at, "is no byte: the highest is 255, 0xFF", "write one number a byte");
+  if (value > 255) {
+    throw new Unreadable(word, at, "is no byte: the highest is 255, 0xFF", "write one number a byte");
+  }
   return value;
 }
 

@@ -2,8 +2,13 @@
 "use strict";
 
 // What a column is called that holds bytes, in the order in which it is looked for; and times.
-const CSV_VALUES = ["hex", "data", "value", "byte", "bytes", "payload", "rx data", "tx data", "uart: rx data", "uart: tx data", "data(hex)", "decoded protocol result"];
-const CSV_TIMES = ["time [s]", "start_time", "time", "time(s)", "time (s)", "timestamp", "start", "start time"];
+const CSV_VALUES = [
+  "hex", "data", "value", "byte", "bytes", "payload", "rx data", "tx data", "uart: rx data",
+  "uart: tx data", "data(hex)", "decoded protocol result",
+];
+const CSV_TIMES = [
+  "time [s]", "start_time", "time", "time(s)", "time (s)", "timestamp", "start", "start time",
+];
 const CSV_WIRES = ["name", "channel", "wire", "analyzer name", "direction", "from"];
 const CSV_FORMS = [
   [/^0x[0-9a-f]{1,2}$/i, "hex", (cell) => parseInt(cell, 16)],
@@ -82,8 +87,9 @@ function makeCsvReader(header, sample, senders) {
     const cell = textIn(cells, header.value), place = start + (cells[header.value]?.[1] ?? 0);
     const [pattern, , valueOf] = form || CSV_FORMS[0];
     if (!pattern.test(cell)) {
-      throw new Unreadable(cell || line, cell ? place : start, `is no byte, in the column “${header.names[header.value]}”`,
-        "export the values in hex, like 0x55");
+      const problem = `is no byte, in the column “${header.names[header.value]}”`;
+      const hint = "export the values in hex, like 0x55";
+      throw new Unreadable(cell || line, cell ? place : start, problem, hint);
     }
     const time = Number(textIn(cells, header.time) || NaN);
     take(Uint8Array.of(valueOf(cell)), {

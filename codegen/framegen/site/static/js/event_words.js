@@ -26,7 +26,7 @@ function inJson(value, slot = {}) {
     return `[${value.map((each) => inJson(each, of)).join(", ")}]`;
   }
   const within = (name) => (slot.fields || []).find((each) => each.name === name) || {};
-  return `{${Object.entries(value).map(([name, each]) => `${asciiJson(name)}: ${inJson(each, within(name))}`).join(", ")}}`;
+  return objectInJson(Object.entries(value).map(([name, each]) => [name, inJson(each, within(name))]));
 }
 
 // What JSON cannot say is a text.
@@ -37,8 +37,10 @@ function floatInJson(value) {
 const asciiJson = (text) => JSON.stringify(text).replace(/[^ -~]/g,
   (each) => `\\u${each.charCodeAt(0).toString(16).padStart(4, "0")}`);
 
+const objectInJson = (pairs) => `{${pairs.map(([name, text]) => `${asciiJson(name)}: ${text}`).join(", ")}}`;
+
 function fieldsInJson(kind, fields) {
-  return `{${kind.given.map((slot) => `${asciiJson(slot.name)}: ${inJson(fields[slot.name], slot)}`).join(", ")}}`;
+  return objectInJson(kind.given.map((slot) => [slot.name, inJson(fields[slot.name], slot)]));
 }
 
 // A number of things, with its noun: `1 byte`, `12,345 bytes`.

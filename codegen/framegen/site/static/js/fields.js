@@ -35,8 +35,8 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       const value = readOr(null);
       if (choice) choice.value = nameOf(slot, value) ?? "";
       const isNumeric = ["number", "bigint"].includes(typeof value);
-      const text = isNumeric ? inWords(slot, value) : "";
-      words.textContent = text === input.value.trim() ? "" : text;
+      const says = isNumeric && (slot.scale || slot.bits || nameOf(slot, value) !== undefined);
+      words.textContent = says ? inWords(slot, value) : "";
     }
 
     function read() {
@@ -68,6 +68,8 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
         return isHere;
       },
       focus: () => input.focus(),
+      // What tells it from the same field of other items, for who does not see where it stands.
+      call: (label) => input.setAttribute("aria-label", label),
     };
   }
 
@@ -75,7 +77,7 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
   function choiceOf(slot, name, input) {
     const options = namesOf(slot).map((each) => make("option", { value: each }, each));
     const choice = make("select", { "aria-label": `${name} by name` },
-      make("option", { value: "" }, "by number"), ...options);
+      make("option", { value: "" }, "a number"), ...options);
     choice.addEventListener("change", () => {
       if (!choice.value) return;
       input.value = String(slot.names[choice.value]);
@@ -95,12 +97,11 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       changed();
     });
     const legend = make("legend", {}, list.name, " ",
-      make("span", { class: "hint" }, low === high ? counted(low) : `${low}..${high} items`));
+      make("span", { class: "hint" }, low === high ? pluralized(low, "item") : `${low}..${high} items`));
     const fieldset = make("fieldset", { "aria-describedby": problem.id }, legend, rows,
       low === high ? null : make("div", { class: "actions" }, add), problem);
     let items = [];
 
-    const counted = (number) => `${number} item${number === 1 ? "" : "s"}`;
     const blank = () => Object.fromEntries(list.fields.map((field) => [field.name, field.low ?? 0]));
     const asObject = (item) => (list.element === null ? { [list.fields[0].name]: item } : item);
     const asItem = (values) => (list.element === null ? values[list.fields[0].name] : values);
@@ -137,8 +138,10 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       items[index].row.remove();
       items.splice(index, 1);
       bound();
-      if (items.length) items[Math.min(index, items.length - 1)].remove.focus();
-      else add.focus();
+      const next = items[Math.min(index, items.length - 1)];
+      if (!next) add.focus();
+      else if (next.remove.disabled) next.focus();
+      else next.remove.focus();
       changed();
     }
 
@@ -147,7 +150,9 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       add.disabled = items.length >= high;
       items.forEach((item, index) => {
         item.remove.disabled = items.length <= low;
-        item.remove.setAttribute("aria-label", `Remove item ${index + 1} of ${list.name}`);
+        const name = `item ${index + 1} of ${list.name}`;
+        item.remove.setAttribute("aria-label", `Remove ${name}`);
+        item.inputs.forEach((each, i) => each.call(`${list.fields[i].name}, ${name}`));
       });
     }
 

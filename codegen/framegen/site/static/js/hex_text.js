@@ -63,7 +63,8 @@ function endOfWord(text, at) {
   let end = at;
   for (; end < text.length; end++) {
     const code = text.charCodeAt(end);
-    if (HEX_BETWEEN[code] || code === HASH || (code === SLASH && /^\/[/*]/.test(text.slice(end, end + 2)))) break;
+    if (HEX_BETWEEN[code] || code === HASH) break;
+    if (code === SLASH && /^\/[/*]/.test(text.slice(end, end + 2))) break;
   }
   return end;
 }
@@ -91,7 +92,8 @@ function refusedHex(word, at) {
   const prefix = /^(?:0x|\\x)/i.exec(word.slice(whole));
   const start = whole + (prefix ? prefix[0].length : 0);
   if (prefix && start === word.length) {
-    return new Unreadable(prefix[0], at + whole, "has no digits after it", `write the byte whole, like ${prefix[0]}1B`);
+    const hint = `write the byte whole, like ${prefix[0]}1B`;
+    return new Unreadable(prefix[0], at + whole, "has no digits after it", hint);
   }
   const wrong = /[^0-9a-f]/i.exec(word.slice(start));
   if (wrong) {

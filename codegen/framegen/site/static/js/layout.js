@@ -32,6 +32,17 @@ function prepared(slot) {
   return made;
 }
 
+// A value as it is decoded, from one of JSON: with all its digits.
+function exact(slot, value) {
+  if (value === null) return null;
+  if (slot.role === "list" && !slot.text) {
+    return value.map((item) => (slot.element === null ? exact(slot.fields[0], item)
+      : Object.fromEntries(slot.fields.map((field) => [field.name, exact(field, item[field.name])]))));
+  }
+  if (!slot.wide) return value;
+  return Array.isArray(value) ? value.map(BigInt) : BigInt(value);
+}
+
 function preparedEnvelope(frame) {
   const slots = frame.slots.map(prepared), body = slots.findIndex(({ role }) => role === "body");
   const head = slots.slice(0, body), tail = slots.slice(body + 1);
@@ -51,9 +62,11 @@ function makeLayout(protocol) {
     const envelope = envelopes.get(message.frame), fields = message.fields.map(prepared);
     const list = fields.find((slot) => slot.role === "list" && !("count" in slot));
     const slots = [...envelope.head, ...fields, ...envelope.tail];
+    const given = message.given.map((name) => slots.find((slot) => slot.name === name));
     return {
       ...message, envelope, slots, body: fields, list, frames: new Map(),
-      given: message.given.map((name) => slots.find((slot) => slot.name === name)),
+      given,
+      example: Object.fromEntries(given.map((slot) => [slot.name, exact(slot, message.example[slot.name])])),
       optional: fields.filter((slot) => slot.optional),
       counter: counterOf(list, fields),
     };

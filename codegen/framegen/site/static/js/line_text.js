@@ -3,8 +3,12 @@
 
 const LINE_SKIPPED = /^\s*(?:#|\$ |\^C$|hint: |[0-9]+ bytes?: )/;
 
+// A pattern written in pieces.
+const inPieces = (flags, ...pieces) => new RegExp(pieces.join(""), flags);
+
 // Forms by lines: what the form is called, the pattern of a line, and what `begins` one that decides
-// for the form. `who` is a sender, `either`, `noise` or `unknown`; `channel` a wire whose sender is not known.
+// for the form. `who` is a sender, `either`, `noise` or `unknown`; `channel` is a wire whose sender is
+// not known, and what came on it is `joined`.
 const LINE_FORMS = [
   {
     name: "lines of a recording",
@@ -13,7 +17,9 @@ const LINE_FORMS = [
   },
   {
     name: "lines of monitor or decode",
-    pattern: /^\s*(?:(?<at>[0-9]+\.[0-9]+|[0-9]{2}:[0-9]{2}:[0-9]{2}\.[0-9]+)|[0-9]+)\s+(?<who>[a-z][\w-]*)\s+(?<what>.*?) ?\| (?<hex>[0-9A-Fa-f ]*)$/,
+    pattern: inPieces("",
+      String.raw`^\s*(?:(?<at>[0-9]+\.[0-9]+|[0-9]{2}:[0-9]{2}:[0-9]{2}\.[0-9]+)|[0-9]+)\s+`,
+      String.raw`(?<who>[a-z][\w-]*)\s+(?<what>.*?) ?\| (?<hex>[0-9A-Fa-f ]*)$`),
   },
   {
     name: "lines of JSON",
@@ -22,19 +28,26 @@ const LINE_FORMS = [
   },
   {
     name: "lines of candump",
-    pattern: /^\s*(?:\((?<at>[0-9.]+)\)\s+)?(?<channel>[a-z]*can[0-9]*)\s+(?:[0-9A-F]{3,8}#(?<hex>[0-9A-F.]*)(?:\s+[RT])?|[0-9A-F]{3,8}\s+\[[0-9]+\]\s+(?<spaced>[0-9A-F ]*?)(?:\s+'.*')?)\s*$/i,
+    pattern: inPieces("i",
+      String.raw`^\s*(?:\((?<at>[0-9.]+)\)\s+)?(?<channel>[a-z]*can[0-9]*)\s+`,
+      String.raw`(?:[0-9A-F]{3,8}#(?<hex>[0-9A-F.]*)(?:\s+[RT])?`,
+      String.raw`|[0-9A-F]{3,8}\s+\[[0-9]+\]\s+(?<spaced>[0-9A-F ]*?)(?:\s+'.*')?)\s*$`),
     joined: true,
   },
   {
     name: "a hex dump",
     begins: /^0{7,8}(?::|\s\s)/,
-    pattern: /^(?:[0-9A-F]{7,8}\s\s(?<hex>(?:[0-9A-F]{2}\s{1,2}){0,15}[0-9A-F]{2})(?:\s+\|.*\|)?|[0-9A-F]{8}:\s(?<spaced>(?:[0-9A-F]{2,4}\s){1,16})\s.*|[0-9A-F]{7,8})\s*$/i,
+    pattern: inPieces("i",
+      String.raw`^(?:[0-9A-F]{7,8}\s\s(?<hex>(?:[0-9A-F]{2}\s{1,2}){0,15}[0-9A-F]{2})(?:\s+\|.*\|)?`,
+      String.raw`|[0-9A-F]{8}:\s(?<spaced>(?:[0-9A-F]{2,4}\s){1,16})\s.*|[0-9A-F]{7,8})\s*$`),
     joined: true,
   },
   {
     name: "annotations of a logic analyser",
     begins: /^\s*(?:[0-9]+-[0-9]+:?\s+)?(?=[^:]*[g-z])[\w-]+(?: [\w-]+)*: /i,
-    pattern: /^\s*(?:[0-9]+-[0-9]+:?\s+)?(?<channel>[\w-]+(?: [\w-]+)*(?:: [^:]*)?): (?<hex>[0-9A-F]{2})\s*$/i,
+    pattern: inPieces("i",
+      String.raw`^\s*(?:[0-9]+-[0-9]+:?\s+)?(?<channel>[\w-]+(?: [\w-]+)*(?:: [^:]*)?): `,
+      String.raw`(?<hex>[0-9A-F]{2})\s*$`),
     joined: true,
   },
 ];
@@ -83,7 +96,8 @@ function makeLineReader(form, { senders, reasons, received }) {
     const sender = isNoise ? words.slice(0, -1).join(" ") : who;
     if (sender && sender !== "either" && sender !== "unknown" && !senders.has(sender)) {
       const known = [...senders.keys(), "either", "unknown", "noise"].join(", ");
-      throw new Unreadable(sender, start + line.indexOf(sender), "is none of those who send", `write one of ${known}`);
+      throw new Unreadable(sender, start + line.indexOf(sender), "is none of those who send",
+        `write one of ${known}`);
     }
     const why = Object.values(reasons).find((reason) => what === reason || what.startsWith(`${reason}:`));
     // A recording names no sender where noise came to the end that recorded.

@@ -64,13 +64,16 @@ function readItem({ fields, element }, path, item, at) {
 function readNumberIn(slot, path, text, at) {
   if (slot.role === "text") return unescaped(text);
   if (slot.float) {
-    if (!NOTATION_FLOAT.test(text)) throw new NotUnderstood(path, text, at, "is no number: write it like 1.5");
+    if (!NOTATION_FLOAT.test(text)) {
+      throw new NotUnderstood(path, text, at, "is no number: write it like 1.5");
+    }
     return Number(text.replace(/inf(inity)?/i, "Infinity").replace(/nan/i, "NaN"));
   }
   const names = slot.names || {}, named = names[text] ?? maskOf(slot, text);
   if (named !== undefined) return slot.wide ? BigInt(named) : Number(named);
   if (!NOTATION_WHOLE.test(text)) {
-    const known = [...Object.keys(names), ...Object.keys(slot.bits || {})].map((name) => `, or ${name}`).join("");
+    const all = [...Object.keys(names), ...Object.keys(slot.bits || {})];
+    const known = all.map((name) => `, or ${name}`).join("");
     const why = `${text ? "is no number" : "a number is missing"}: write it like 12 or 0x0C${known}`;
     throw new NotUnderstood(path, text, at, why);
   }
@@ -91,13 +94,14 @@ function maskOf({ bits = {} }, text) {
 const unescaped = (text) =>
   text.replace(/%([0-9A-Fa-f]{2})/g, (_, digits) => String.fromCharCode(parseInt(digits, 16)));
 const asNotationWord = (text) =>
-  text.replace(/[^!-~]|[%,:]/g, (each) => `%${each.charCodeAt(0).toString(16).toUpperCase().padStart(2, "0")}`);
+  text.replace(/[^!-~]|[%,:]/g, (each) => `%${HEX[each.charCodeAt(0)]}`);
 
 // A value as it is typed.
 function writeField(slot, value) {
   if (value === null) return "";
   if (typeof value === "string") return asNotationWord(value);
-  if (!Array.isArray(value)) return Object.is(value, -0) ? "-0" : String(value).replace("Infinity", "inf").replace("NaN", "nan");
+  if (Object.is(value, -0)) return "-0";
+  if (!Array.isArray(value)) return String(value).replace("Infinity", "inf").replace("NaN", "nan");
   const item = (each) => (each !== null && typeof each === "object"
     ? Object.values(each).map((part) => writeField({}, part) || "%00").join(":") : writeField({}, each));
   return value.map(item).join(",");

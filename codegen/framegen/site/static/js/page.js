@@ -29,10 +29,12 @@ function announce(text) {
 
 // The contents mark the part that is being read.
 {
+  // A heading that a link has led to stands below the header of the page, and not as low as this.
+  const READ_FROM = 100;
   const links = [...document.querySelectorAll(".contents a")];
   const parts = links.map((link) => document.getElementById(decodeURIComponent(link.hash.slice(1))));
   const mark = () => {
-    const above = parts.filter((part) => part?.getBoundingClientRect().top < innerHeight / 4);
+    const above = parts.filter((part) => part?.getBoundingClientRect().top < READ_FROM);
     const current = parts.lastIndexOf(above[above.length - 1]);
     links.forEach((link, at) => {
       if (at === current) link.setAttribute("aria-current", "location");

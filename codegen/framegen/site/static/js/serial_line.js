@@ -99,7 +99,9 @@ function makeSerialLine({ serial, received, changed, failed, wait }) {
   }
 
   async function put(bytes) {
-    if (state !== "open" || !port.writable) throw new DOMException("The line is not open.", "InvalidStateError");
+    if (state !== "open" || !port.writable) {
+      throw new DOMException("The line is not open.", "InvalidStateError");
+    }
     writer = port.writable.getWriter();
     try {
       await writer.write(Uint8Array.from(bytes));

@@ -28,7 +28,7 @@ function makeLineLog(element, draw = requestAnimationFrame) {
     made.className = [row.isSent ? "sent" : "", row.isNoise ? "noise" : ""].join(" ").trim();
     const rest = row.bytes.length - LOG_BYTES;
     const hex = hexOf(row.bytes.slice(0, LOG_BYTES)) + (rest > 0 ? ` … and ${rest} more` : "");
-    made.append(span("time", `${row.time.toFixed(3)} s`), span("way-of", row.way), span("says", row.says),
+    made.append(span("time", `${row.time.toFixed(3)} s`), span("way-of", row.way), span("says", row.says()),
       span("bytes", hex));
     return made;
   }
@@ -49,7 +49,8 @@ function makeLineLog(element, draw = requestAnimationFrame) {
   }
 
   return {
-    // A row is {time, way, says, bytes, isSent, isNoise}, or a {comment}.
+    // A row is {time, way, says, bytes, isSent, isNoise}, or a {comment}; what it `says` is worked out when
+    // it is drawn.
     add(row) {
       rows.push(row);
       fresh += 1;

@@ -17,15 +17,18 @@ function showLine(protocol, codec) {
   byId("line-send").closest(".line-send").hidden = why !== null;
   if (why !== null) return;
 
+  const settings = makeLineSettings(data);
   const line = makeSerialLine({ serial: navigator.serial, received, changed, failed, wait });
   const log = makeLineLog(byId("line-log"));
   // The session at hand and the one before it, whose counters go on being shown.
   let session = null, last = null, isCounting = false;
   let recording = null, startedAt = 0, name = "a serial port", timer = 0, isSaving = false, listed = 0;
+  // What is not in the list yet.
+  const fresh = [];
   // What the encoder has, and the state that was shown last.
   let encoded = encodedSoFar(), shownState = "";
 
-  const seconds = (at) => (at - startedAt) / 1000;
+  const seconds = (at) => Math.max(0, at - startedAt) / 1000;
 
   // What the encoder has made before this script came; later it says so.
   function encodedSoFar() {
@@ -33,22 +36,7 @@ function showLine(protocol, codec) {
     return { message: byId("message").value, bytes: hex ? parseHex(hex) : null };
   }
 
-  // ---- Settings
-
-  function settings() {
-    const baudRate = byId("line-baud").valueAsNumber;
-    const { dataBits, stopBits, parity } = data;
-    return { baudRate, dataBits, stopBits, parity, flowControl: "none" };
-  }
-
-  function showSettings() {
-    const { baudRate, dataBits, stopBits, parity } = settings();
-    const rate = Number.isInteger(baudRate) && baudRate > 0 ? `${baudRate} baud` : "no rate";
-    const echo = byId("line-echo").checked ? ", local echo" : "";
-    byId("line-summary").textContent = `${rate}, ${dataBits} data bits, `
-      + `${parity === "none" ? "no" : parity} parity, ${stopBits} stop bit${stopBits > 1 ? "s" : ""}${echo}`;
-    byId("line-baud").setAttribute("aria-invalid", String(!byId("line-baud").validity.valid || rate === "no rate"));
-  }
+  const counted = (number) => number.toLocaleString("en");
 
   // ---- What happens on the line
 
@@ -57,11 +45,7 @@ function showLine(protocol, codec) {
       startedAt = performance.now();
       recording = makeRecording(new Date());
     }
-    const direction = byId("line-listen").value === "any" ? null : data.received;
-    session = makeSession({
-      codec, protocol, direction, baud: settings().baudRate, localEcho: byId("line-echo").checked,
-      show, answered, unanswered,
-    });
+    session = makeSession({ codec, protocol, ...settings.ofSession(), show, answered, unanswered });
     window.workbench.begin(name);
     listed = 0;
     comment(`connected to ${name}`);
@@ -95,7 +79,8 @@ function showLine(protocol, codec) {
   // A timer that comes late says nothing of the line: bytes may have come that are not yet read.
   function tick(now, isLate = false) {
     if (!session) return;
-    if (!isLate && session.tick(now)) recording.add({ time: seconds(now), who: "", what: "quiet", bytes: [] });
+    const isQuiet = !isLate && session.tick(now);
+    if (isQuiet) recording.add({ time: seconds(now), who: "", what: "quiet", bytes: [] });
     clearTimeout(timer);
     const due = session.due;
     if (due !== null) {
@@ -110,26 +95,31 @@ function showLine(protocol, codec) {
 
   function show({ at, isSent, event, names, sender, answer }) {
     const time = seconds(at), isNoise = event.type !== "message", bytes = Uint8Array.from(event.bytes);
-    const [noise, either] = ["noise", "either"];
-    let who = sender ?? either;
-    if (isNoise) who = sender === null ? `${either} ${noise}` : noise;
-    recording.add({ time, who, what: isNoise ? event.reason : names.join(" or "), bytes });
-    let says = isNoise ? `${event.type}: ${event.reason}` : saysOf(event);
-    if (names.length > 1) says = says.replace(event.message, names.join(" or "));
-    if (answer && !answer.late) says += ` (${milliseconds(answer.took)})`;
+    const noise = sender === null ? "either noise" : "noise";
+    const what = isNoise ? event.reason : names.join(" or ");
+    recording.add({ time, who: isNoise ? noise : sender ?? "either", what, bytes });
+    const says = () => wordsOfEntry(event, names, answer);
     log.add({ time, way: wayOf(sender), says, bytes, isSent, isNoise });
-    // The list above grows as long as it can be searched with ease, and begins anew then.
-    if (listed === LISTED_BOUND) {
-      window.workbench.begin(name);
-      listed = 0;
-      comment(`the list above begins anew after ${LISTED_BOUND.toLocaleString("en")} entries`);
-    }
-    listed += 1;
-    window.workbench.append([{ time, sender, event }]);
+    if (!fresh.length) queueMicrotask(list);
+    fresh.push({ time, sender, event });
   }
 
-  const wayOf = (sender) => protocol.directions.find((way) => way.sender === sender)?.text.replace(" to ", " → ")
-    ?? "either";
+  // What came at once goes to the list above at once. It grows as long as it can be searched with
+  // ease, and begins anew then.
+  function list() {
+    if (listed > LISTED_BOUND) {
+      window.workbench.begin(name);
+      listed = 0;
+      comment(`the list above has begun anew after ${counted(LISTED_BOUND)} entries`);
+    }
+    listed += fresh.length;
+    window.workbench.append(fresh.splice(0));
+  }
+
+  function wayOf(sender) {
+    const way = protocol.directions.find((each) => each.sender === sender);
+    return way ? way.text.replace(" to ", " → ") : "either";
+  }
 
   function count() {
     if (isCounting) return;
@@ -140,14 +130,15 @@ function showLine(protocol, codec) {
       if (session) last = session;
       if (!counts) return;
       for (const each of ["bytes", "frames", "noise", "errors", "sent"]) {
-        byId(`line-${each}`).textContent = counts[each].toLocaleString("en");
+        byId(`line-${each}`).textContent = counted(counts[each]);
       }
-      byId("line-bound").hidden = !recording?.dropped;
-      byId("line-bound").textContent = recording?.dropped
-        ? `The recording holds ${RECORDING_BOUND / 1024 / 1024} MB: the ${recording.dropped.toLocaleString("en")} oldest entries were dropped.`
-        : "";
+      const dropped = recording?.dropped ?? 0;
+      byId("line-bound").hidden = !dropped;
+      byId("line-bound").textContent = `The recording holds ${RECORDING_BOUND / 1024 / 1024} MB: `
+        + `the ${counted(dropped)} oldest entries were dropped.`;
     });
   }
+
   function failed(error) {
     if (session) session.counts.errors += 1;
     comment(wordsOfFault(error));
@@ -165,9 +156,9 @@ function showLine(protocol, codec) {
     reply(wordsOfAnswer(answer), answer.late || answer.missing.length ? "no" : "yes");
   }
 
-  function unanswered(question) {
+  function unanswered(question, isEnded) {
     session.counts.errors += 1;
-    const [what, why] = wordsOfSilence(question, session.counts);
+    const [what, why] = wordsOfSilence(question, session.counts, isEnded);
     reply(`${what} ${why}`, "no");
     comment(what);
   }
@@ -186,7 +177,10 @@ function showLine(protocol, codec) {
     try {
       await line.write(bytes);
     } catch (error) {
-      if (session) session.counts.errors += 1;
+      if (session) {
+        session.counts.errors += 1;
+        session.forget(question);
+      }
       reply(`${message} was not sent.${reasonOf(error)}`, "no");
       comment(`${message} was not sent`);
       count();
@@ -205,13 +199,6 @@ function showLine(protocol, codec) {
 
   // ---- The port
 
-  const STATES = {
-    closed: "Not connected.",
-    choosing: "Choose the port of the board in the list that the browser shows.",
-    opening: "Opening the port …",
-    closing: "Closing the port …",
-  };
-
   function changed(state, error) {
     if (state === "open" && shownState !== "open") {
       name = nameOfPort(line.port);
@@ -221,8 +208,8 @@ function showLine(protocol, codec) {
       if (state === "lost") comment("the line was lost");
       end();
     }
-    let [text, advice] = [STATES[state], ""];
-    if (state === "open") text = `Connected to ${name}, at ${settings().baudRate} baud.`;
+    let [text, advice] = [WORDS_OF_STATE[state], ""];
+    if (state === "open") text = `Connected to ${name}, at ${settings.ofPort().baudRate} baud.`;
     if (state === "lost") [text, advice] = wordsOfLoss(error);
     else if (error) [text, advice] = wordsOfFailure(error, shownState === "opening");
     // News of other ports changes nothing of what is said of this one.
@@ -246,7 +233,7 @@ function showLine(protocol, codec) {
     close.hidden = isFree && line.state !== "lost";
     close.textContent = line.state === "lost" ? "Give up" : "Disconnect";
     if (hadFocus && document.activeElement === document.body) (connect.hidden ? close : connect).focus();
-    for (const field of ["line-baud", "line-listen", "line-echo"]) byId(field).disabled = !isFree || line.state === "lost";
+    settings.disable(!isFree || line.state === "lost");
   }
 
   // The ports that were allowed before need no choice.
@@ -263,54 +250,24 @@ function showLine(protocol, codec) {
   }
 
   function connect(start) {
-    showSettings();
-    if (byId("line-baud").getAttribute("aria-invalid") === "true") {
-      byId("line-baud").closest("details").open = true;
-      byId("line-status").textContent = "The rate of the line is a whole number of bits per second, such as "
-        + `${data.baud}.`;
-      byId("line-baud").focus();
-      return;
-    }
-    start(settings());
+    const problem = settings.problem();
+    if (problem) byId("line-status").textContent = problem;
+    else start(settings.ofPort());
   }
 
   // ---- The recording
-
-  // The text as parts of a file, made in slices, so that the page stays alive.
-  async function recorded() {
-    const directions = new Map(protocol.directions.map(({ key, sender }) => [sender, key]));
-    const say = ({ who, bytes }) => {
-      const event = directions.has(who) ? codec.decodeFrame(bytes, directions.get(who)) : {};
-      return event.message && saysOf(event);
-    };
-    const parts = [];
-    for (const piece of recording.pieces(name, say)) {
-      parts.push(piece);
-      await wait(0);
-    }
-    const day = dayAndZone(new Date()).slice(0, 19).replace(" ", "_").replaceAll(":", "");
-    return new File(parts, `${protocol.name}_${day}.hex`, { type: "text/plain" });
-  }
 
   async function withRecording(use) {
     if (isSaving || !recording) return;
     isSaving = true;
     byId("line-saving").textContent = "Writing the recording …";
     try {
-      const file = await recorded();
+      const file = await fileOf(recording, { name, codec, protocol, rest: () => wait(0) });
       use(file);
-      byId("line-saving").textContent = `${file.name}: ${recording.count.toLocaleString("en")} entries.`;
+      byId("line-saving").textContent = `${file.name}: ${counted(recording.count)} entries.`;
     } finally {
       isSaving = false;
     }
-  }
-
-  function download(file) {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(file);
-    link.download = file.name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
   }
 
   function clear() {
@@ -327,7 +284,7 @@ function showLine(protocol, codec) {
   byId("line-connect").addEventListener("click", () => connect(line.choose));
   byId("line-close").addEventListener("click", () => line.close());
   byId("line-send").addEventListener("click", send);
-  byId("line-download").addEventListener("click", () => withRecording(download));
+  byId("line-download").addEventListener("click", () => withRecording(saveFile));
   byId("line-load").addEventListener("click", () => withRecording((file) => window.workbench.openFile(file)));
   byId("line-clear").addEventListener("click", clear);
   byId("line-hold").addEventListener("click", ({ target }) => {
@@ -335,15 +292,12 @@ function showLine(protocol, codec) {
     target.setAttribute("aria-pressed", String(isHeld));
     log.hold(isHeld);
   });
-  for (const field of ["line-baud", "line-echo"]) byId(field).addEventListener("input", showSettings);
   addEventListener("pagehide", () => line.close());
   document.addEventListener("encoded", ({ detail }) => {
     encoded = detail;
     offerToSend();
   });
 
-  if (data.received === null) byId("line-listen").value = "any";
-  showSettings();
   changed("closed", null);
 }
 

@@ -41,7 +41,8 @@ function makeRecording(began, { bound = RECORDING_BOUND, chunkSize = CHUNK_SIZE 
   function chunkFor(room, micros) {
     const last = chunks.at(-1);
     if (last && last.end + room <= last.bytes.length) return last;
-    const chunk = { bytes: new Uint8Array(Math.max(chunkSize, room)), end: 0, count: 0, first: micros, last: micros };
+    const bytes = new Uint8Array(Math.max(chunkSize, room));
+    const chunk = { bytes, end: 0, count: 0, first: micros, last: micros };
     chunks.push(chunk);
     size += chunk.bytes.length;
     while (size > bound && chunks.length > 1) {

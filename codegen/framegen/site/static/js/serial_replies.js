@@ -1,7 +1,8 @@
 // Which message answers which question. Times are in milliseconds.
 "use strict";
 
-// How long the other end may take for a reply, beyond the time on the wire; the Python client waits as long.
+// How long the other end may take for a reply, beyond the time on the wire, if the user does not say;
+// the Python client waits as long.
 const REPLY_TIMEOUT_MS = 250;
 // So long after a question was given up, a reply to it is still known as its own.
 const LATE_MS = 10_000;
@@ -16,7 +17,7 @@ function valuesAt(fields, path) {
 }
 
 // `data` is what line_data.py says: the exchanges and the link. `baud` is the rate of the line.
-function makeReplies(data, baud) {
+function makeReplies(data, baud, timeout = REPLY_TIMEOUT_MS) {
   let pending = [], lost = [];
   const onWire = (bytes) => (1000 * bytes * data.bitsPerByte) / baud;
   const addressOf = (event, path) => event.rows.find((row) => row.path === path)?.value;
@@ -53,7 +54,7 @@ function makeReplies(data, baud) {
     sent(event, now) {
       const exchange = data.exchanges[event.message];
       if (!exchange?.reply) return null;
-      const size = event.bytes.length, within = onWire(size + exchange.largest) + REPLY_TIMEOUT_MS;
+      const size = event.bytes.length, within = onWire(size + exchange.largest) + timeout;
       const question = { event, exchange, sentAt: now, within, until: now + within };
       pending.push(question);
       return question;
@@ -74,6 +75,8 @@ function makeReplies(data, baud) {
       else pending = pending.filter((each) => each !== question);
       return { question, event, took: now - question.sentAt, late, missing: missing(question, event) };
     },
+
+    forget(question) { pending = pending.filter((each) => each !== question); },
 
     // The questions whose time is over.
     expire(now) {

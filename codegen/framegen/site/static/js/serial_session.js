@@ -9,18 +9,20 @@ const QUIET_MS = 50;
 const ECHO_MS = 250;
 
 // `show(entry)` gets all that passes: {at, sender, isSent, event, names}. `answered(answer)` gets the
-// answers of makeReplies, `unanswered(question)` the questions that have none. `direction` is what is
-// listened to, null for both ends of the line.
-function makeSession({ codec, protocol, direction, baud, localEcho, show, answered, unanswered }) {
+// answers of makeReplies, `unanswered(question, isEnded)` the questions that have none. `direction` is what
+// is listened to, null for both ends of the line.
+function makeSession({ codec, protocol, direction, baud, localEcho, timeout, show, answered, unanswered }) {
   const data = protocol.line, stream = codec.makeStream({ direction });
-  const replies = makeReplies(data, baud), echo = localEcho ? makeLocalEcho() : null;
+  const replies = makeReplies(data, baud, timeout), echo = localEcho ? makeLocalEcho() : null;
   const counts = { bytes: 0, frames: 0, noise: 0, errors: 0, sent: 0, echoes: 0 };
   const senders = new Map(protocol.directions.map(({ key, sender }) => [key, sender]));
   let fed = 0, decided = 0, lastByteAt = 0;
 
   // The names of the messages that some bytes may be, and who has sent them, null for either.
   function origin(event) {
-    if (direction !== null) return { names: event.message ? [event.message] : [], sender: senders.get(direction) };
+    if (direction !== null) {
+      return { names: event.message ? [event.message] : [], sender: senders.get(direction) };
+    }
     if (event.type !== "message") return { names: [], sender: null };
     const found = protocol.directions.filter(({ key }) => codec.decodeFrame(event.bytes, key).message);
     const names = found.map(({ key }) => codec.decodeFrame(event.bytes, key).message);
@@ -70,6 +72,9 @@ function makeSession({ codec, protocol, direction, baud, localEcho, show, answer
       return replies.sent(event, now);
     },
 
+    // A question was not sent after all.
+    forget: replies.forget,
+
     // So late is it now; all that came before has been received. Says whether half a frame was given up.
     tick(now) {
       if (echo) {
@@ -81,7 +86,7 @@ function makeSession({ codec, protocol, direction, baud, localEcho, show, answer
       if (quiet) takeIn(stream.flush(), lastByteAt);
       // A reply that is just arriving gets a little longer.
       const until = fed > decided ? now - REPLY_TIMEOUT_MS : now;
-      for (const question of replies.expire(until)) unanswered(question);
+      for (const question of replies.expire(until)) unanswered(question, false);
       return quiet;
     },
 
@@ -90,7 +95,7 @@ function makeSession({ codec, protocol, direction, baud, localEcho, show, answer
       const pending = fed > decided;
       if (pending) takeIn(stream.flush(), lastByteAt);
       echo?.clear();
-      for (const question of replies.clear()) unanswered(question);
+      for (const question of replies.clear()) unanswered(question, true);
       return pending;
     },
 

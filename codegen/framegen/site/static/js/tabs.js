@@ -31,7 +31,7 @@
   groups.forEach((group, number) => {
     const list = document.createElement("div");
     list.setAttribute("role", "tablist");
-    if (group.getAttribute("aria-label")) list.setAttribute("aria-label", group.getAttribute("aria-label"));
+    if (group.dataset.label) list.setAttribute("aria-label", group.dataset.label);
     const sections = [...group.querySelectorAll(":scope > [data-tab]")];
     sections.forEach((section, place) => {
       const tab = list.appendChild(document.createElement("button"));

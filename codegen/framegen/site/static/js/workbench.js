@@ -1,6 +1,9 @@
 // The page: what is typed, dropped or comes from a line goes to the list, and the state to the address.
 "use strict";
 
+// A longer text is kept like a file, out of the field.
+const WORKBENCH_FIELD = 1_000_000;
+
 const protocol = JSON.parse(byId("protocol").textContent);
 const codec = makeCodec(protocol);
 
@@ -8,14 +11,18 @@ window.workbench = (() => {
   const field = byId("hex"), direction = byId("direction"), status = byId("decoded");
   const problem = byId("problem"), bar = byId("progress"), source = byId("source");
   const incoming = [...direction.options].filter(({ dataset }) => dataset.variant === "from");
-  const says = captureWords(protocol, incoming.length === 1 ? incoming[0].value : null), exports = makeExport(codec, protocol);
+  const says = captureWords(protocol, incoming.length === 1 ? incoming[0].value : null);
+  const exports = makeExport(codec, protocol);
   // What is decoded: a file, a pasted text that is too long for the field, or what the field holds.
-  let file = null, capture = null, seen = null, isLive = false, isReading = false, addressTimer = 0, drawn = 0;
+  let file = null, capture = null, seen = null, isLive = false, isReading = false;
+  let addressTimer = 0, drawn = 0;
 
   const detail = makeDetail(byId("event"), { codec, protocol, take: takeFrame, edit: editEvent });
   const list = makeEventList({ codec, protocol, detail });
   const input = makeInput({ says, progress: showProgress });
-  const encoder = makeEncoder({ codec, changed: keepAddress, decode: (frame) => setText(toHex(frame), "push") });
+  const encoder = makeEncoder({
+    codec, changed: keepAddress, decode: (frame) => setText(toHex(frame), "push"),
+  });
 
   // ---- Decoding
 
@@ -55,11 +62,12 @@ window.workbench = (() => {
 
   function showStatus() {
     const { size, messages, noise, unknown } = capture.seen;
-    const form = seen && seen.bytes ? `Read as ${seen.name}${seen.lines ? `, ${counted(seen.lines, "line")}` : ""}. ` : "";
+    const lines = seen && seen.lines ? `, ${counted(seen.lines, "line")}` : "";
+    const form = seen && seen.bytes ? `Read as ${seen.name}${lines}. ` : "";
     const frames = unknown ? `, ${counted(unknown, "unknown frame")} in it` : "";
-    status.textContent = size
-      ? `${form}${counted(size, "byte")}: ${counted(messages, "message")}, ${counted(noise, "byte")} of noise${frames}.`
-      : file || isLive ? "" : "Paste bytes, or drop a file here.";
+    const totals = `${counted(size, "byte")}: ${counted(messages, "message")}`;
+    const empty = file || isLive ? "" : "Paste bytes, or drop a file here.";
+    status.textContent = size ? `${form}${totals}, ${counted(noise, "byte")} of noise${frames}.` : empty;
     byId("exporting").hidden = !size;
   }
 
@@ -83,8 +91,9 @@ window.workbench = (() => {
       revealSelection(error.line);
     });
     const raw = button("Read the file as raw bytes", () => openFile(file.blob, { isRaw: true }));
-    problem.replaceChildren(make("p", {}, `Line ${error.line}, column ${error.column}: ${error.message}. `,
-      `${error.hint[0].toUpperCase()}${error.hint.slice(1)}${/[?.]$/.test(error.hint) ? "" : "."}`), file ? raw : show);
+    const hint = error.hint[0].toUpperCase() + error.hint.slice(1) + (/[?.]$/.test(error.hint) ? "" : ".");
+    const said = `Line ${error.line}, column ${error.column}: ${error.message}. ${hint}`;
+    problem.replaceChildren(make("p", {}, said), file ? raw : show);
     problem.hidden = false;
     field.setAttribute("aria-invalid", String(!file));
     status.textContent = "";
@@ -128,16 +137,12 @@ window.workbench = (() => {
 
   // Put a frame in the place of an event's bytes.
   function takeFrame(event, frame) {
-    const isAll = event.size === capture.seen.size || file || capture.wires > 1 || capture.seen.size > INPUT_SHORT;
-    const before = isAll ? [] : bytesOf(0, event.at), after = isAll ? [] : bytesOf(event.at + event.size, capture.seen.size);
-    setText(toHex(Uint8Array.from([...before, ...frame, ...after])), "push");
-    list.choose(capture.indexAt(isAll ? 0 : event.at));
+    const { size } = capture.seen, isAlone = file || capture.wires > 1 || size > INPUT_SHORT;
+    const before = isAlone ? [] : capture.slice(0, event.at);
+    const after = isAlone ? [] : capture.slice(event.at + event.size, size);
+    setText(toHex([...before, ...frame, ...after]), "push");
+    list.choose(capture.indexAt(isAlone ? 0 : event.at));
     byId("events").focus();
-  }
-
-  function bytesOf(start, end) {
-    const first = capture.event(0);
-    return [...first.rest(start, end)];
   }
 
   function editEvent(event) {
@@ -152,7 +157,8 @@ window.workbench = (() => {
 
   function addressNow() {
     const isPlain = seen && seen.name === "hex" && capture.size && capture.seen.size <= ADDRESS_LONGEST / 2;
-    const text = file || isLive ? null : isPlain ? toHex(bytesOf(0, capture.seen.size)).replace(/ /g, "") : field.value;
+    const hex = isPlain ? toHex(capture.slice(0, capture.seen.size)).replace(/ /g, "") : field.value;
+    const text = file || isLive ? null : hex;
     return writeAddress({ text, direction: direction.value, ...encoder.state() });
   }
 
@@ -183,28 +189,8 @@ window.workbench = (() => {
     const { query, isWhole } = addressNow();
     history.replaceState(null, "", `?${query}`);
     await copyText(location.href);
-    announce(isWhole ? "The link was copied"
-      : "The link was copied without the capture, which is too long for an address: send the recording as a file");
-  }
-
-  // ---- Files to download
-
-  async function save(form) {
-    const { head, line, type, ending } = exports[form], own = capture, parts = [head];
-    let lines = [], since = performance.now();
-    for (let index = 0; index < own.size; index++) {
-      lines.push(line(own.event(index)));
-      if (lines.length < 4096 && index + 1 < own.size) continue;
-      parts.push(new Blob([`${lines.join("\n")}\n`]));
-      lines = [];
-      if (performance.now() - since > INPUT_SLICE) {
-        announce(`Writing: ${Math.round((100 * index) / own.size)} percent`);
-        await nextTurn();
-        since = performance.now();
-      }
-    }
-    download(parts, type, `${protocol.name}-capture.${ending}`);
-    announce(`${counted(own.size, "event")} saved as ${protocol.name}-capture.${ending}`);
+    announce(isWhole ? "The link was copied" : "The link was copied without the capture, which is too long "
+      + "for an address: save it as a recording, and send the file");
   }
 
   // ---- Live traffic
@@ -233,16 +219,23 @@ window.workbench = (() => {
 
   // ---- What people do
 
-  field.addEventListener("input", () => {
+  function typed() {
     file = null;
     source.hidden = true;
     decode();
-  });
-  field.addEventListener("paste", (event) => {
-    const text = event.clipboardData ? event.clipboardData.getData("text/plain") : "";
-    if (text.length < 1_000_000) return;
+  }
+
+  field.addEventListener("input", typed);
+  // Browsers take a minute to insert some thousands of lines as if they were typed.
+  field.addEventListener("beforeinput", (event) => {
+    const text = event.data ?? event.dataTransfer?.getData("text/plain") ?? "";
+    if (text.length < INPUT_SHORT) return;
     event.preventDefault();
-    openFile(new Blob([text]), { name: "What was pasted" });
+    if (text.length > WORKBENCH_FIELD) openFile(new Blob([text]), { name: "What was pasted" });
+    else {
+      field.setRangeText(text, field.selectionStart, field.selectionEnd, "end");
+      typed();
+    }
   });
   direction.addEventListener("change", () => {
     keepAddress(true);
@@ -272,7 +265,9 @@ window.workbench = (() => {
     if (/^(0x[0-9a-f]+|[0-9]+)$/i.test(text)) list.goTo(Number(text));
     else announce("Write the offset of a byte, like 120 or 0x78");
   });
-  for (const form of ["csv", "json", "recording"]) byId(`save-${form}`).addEventListener("click", () => save(form));
+  for (const [name, form] of Object.entries(exports)) {
+    byId(`save-${name}`).addEventListener("click", () => saveCapture(capture, form, protocol.name));
+  }
   for (const form of document.forms) form.addEventListener("submit", (event) => event.preventDefault());
   addEventListener("popstate", () => openAddress(false));
   addEventListener("dragover", (event) => {
@@ -291,5 +286,11 @@ window.workbench = (() => {
   });
 
   openAddress(true);
-  return { openFile: takeFile, append, begin };
+  return {
+    openFile: takeFile, append, begin,
+    // What the encoder has: the message, and its frame or null.
+    get encoded() {
+      return { message: encoder.state().message, bytes: encoder.frame() };
+    },
+  };
 })();

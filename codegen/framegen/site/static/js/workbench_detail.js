@@ -9,7 +9,8 @@ const DETAIL_ENDS = 32, DETAIL_MORE = 4096, DETAIL_EXPLAINED = 2048;
 function badgeOf({ key, sender, receiver }) {
   const option = [...byId("direction").options].find(({ value }) => value === key);
   return make("span", { class: `way ${option ? option.dataset.variant : ""}` }, sender, " ",
-    make("span", { "aria-hidden": "true" }, "→"), make("span", { class: "visually-hidden" }, "to"), " ", receiver);
+    make("span", { "aria-hidden": "true" }, "→"), make("span", { class: "visually-hidden" }, "to"),
+    " ", receiver);
 }
 
 // Text with the pieces in backticks as code.
@@ -19,7 +20,8 @@ const withCode = (text) => text.split("`").map((piece, i) => (i % 2 ? make("code
 function makeDetail(element, { codec, take, edit }) {
   function show(event) {
     const explained = codec.explain(event.bytes.slice(0, DETAIL_EXPLAINED), event.direction);
-    element.replaceChildren(heading(event), ...(event.kind ? readings(event, explained) : refused(event, explained)));
+    const shown = event.kind ? readings(event, explained) : refused(event, explained);
+    element.replaceChildren(heading(event), ...shown);
     element.hidden = false;
   }
 
@@ -28,7 +30,8 @@ function makeDetail(element, { codec, take, edit }) {
     const last = event.at + event.size - 1;
     const place = event.size === 1 ? `byte ${event.at}` : `bytes ${event.at} to ${last}`;
     const facts = [`${counted(event.size, "byte")}, ${place}`];
-    if (event.time !== null) facts.push(`at ${timeInWords(event.time, event.isClock)}${event.isClock ? "" : " s"}`);
+    const time = timeInWords(event.time, event.isClock);
+    if (time) facts.push(event.isClock ? `at ${time}` : `at ${time} s`);
     if (event.channel) facts.push(`wire ${event.channel}`);
     return make("div", { class: "head" },
       make("h3", { id: "event-title", class: event.kind ? "yes" : "no" }, title),
@@ -52,10 +55,12 @@ function makeDetail(element, { codec, take, edit }) {
   }
 
   function strip(rows, at) {
-    return make("ol", { class: "strip", "aria-label": "The bytes" }, ...rows.map((row) => make("li", { class: row.role },
+    const cells = rows.map((row) => make("li", { class: row.role },
       make("span", { class: "offset" }, String(at + row.at)), " ",
-      make("span", { class: "bytes" }, toHex(row.bytes)), " ", make("span", { class: "name" }, row.path), " ",
-      make("span", { class: "value" }, row.text))));
+      make("span", { class: "bytes" }, toHex(row.bytes)), " ",
+      make("span", { class: "name" }, row.path), " ",
+      make("span", { class: "value" }, row.text)));
+    return make("ol", { class: "strip", "aria-label": "The bytes" }, ...cells);
   }
 
   function facts(pairs) {
@@ -66,16 +71,21 @@ function makeDetail(element, { codec, take, edit }) {
   // Bytes that are no frame: where that shows, why in each direction, and what may have been meant.
   function refused(event, { refusals, hints, readings: whole }) {
     const at = refusals.length ? refusals[0].offset : null;
-    const isPart = event.size > DETAIL_EXPLAINED;
+    const notes = [];
+    if (event.size > DETAIL_EXPLAINED) {
+      notes.push(`Its first ${counted(DETAIL_EXPLAINED, "byte")} are explained.`);
+    }
+    if (whole.length) {
+      const names = whole.map(({ message }) => message).join(" or ");
+      notes.push(`It was recorded as noise, though by itself it would be ${names}.`);
+    }
+    const agreed = refusals.length && refusals[0].rows.length ? [
+      make("p", { class: "small quiet" }, "Right up to there:"), strip(refusals[0].rows, event.at),
+    ] : [];
     return [
-      bytesOf(event, at),
-      isPart ? make("p", { class: "quiet small" }, `Its first ${counted(DETAIL_EXPLAINED, "byte")} are explained.`) : null,
-      whole.length ? make("p", {}, `It was recorded as noise, though by itself it would be ${whole.map(({ message }) => message).join(" or ")}.`) : null,
-      reasons(event, refusals),
-      refusals.length && refusals[0].rows.length
-        ? make("div", {}, make("p", { class: "small quiet" }, "Right up to there:"), strip(refusals[0].rows, event.at)) : null,
-      ...hints.map((hint) => hinted(event, hint)),
-    ].filter(Boolean);
+      bytesOf(event, at), ...notes.map((note) => make("p", { class: "quiet small" }, note)),
+      reasons(event, refusals), ...agreed, ...hints.map((hint) => hinted(event, hint)),
+    ];
   }
 
   function reasons(event, refusals) {
@@ -103,7 +113,8 @@ function makeDetail(element, { codec, take, edit }) {
       const bytes = event.rest(from, to), place = refusedAt === null ? -1 : refusedAt - from;
       if (place < 0 || place >= bytes.length) return [toHex(bytes)];
       const before = toHex(bytes.subarray(0, place)), after = toHex(bytes.subarray(place + 1));
-      return [before ? `${before} ` : "", make("mark", {}, toHex(bytes.subarray(place, place + 1))), after ? ` ${after}` : ""];
+      const marked = make("mark", {}, toHex(bytes.subarray(place, place + 1)));
+      return [before && `${before} `, marked, after && ` ${after}`];
     };
     const isWhole = event.size <= 2 * DETAIL_ENDS + 16;
     let until = isWhole ? event.size : DETAIL_ENDS;
@@ -115,7 +126,8 @@ function makeDetail(element, { codec, take, edit }) {
       name();
     }, { class: "more" });
     const name = () => {
-      if (left() > 0) more.textContent = `… show ${left() > DETAIL_MORE ? `${counted(DETAIL_MORE, "byte")} of ` : ""}${counted(left(), "byte")} more …`;
+      const part = left() > DETAIL_MORE ? `${counted(DETAIL_MORE, "byte")} of ` : "";
+      if (left() > 0) more.textContent = `… show ${part}${counted(left(), "byte")} more …`;
       else more.remove();
     };
     shown.append(...piece(0, until));

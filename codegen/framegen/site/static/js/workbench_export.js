@@ -6,7 +6,8 @@ const EXPORT_COLUMNS = "offset,time,from,direction,message,or,fields,hex,reason"
 // A line of text for an event, without its end.
 function makeExport(codec, protocol) {
   const senderOf = (key) => protocol.directions.find((each) => each.key === key).sender;
-  const originOf = (event) => (event.direction === null || event.names.length > 1 ? "either" : senderOf(event.direction));
+  const originOf = ({ direction, names }) =>
+    (direction === null || names.length > 1 ? "either" : senderOf(direction));
   const cell = (text) => (/[",\n\r]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
 
   function fieldsOf({ kind, bytes }) {
@@ -29,8 +30,8 @@ function makeExport(codec, protocol) {
     }
     const [name, ...others] = event.names;
     const either = others.length ? `, "or": [${others.map(asciiJson).join(", ")}]` : "";
-    return `${begin}, "direction": "${event.kind.direction}", "message": "${name}", "fields": ${fieldsOf(event)}, `
-      + `"hex": "${toHex(event.bytes)}"${either}}`;
+    const what = `"direction": "${event.kind.direction}", "message": "${name}", "fields": ${fieldsOf(event)}`;
+    return `${begin}, ${what}, "hex": "${toHex(event.bytes)}"${either}}`;
   }
 
   // What an unknown frame says of itself: who it is from, its command, and its parameters.
@@ -38,14 +39,16 @@ function makeExport(codec, protocol) {
     const frame = protocol.frames.find(({ header }) => header.every((byte, i) => bytes[i] === byte));
     if (!frame) return "";
     const body = frame.slots.findIndex(({ role }) => role === "body");
-    const numbers = frame.slots.filter(({ role, at }) => at >= 0 && ["id", "address", "counter"].includes(role));
+    const known = ["id", "address", "counter"];
+    const numbers = frame.slots.filter(({ role, at }) => at >= 0 && known.includes(role));
     const tail = frame.slots.slice(body + 1).reduce((sum, { size }) => sum + size, 0);
     const said = numbers.map((slot) => {
       const own = [...bytes.slice(slot.at, slot.at + slot.size)];
       if (slot.order === "little") own.reverse();
       return `, ${asciiJson(slot.name)}: ${own.reduce((so, byte) => so * 256n + BigInt(byte), 0n)}`;
     });
-    return `${said.join("")}, "parameters": "${toHex(bytes.slice(frame.slots[body].at, bytes.length - tail))}"`;
+    const parameters = bytes.slice(frame.slots[body].at, bytes.length - tail);
+    return `${said.join("")}, "parameters": "${toHex(parameters)}"`;
   }
 
   // A line of a recording, which `decode`, `replay` and this page read.
@@ -61,6 +64,24 @@ function makeExport(codec, protocol) {
     json: { head: "", line: asJson, type: "application/x-ndjson", ending: "jsonl" },
     recording: { head: "", line: asRecording, type: "text/plain", ending: "hex" },
   };
+}
+
+// Write a capture as a file, a slice at a time.
+async function saveCapture(capture, { head, line, type, ending }, title) {
+  const parts = [head], name = `${title}-capture.${ending}`;
+  let lines = [], since = performance.now();
+  for (let index = 0; index < capture.size; index++) {
+    lines.push(line(capture.event(index)));
+    if (lines.length < 4096 && index + 1 < capture.size) continue;
+    parts.push(new Blob([`${lines.join("\n")}\n`]));
+    lines = [];
+    if (performance.now() - since > INPUT_SLICE) {
+      await nextTurn();
+      since = performance.now();
+    }
+  }
+  download(parts, type, name);
+  announce(`${counted(capture.size, "event")} saved as ${name}`);
 }
 
 // Hand a file to the browser, which saves it where downloads go.

@@ -52,8 +52,8 @@ function makeEventList({ codec, protocol, detail }) {
   function isWanted(code) {
     if (filter.code !== undefined) return code === filter.code;
     const { kind, isEither, type } = capture.meaning(code);
-    return filter.type === "either" ? isEither
-      : filter.direction ? Boolean(kind) && !isEither && kind.direction === filter.direction : type === filter.type;
+    if (filter.direction) return Boolean(kind) && !isEither && kind.direction === filter.direction;
+    return type === filter.type;
   }
 
   function scan() {
@@ -94,7 +94,8 @@ function makeEventList({ codec, protocol, detail }) {
   function showTally() {
     const entries = [...capture.counts].sort(([a], [b]) => b - a).map(([code, { events, bytes }]) => {
       const { kind, type, reason, isEither } = capture.meaning(code);
-      const name = kind ? `${kind.name}${isEither ? " (either way)" : ""}` : `${type === "noise" ? "Noise" : "Unknown"}: ${reason}`;
+      const name = kind ? kind.name + (isEither ? " (either way)" : "")
+        : `${type === "noise" ? "Noise" : "Unknown"}: ${reason}`;
       const size = kind ? "" : `, ${counted(bytes, "byte")}`;
       return tallied({ code }, name, `${events.toLocaleString("en")}${size}`);
     });
@@ -107,13 +108,15 @@ function makeEventList({ codec, protocol, detail }) {
     });
     const hadFocus = tally.contains(document.activeElement) ? document.activeElement.dataset.key : null;
     tally.hidden = capture.counts.size < 2;
-    tally.replaceChildren(...[tallied(null, "All", capture.size.toLocaleString("en")), ...senders, ...entries].filter(Boolean));
+    const all = tallied(null, "All", capture.size.toLocaleString("en"));
+    tally.replaceChildren(...[all, ...senders, ...entries].filter(Boolean));
     if (hadFocus) tally.querySelector(`[data-key="${CSS.escape(hadFocus)}"]`)?.focus();
   }
 
   function tallied(wanted, name, number) {
     const key = JSON.stringify(wanted), isShown = key === JSON.stringify(filter);
-    const made = button(`${name} `, () => setFilter(wanted), { "aria-pressed": String(isShown), "data-key": key });
+    const attributes = { "aria-pressed": String(isShown), "data-key": key };
+    const made = button(`${name} `, () => setFilter(wanted), attributes);
     made.append(make("span", { class: "number" }, number));
     return make("li", {}, made);
   }
@@ -144,5 +147,10 @@ function makeEventList({ codec, protocol, detail }) {
     box.focus();
   }
 
-  return { show, setFilter, next, goTo, choose: (index) => list.choose(index), get chosen() { return list.chosen; } };
+  return {
+    show, next, goTo, choose: list.choose,
+    get chosen() {
+      return list.chosen;
+    },
+  };
 }

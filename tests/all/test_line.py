@@ -1,0 +1,504 @@
+"""Boards on the line of a page, in a real browser: what they say, and all that can go wrong."""
+
+from __future__ import annotations
+
+import io
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import busservo
+import lxservo
+import pytest
+from busservo import recordings
+from busservo._codec.decoder import StreamDecoder
+from busservo._frame.direction import RECEIVED
+from busservo_simulator import Faults, VirtualController
+from framegen.cli import main
+from lxservo_simulator import VirtualBus
+
+from tests.docs.browser import Visit, launched, needs_chromium
+from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
+from tests.independent import faults
+from tests.independent.board import Board
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+    from tests.docs.serial_host import End
+    from tests.independent.faults import Script
+
+AXE = NODE_MODULES / "axe-core" / "axe.min.js"
+VOLTAGE = busservo.BatteryVoltage(7500).encode()
+
+pytestmark = needs_chromium
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with a site for each of two protocols."""
+    out = tmp_path_factory.mktemp("stick")
+    for name in ("busservo", "lxservo"):
+        spec = str(ROOT / "spec" / f"{name}.yaml")
+        assert main(["docs", spec, "--out", str(out / name)]) == 0
+    return out
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with launched() as running:
+        yield running
+
+
+class Desk:
+    """A page, a port and a board."""
+
+    def __init__(self, browser: Browser, site: Path, end: End, **screen: Any) -> None:
+        self.context = browser.new_context(**screen)
+        self.host = SerialHost(self.context, end)
+        self.site = site
+        self.visits: list[Visit] = []
+
+    def open(self, protocol: str = "busservo") -> LiveTab:
+        """Open the workbench in a new tab."""
+        self.visits.append(Visit(self.context, self.site / protocol / "reference" / protocol))
+        return LiveTab(self.visits[-1].open("decoder.html"))
+
+    def end(self) -> None:
+        """Close all; fail if a page had errors, or asked for anything."""
+        for visit in self.visits:
+            visit.end()
+        self.context.close()
+
+
+@contextmanager
+def desk(browser: Browser, site: Path, end: End, **screen: Any) -> Iterator[Desk]:
+    made = Desk(browser, site, end, **screen)
+    yield made
+    made.end()
+
+
+def events(recording: bytes, sender: str | None = None) -> list[Any]:
+    """Return what Python reads in a recording of the page."""
+    found = recordings.read(io.BytesIO(recording))
+    return [entry.event for entry in found if sender in (None, entry.sender)]
+
+
+def data_of(found: list[Any]) -> bytes:
+    """Return the bytes of events."""
+    return b"".join(
+        event.encode() if isinstance(event, busservo.Message) else event.data for event in found
+    )
+
+
+# ---------------------------------------------------------------------------- what is said
+
+SENT = [
+    ("BatteryVoltageRead", {}, "BatteryVoltage voltage_mv=7500 mV, "),
+    ("ServoPositionsRead", {"servo_ids": "2,1"}, "ServoPositions positions=2:500,1:500, "),
+    ("ServoMove", {"time_ms": "100", "targets": "1:600"}, "ServoMove is sent. Nothing answers it."),
+    ("ServoUnload", {"servo_ids": "3"}, "ServoUnload is sent. Nothing answers it."),
+    ("ActionGroupStop", {}, "ActionGroupStop is sent. Nothing answers it, though"),
+]
+
+
+def test_what_is_sent_is_answered_or_said_to_have_no_answer(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        for name, values, reply in SENT:
+            live.send(name, **values)
+            live.reply(reply)
+        live.count("sent", len(SENT))
+        assert not board.servos[3].loaded
+        assert [type(event).__name__ for event in events(live.recording(), "host")] == [
+            name for name, *_ in SENT
+        ]
+
+
+def test_what_the_other_end_sends_is_not_sent(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        live.tab.locator("#message").select_option("BatteryVoltage")
+        assert live.tab.locator("#line-send").is_disabled()
+        expects = live.tab.locator("#line-expects").inner_text()
+        assert expects.startswith("BatteryVoltage is what the controller sends")
+        live.tab.locator("#message").select_option("BatteryVoltageRead")
+        assert live.tab.locator("#line-send").is_enabled()
+        assert made.host.written == b""
+
+
+@pytest.mark.parametrize("one_by_one", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_nothing_on_a_bad_line_is_lost(
+    browser: Browser, site: Path, seed: int, one_by_one: bool
+) -> None:
+    """All bytes are shown, in order; and what was whole is recorded as Python decodes it."""
+    bad = Faults(seed=seed, noise=0.3, lost_bytes=0.02, bit_flips=0.02, splits=0.3, duplicated=0.2)
+    board = VirtualController(baud=115200, faults=bad)
+    with board, desk(browser, site, VirtualEnd(board)) as made:
+        made.host.one_by_one = one_by_one
+        live = made.open()
+        live.connect()
+        live.tab.locator("#message").select_option("ServoPositionsRead")
+        for number in range(25):
+            board.press_button(number % 3)
+            live.tab.locator("#line-send").click()
+            live.tab.wait_for_timeout(20)
+        # Groups that run report their end.
+        live.tab.wait_for_timeout(2000)
+        live.count("bytes", len(made.host.given))
+        live.close()
+        found = events(live.recording(), "controller")
+        assert data_of(found) == made.host.given
+        assert len(found) > 25
+        decoder = StreamDecoder(RECEIVED)
+        known = [*decoder.feed(made.host.given), *decoder.flush()]
+        whole = [event for event in known if isinstance(event, busservo.Message)]
+        # Where a frame was given up after a silence, more may be found than in one piece.
+        assert sum(isinstance(event, busservo.Message) for event in found) >= len(whole) - 3
+
+
+def test_both_ends_are_told_apart_where_they_can_be(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.settings()
+        live.tab.locator("#line-listen").select_option("any")
+        live.connect()
+        for message in [busservo.BatteryVoltageRead(), busservo.ActionGroupStarted(3, 1)]:
+            made.host.said.append({"hex": message.encode().hex()})
+            live.tab.wait_for_timeout(100)
+        live.count("frames", 2)
+        ways = live.tab.locator("#line-log .way-of").all_inner_texts()
+        assert ways == ["host → controller", "either"]
+        assert live.rows()[1] == "ActionGroupRun or ActionGroupStarted group=3 times=1"
+        entries = [*recordings.read(io.BytesIO(live.recording()))]
+        assert [entry.sender for entry in entries] == ["host", None]
+
+
+# ---------------------------------------------------------------------------- replies
+
+SCRIPTS: dict[str, tuple[Script, str]] = {
+    "whole": (faults.whole, "BatteryVoltage voltage_mv={} mV, "),
+    "duplicated": (faults.duplicated(0.02), "BatteryVoltage voltage_mv={} mV, "),
+    "dropped": (faults.dropped, "No reply to BatteryVoltageRead within 2010 ms. "),
+    "cut": (faults.cut(4), "No reply to BatteryVoltageRead within 2010 ms. "),
+    "late": (faults.late(3), "BatteryVoltage came after all, "),
+}
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_a_reply_is_that_to_its_own_question(browser: Browser, site: Path, script: str) -> None:
+    """The independent board numbers its replies, so that it shows which question each answers."""
+    fault, reply = SCRIPTS[script]
+    board = Board(baud=9600, faults=lambda number: fault if number % 2 else faults.whole)
+    with desk(browser, site, IndependentEnd(board)) as made:
+        live = made.open()
+        live.connect(timeout=2000)
+        for number in range(1, 5):
+            live.send("BatteryVoltageRead")
+            expected = reply if number % 2 else "BatteryVoltage voltage_mv={} mV, "
+            live.reply(expected.format(number))
+            live.tab.wait_for_timeout(100)
+        assert board.accepted == board.questions == 4
+        live.count("sent", 4)
+
+
+def test_silence_is_said_in_plain_words(browser: Browser, site: Path) -> None:
+    board = VirtualController(faults=Faults(dropped=1.0))
+    with board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect(timeout=250)
+        live.send("BatteryVoltageRead")
+        assert "Nothing was ever heard on this line" in live.reply("No reply to ")
+        board.send_bytes(VOLTAGE)
+        live.count("frames", 1)
+        live.send("BatteryVoltageRead")
+        live.reply("BatteryVoltageRead is sent; BatteryVoltage is waited for.")
+        assert "Something else was heard" in live.reply("No reply to ")
+        live.count("errors", 2)
+
+
+# ---------------------------------------------------------------------------- what goes wrong
+
+FAULTS = {
+    "FramingError": "the rate of the line may be wrong",
+    "ParityError": "the settings of the line may be wrong",
+    "BreakError": "see that both grounds are joined",
+    "BufferOverrunError": "Bytes were lost",
+}
+
+
+def test_a_line_goes_on_after_errors(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        for number, name in enumerate(FAULTS, 1):
+            made.host.said.append({"error": name})
+            live.count("errors", number)
+        for said, words in zip(live.comments()[1:], FAULTS.values(), strict=True):
+            assert words in said
+        live.send("BatteryVoltageRead")
+        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+
+
+def test_a_cable_is_pulled_in_the_middle_of_a_frame(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        made.host.said.append({"hex": VOLTAGE[:4].hex()})
+        live.count("bytes", 4)
+        made.host.unplug(live.tab)
+        live.status("The line was lost")
+        assert "chosen anew" in live.advice()
+        assert live.tab.locator("#line-send").is_disabled()
+        made.host.plug_in(live.tab)
+        live.status("Connected to USB 1A86:7523")
+        live.send("BatteryVoltageRead")
+        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+        found = events(live.recording(), "controller")
+        assert [type(event).__name__ for event in found] == ["Noise", "BatteryVoltage"]
+        assert data_of(found) == VOLTAGE[:4] + VOLTAGE
+        connected = "connected to USB 1A86:7523"
+        assert live.comments() == [connected, "the line was lost", "disconnected", connected]
+        live.close()
+        assert not made.host.is_open
+
+
+def test_a_cable_is_pulled_while_a_reply_is_waited_for(browser: Browser, site: Path) -> None:
+    board = VirtualController(faults=Faults(dropped=1.0))
+    with board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        live.send("BatteryVoltageRead")
+        made.host.unplug(live.tab)
+        live.status("The line was lost")
+        live.reply("No reply to BatteryVoltageRead")
+        live.tab.get_by_role("button", name="Give up").click()
+        live.status("Not connected.")
+        assert not made.host.is_open
+
+
+def test_a_frame_that_cannot_be_sent_is_said_to_be_unsent(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        made.host.write_error = "UnknownError"
+        live.send("ActionGroupStop")
+        assert "The write has failed." in live.reply("ActionGroupStop was not sent.")
+        made.host.write_error = ""
+        live.send("BatteryVoltageRead")
+        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+
+
+def test_a_port_in_use_is_said_to_be_in_use(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        made.host.refused = True
+        live.tab.get_by_role("button", name="Connect your board").click()
+        live.status("The port cannot be opened: it is in use, or this user may not open it.")
+        assert "dialout" in live.advice()
+        made.host.refused = False
+        live.connect()
+        assert live.advice() == ""
+
+
+def test_a_second_tab_says_that_the_first_has_the_port(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        first, second = made.open(), made.open()
+        first.connect()
+        second.tab.get_by_role("button", name="Connect your board").click()
+        second.status("The port cannot be opened: it is in use")
+        assert "another tab of this browser" in second.advice()
+        first.close()
+        second.connect()
+
+
+def test_nothing_chosen_is_no_error(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        made.host.chosen = False
+        live.tab.get_by_role("button", name="Connect your board").click()
+        live.status("No port was chosen.")
+        assert "driver of the adapter" in live.advice()
+
+
+def test_a_port_that_was_allowed_before_needs_no_choice(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        made.host.chosen = False
+        made.host.plug_in(live.tab)
+        live.tab.get_by_role("button", name="Connect to USB 1A86:7523 again").click()
+        live.status("Connected to")
+
+
+def test_a_page_that_is_left_closes_its_port(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        live.tab.evaluate("() => dispatchEvent(new PageTransitionEvent('pagehide'))")
+        live.status("Not connected.")
+        assert not made.host.is_open
+
+
+def test_a_rate_that_is_none_opens_nothing(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.settings()
+        for rate in ["", "0", "-1", "9600.5"]:
+            live.tab.locator("#line-baud").fill(rate)
+            live.tab.get_by_role("button", name="Connect your board").click()
+            live.status("The rate of the line is a whole number")
+        live.tab.locator("#line-baud").fill("115200")
+        live.connect()
+        assert [each["baudRate"] for each in made.host.opened] == [115200]
+
+
+@pytest.mark.parametrize("said", [True, False])
+def test_a_single_wire_gives_back_what_is_sent(browser: Browser, site: Path, said: bool) -> None:
+    with VirtualBus(local_echo=True) as bus, desk(browser, site, VirtualEnd(bus)) as made:
+        live = made.open("lxservo")
+        live.settings()
+        live.tab.locator("#line-echo").set_checked(said)
+        live.connect()
+        name = next(
+            kind.__name__
+            for kind in lxservo.MESSAGES
+            if kind.__name__ in ("PositionRead", "ServoPositionRead")
+        )
+        live.send(name, servo_id="1")
+        live.reply("P")
+        frame = made.host.written
+        live.count("noise", 0 if said else len(frame))
+        live.count("bytes", len(made.host.given))
+
+
+# ---------------------------------------------------------------------------- a page that lasts
+
+
+def test_a_long_session_stays_small(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        block = (VOLTAGE * 2000).hex()
+        for _ in range(5):
+            made.host.said.append({"hex": block})
+        live.count("frames", 10_000)
+        assert live.tab.locator("#line-log li").count() <= 300
+        assert live.tab.locator("#content *").count() < 3500
+        assert len(events(live.recording())) == 10_000
+
+
+def test_the_list_is_held_and_goes_on(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        live.tab.get_by_role("button", name="Hold the list").click()
+        board.send_bytes(VOLTAGE)
+        live.count("frames", 1)
+        assert live.rows() == []
+        live.tab.get_by_role("button", name="Hold the list").click()
+        live.tab.wait_for_function(
+            "() => document.querySelectorAll('#line-log .says').length === 1"
+        )
+        live.tab.locator("#line-clear").click()
+        live.count("frames", 0)
+        assert live.rows() == []
+
+
+def test_the_recording_goes_to_the_list_of_the_page(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        live.send("BatteryVoltageRead")
+        live.reply("BatteryVoltage ")
+        live.close()
+        live.tab.get_by_role("button", name="Load it into the workbench").click()
+        live.tab.wait_for_function(
+            "() => document.getElementById('decoded').textContent.includes('10 bytes: 2 messages')"
+        )
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [380, 768, 1440])
+def test_a_page_after_use(browser: Browser, site: Path, width: int, scheme: str) -> None:
+    """With traffic, 200 bytes of noise and a lost line, nothing is cut off, and axe is content."""
+    screen = {"viewport": {"width": width, "height": 900}, "color_scheme": scheme}
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board), **screen) as made:
+        live = made.open()
+        live.connect()
+        live.send("ServoPositionsRead")
+        live.reply("ServoPositions ")
+        board.send_bytes(bytes(range(100)) * 2)
+        live.count("noise", 200)
+        for is_lost in (False, True):
+            if is_lost:
+                made.host.unplug(live.tab)
+                live.status("The line was lost")
+            assert live.tab.evaluate("document.documentElement.scrollWidth") <= width
+            if AXE.exists():
+                assert axe(live) == []
+
+
+def axe(live: LiveTab) -> list[str]:
+    """Return what axe finds in the panel and in the encoder."""
+    live.tab.evaluate(AXE.read_text("utf-8") + ";0")
+    found: list[str] = live.tab.evaluate(
+        """async () => (await axe.run({ include: [".line", ".line-send"] })).violations
+            .flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html}`))"""
+    )
+    return found
+
+
+def test_the_keyboard_is_enough(browser: Browser, site: Path) -> None:
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.tab.locator("#line-connect").focus()
+        live.tab.keyboard.press("Enter")
+        live.status("Connected to")
+        assert live.tab.evaluate("document.activeElement.id") == "line-close"
+        live.tab.locator("#line-send").focus()
+        live.tab.keyboard.press("Enter")
+        live.count("sent", 1)
+        assert live.tab.evaluate("document.activeElement.id") == "line-send"
+        live.tab.locator("#line-close").focus()
+        live.tab.keyboard.press("Enter")
+        live.status("Not connected.")
+        assert live.tab.evaluate("document.activeElement.id") == "line-connect"
+
+
+def test_a_browser_without_web_serial_says_so(browser: Browser, site: Path) -> None:
+    context = browser.new_context()
+    context.add_init_script("delete Navigator.prototype.serial")
+    visit = Visit(context, site / "busservo" / "reference" / "busservo")
+    tab = visit.open("decoder.html")
+    assert (
+        tab.locator("#line-unavailable")
+        .inner_text()
+        .startswith("This browser cannot open a serial port: it has no Web Serial.")
+    )
+    assert "busservo monitor" in tab.locator("#line-unavailable").inner_text()
+    assert not tab.locator("#line-connect").is_visible()
+    assert not tab.locator("#line-send").is_visible()
+    visit.end()
+    context.close()
+
+
+def test_a_page_from_the_disk_reaches_the_browsers_own_ports(browser: Browser, site: Path) -> None:
+    """Chromium counts the disk as secure, and the page's policy does not stand in the way."""
+    context = browser.new_context()
+    visit = Visit(context, site / "busservo" / "reference" / "busservo")
+    tab = visit.open("decoder.html")
+    assert tab.evaluate(
+        "async () => [isSecureContext, (await navigator.serial.getPorts()).length]"
+    ) == [
+        True,
+        0,
+    ]
+    assert tab.locator("#line-connect").is_visible()
+    visit.end()
+    context.close()

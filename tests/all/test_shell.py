@@ -1,0 +1,341 @@
+"""The frame of the site in a real browser: what every page has, used as readers use it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.cli import main
+
+from tests.docs.browser import Visit, launched, needs_chromium, texts
+from tests.docs.looks import WIDTHS, faults, violations
+from tests.docs.reference import NODE_MODULES, ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import Page as Tab
+
+AXE = NODE_MODULES / "axe-core" / "axe.min.js"
+MESSAGE = "reference/busservo/messages/ServoMove.html"
+PAGES = ["index.html", "getting-started.html", "project/contributing.html", MESSAGE]
+
+pytestmark = needs_chromium
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the site of this project, as `make docs` builds it."""
+    folder = tmp_path_factory.mktemp("stick") / "the site"
+    with pytest.MonkeyPatch.context() as patched:
+        patched.chdir(ROOT)
+        assert main(["docs", "--out", str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with launched() as running:
+        yield running
+
+
+@pytest.fixture
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
+    visit = Visit(context, folder)
+    yield visit
+    visit.end()
+
+
+def width(tab: Tab, pixels: int, height: int = 900) -> None:
+    tab.set_viewport_size({"width": pixels, "height": height})
+
+
+def focused(tab: Tab) -> str:
+    return str(tab.evaluate("document.activeElement.outerHTML.slice(0, 120)"))
+
+
+# ---------------------------------------------------------------------------- at any width
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_no_page_is_wider_than_the_display_or_has_a_dead_end(visit: Visit, path: str) -> None:
+    tab = visit.open(path)
+    found = []
+    for pixels in WIDTHS:
+        width(tab, pixels)
+        found += [(pixels, each) for each in faults(tab)]
+    assert found == []
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: make docs-tools")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("path", PAGES)
+def test_axe_finds_nothing(browser: Browser, folder: Path, path: str, scheme: str) -> None:
+    context = browser.new_context(color_scheme=scheme)
+    context.add_init_script(path=AXE)
+    visit = Visit(context, folder)
+    tab = visit.open(path)
+    found = []
+    for pixels in (380, 1440):
+        width(tab, pixels)
+        found += violations(tab, {})
+    assert found == []
+    width(tab, 380)
+    tab.get_by_role("button", name="Menu").click()
+    assert violations(tab, {}) == []
+    visit.end()
+    context.close()
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_inline_code_is_not_broken_at_a_hyphen_on_a_phone(visit: Visit, path: str) -> None:
+    tab = visit.open(path)
+    width(tab, 380)
+    broken = tab.evaluate(
+        "[...document.querySelectorAll('.word')]"
+        ".filter((word) => word.checkVisibility() && word.getClientRects().length > 1)"
+        ".map((word) => word.textContent)"
+    )
+    assert broken == []
+
+
+# ---------------------------------------------------------------------------- the sidebar
+
+
+def test_on_a_wide_display_the_sidebar_shows_where_one_is(visit: Visit) -> None:
+    tab = visit.open("reference/lxservo/messages/VoltageRead.html")
+    width(tab, 1440)
+    sidebar = tab.get_by_role("navigation", name="Documentation")
+    current = sidebar.locator("[aria-current=page]")
+    assert texts(current) == ["→ VoltageRead"] or "VoltageRead" in texts(current)[0]
+    outer, inner = sidebar.bounding_box(), current.bounding_box()
+    assert outer is not None
+    assert inner is not None
+    assert outer["y"] <= inner["y"]
+    assert inner["y"] + inner["height"] <= outer["y"] + outer["height"]
+    # The page itself has not moved for it, and does not grow with the messages.
+    assert tab.evaluate("scrollY") == 0
+    assert outer["height"] <= 900
+
+
+def test_on_a_phone_the_sidebar_folds_away(visit: Visit) -> None:
+    tab = visit.open(MESSAGE)
+    width(tab, 380)
+    sidebar = tab.locator("#sidebar")
+    assert not sidebar.is_visible()
+    tab.get_by_role("button", name="Menu").press("Enter")
+    assert sidebar.is_visible()
+    assert sidebar.get_by_role("link", name="ServoMove").is_visible()
+    tab.keyboard.press("Escape")
+    assert not sidebar.is_visible()
+    assert "Menu" in focused(tab)
+
+
+def test_without_a_script_all_can_be_reached(browser: Browser, folder: Path) -> None:
+    context = browser.new_context(java_script_enabled=False)
+    tab = context.new_page()
+    for pixels in (380, 1440):
+        width(tab, pixels)
+        tab.goto((folder / MESSAGE).as_uri())
+        if pixels == 380:
+            tab.get_by_role("button", name="Menu").click()
+        tab.locator("#sidebar").get_by_role("link", name="Getting started").click()
+        assert tab.url.endswith("getting-started.html")
+        assert [each for each in tab.locator("button.copy").all() if each.is_visible()] == []
+    context.close()
+
+
+# ---------------------------------------------------------------------------- contents, tabs
+
+
+def test_the_contents_mark_what_is_being_read(visit: Visit) -> None:
+    tab = visit.open("getting-started.html")
+    width(tab, 1440)
+    contents = tab.get_by_role("navigation", name="On this page")
+    link = contents.get_by_role("link").nth(5)
+    link.click()
+    tab.wait_for_function("() => document.querySelector('.contents [aria-current]')")
+    tab.wait_for_function(
+        "(text) => document.querySelector('.contents [aria-current]').textContent === text",
+        arg=link.inner_text(),
+    )
+    assert contents.locator("[aria-current]").count() == 1
+    # The heading that was led to is below the header.
+    top = tab.evaluate(
+        "document.getElementById(decodeURIComponent(location.hash.slice(1))).getBoundingClientRect().top"
+    )
+    assert top >= tab.locator("body > header").bounding_box()["height"]  # type: ignore[index]
+
+
+def test_tabs_are_chosen_by_keys_and_remembered_on_all_pages(visit: Visit) -> None:
+    with_tabs = [path for path in PAGES if "data-tabs" in (visit.folder / path).read_text("utf-8")]
+    if not with_tabs:
+        pytest.skip("no page has tabs")
+    tab = visit.open(with_tabs[0])
+    group = tab.locator(".tabs").first
+    tabs, panels = group.get_by_role("tab"), group.locator(":scope > [role=tabpanel]")
+    assert [each.is_visible() for each in panels.all()][:2] == [True, False]
+    tabs.first.focus()
+    tab.keyboard.press("ArrowRight")
+    assert tabs.nth(1).get_attribute("aria-selected") == "true"
+    assert tabs.nth(1).inner_text() in focused(tab)
+    assert [each.is_visible() for each in panels.all()][:2] == [False, True]
+    assert [each.get_attribute("tabindex") for each in tabs.all()].count("0") == 1
+    tab.reload()
+    assert tabs.nth(1).get_attribute("aria-selected") == "true"
+    tabs.nth(1).press("Home")
+    assert tabs.first.get_attribute("aria-selected") == "true"
+    assert faults(tab) == []
+
+
+# ---------------------------------------------------------------------------- copying
+
+
+def test_copying_tells_those_who_listen_and_keeps_the_focus(visit: Visit) -> None:
+    tab = visit.open("getting-started.html")
+    button = tab.get_by_role("button", name=re.compile("^Copy")).first
+    button.focus()
+    tab.keyboard.press("Enter")
+    status = tab.locator("#announcement")
+    tab.wait_for_function("() => document.getElementById('announcement').textContent === 'Copied'")
+    assert status.get_attribute("role") == "status"
+    assert button.inner_text() == "Copied"
+    assert "copy" in focused(tab)
+    assert tab.evaluate("navigator.clipboard.readText()") == button.get_attribute("data-copy")
+    tab.wait_for_function("() => document.activeElement.textContent === 'Copy'")
+    assert "copy" in focused(tab)
+
+
+def test_copying_works_without_the_clipboard_of_the_page(browser: Browser, folder: Path) -> None:
+    context = browser.new_context(permissions=["clipboard-read"])
+    context.add_init_script("delete Navigator.prototype.clipboard")
+    visit = Visit(context, folder)
+    tab = visit.open("getting-started.html")
+    button = tab.locator("button.copy").first
+    button.focus()
+    tab.keyboard.press("Enter")
+    tab.wait_for_function("() => document.getElementById('announcement').textContent === 'Copied'")
+    assert "copy" in focused(tab)
+    assert tab.locator("textarea").count() == 0
+    visit.end()
+    context.close()
+
+
+# ---------------------------------------------------------------------------- keys, colours, paper
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_every_link_and_button_is_reached_by_the_tabulator(visit: Visit, path: str) -> None:
+    tab = visit.open(path)
+    width(tab, 1440)
+    expected = tab.evaluate(
+        "[...document.querySelectorAll('a[href], button, input, select, textarea, summary')]"
+        ".filter((each) => each.checkVisibility({ visibilityProperty: true }) && each.tabIndex >= 0"
+        "  && !each.disabled).length"
+    )
+    reached: set[int] = set()
+    for _ in range(expected + 200):
+        tab.keyboard.press("Tab")
+        place = tab.evaluate(
+            "[...document.querySelectorAll('a[href], button, input, select, textarea, summary')]"
+            ".indexOf(document.activeElement)"
+        )
+        if place in reached and len(reached) == expected:
+            break
+        if place >= 0:
+            reached.add(place)
+            outline = tab.evaluate("getComputedStyle(document.activeElement).outlineStyle")
+            beside = tab.evaluate("document.activeElement.matches('.chips input')")
+            assert beside or outline != "none", focused(tab)
+    assert len(reached) == expected
+    # The first is the way around the navigation.
+    tab.evaluate("document.activeElement.blur()")
+
+
+def test_the_first_key_leads_around_the_navigation(visit: Visit) -> None:
+    tab = visit.open(MESSAGE)
+    tab.keyboard.press("Tab")
+    assert "Skip to the content" in focused(tab)
+    assert tab.get_by_role("link", name="Skip to the content").bounding_box()["x"] >= 0  # type: ignore[index]
+    tab.keyboard.press("Enter")
+    assert tab.url.endswith("#content")
+
+
+def test_with_colours_of_the_user_one_sees_where_one_is(browser: Browser, folder: Path) -> None:
+    context = browser.new_context(forced_colors="active")
+    visit = Visit(context, folder)
+    tab = visit.open(MESSAGE)
+    width(tab, 1440)
+    ground = "(each) => getComputedStyle(each).backgroundColor"
+    current = tab.locator("#sidebar [aria-current]")
+    other = tab.locator("#sidebar a:not([aria-current])").first
+    assert current.evaluate(ground) != other.evaluate(ground)
+    # Directions are told by words and arrows.
+    assert texts(tab.locator("main .way"))[0].split() == ["host", "→", "to", "controller"]
+    assert faults(tab) == []
+    visit.end()
+    context.close()
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_on_paper_there_is_content_alone_and_all_of_it(visit: Visit, path: str) -> None:
+    tab = visit.open(path)
+    tab.emulate_media(media="print", color_scheme="dark")
+    width(tab, 760)
+    hidden = "nav, #sidebar, button, .permalink, .skip, .search-box form"
+    assert [each for each in tab.locator(hidden).all() if each.is_visible()] == []
+    assert tab.locator("h1").is_visible()
+    assert visit.style("body", "backgroundColor") == "rgb(255, 255, 255)"
+    cut = tab.evaluate(
+        "[...document.querySelectorAll('main pre, main .scroll')]"
+        ".filter((each) => each.checkVisibility())"
+        ".filter((each) => getComputedStyle(each).overflowX !== 'visible')"
+        ".map((each) => each.outerHTML.slice(0, 80))"
+    )
+    assert cut == []
+    wide = tab.evaluate(
+        "[...document.querySelectorAll('main pre')]"
+        ".filter((each) => each.checkVisibility() && each.scrollWidth > each.clientWidth + 1)"
+        ".map((each) => each.outerHTML.slice(0, 80))"
+    )
+    assert wide == []
+    tab.emulate_media(media="screen")
+
+
+def test_the_colours_of_code_can_be_read_in_both_schemes(browser: Browser, folder: Path) -> None:
+    """A contrast of 4.5 for every class of code on its ground, by the formula of WCAG."""
+    script = """() => {
+        const channel = (c) => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+        const light = (colour) => {
+            const [r, g, b] = colour.match(/[\\d.]+/g).map(Number);
+            return 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+        };
+        const block = document.querySelector(".code pre");
+        const code = block.querySelector("code");
+        const ground = light(getComputedStyle(block).backgroundColor);
+        const names = ["prompt", "printed", "comment", "keyword", "text", "number", "name",
+                       "inserted", "deleted", "typed"];
+        return Object.fromEntries(names.map((name) => {
+            const piece = code.appendChild(document.createElement("span"));
+            piece.className = name;
+            const ink = light(getComputedStyle(piece).color);
+            return [name, (Math.max(ink, ground) + 0.05) / (Math.min(ink, ground) + 0.05)];
+        }));
+    }"""
+    for scheme in ("light", "dark"):
+        context = browser.new_context(color_scheme=scheme)
+        tab = context.new_page()
+        tab.goto((folder / "getting-started.html").as_uri())
+        contrasts = tab.evaluate(script)
+        assert {name: ratio for name, ratio in contrasts.items() if ratio < 4.5} == {}
+        context.close()
