@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from framegen import __version__
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
 from framegen.site.home import Introduction, specimen
@@ -213,7 +214,9 @@ class Site:
 
     def _search_page(self) -> Page:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
-        scripts = (("checksums", "codec"), ("ranking", "bytes_found"), ("search",))
+        models = [each.reference.model for each in self.references]
+        codec = max(map(codec_scripts, models), key=len, default=("hex",))
+        scripts = (codec, ("ranking", "bytes_found"), ("search",))
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
