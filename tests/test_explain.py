@@ -114,8 +114,8 @@ These 10 bytes are no frame of the Hiwonder bus servo controller.
 hint: this looks like a frame of the LX-16A bus servo protocol. Spoken behind the controller, at
       115200 baud, between the board and each servo. The same two header bytes, but a servo
       number comes before the length, and a checksum ends the frame. Public write-ups mix the
-      two up. For servos without the controller there is `lxservo`, from the same house:
-      `lxservo decode` reads these frames.
+      two up. For servos without the controller there is lxservo, from the same house, whose
+      command reads these frames.
 """
 
 BOTH_WAYS = "55 55 05 06 02 00 00"

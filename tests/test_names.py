@@ -514,7 +514,9 @@ def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
     for page in tmp_path.rglob("*"):
         linking = page.suffix in (".md", ".html")
         text = page.read_text(encoding="utf-8").partition("<script")[0] if linking else ""
-        for link in re.findall(r'href="([^"#:?]+)["#?]', text) + re.findall(r"\]\(([^)#:?]+)", text):
+        for link in re.findall(r'href="([^"#:?]+)["#?]', text) + re.findall(
+            r"\]\(([^)#:?]+)", text
+        ):
             assert (page.parent / link).exists(), (page, link)
             links += link.endswith(("Con_.html", "Con_.md", "Nul_.html", "Nul_.md"))
     assert links > 20

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from framegen.site import site
+from framegen.site import rendering
 from framegen.targets.docs import markdown_pages
 from framegen.targets.python import _environment
 from framegen.targets.python.files import INSTEAD, ONLY_WITH, SHARED
@@ -208,7 +208,7 @@ PAGES = sorted((CODEGEN / "targets" / "docs" / "templates").glob("*.jinja"))
 @pytest.mark.parametrize("template", [*TEMPLATES, *PAGES], ids=lambda path: path.name)
 def test_what_is_kept_of_a_template_holds_nothing_that_a_filter_made(template: Path) -> None:
     """Else a filter that is changed later would still be seen to do what it once did."""
-    of_kind = {".html": site._environment, ".md": markdown_pages._environment}
+    of_kind = {".html": rendering._environment, ".md": markdown_pages._environment}
     ours = of_kind.get(Path(template.stem).suffix, _environment)()
     root = ours.parse(template.read_text(encoding="utf-8"))
     for output in root.find_all(nodes.Output):

@@ -81,7 +81,7 @@ def test_no_page_is_wider_than_the_display_or_has_a_dead_end(visit: Visit, path:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("path", PAGES)
 def test_axe_finds_nothing(browser: Browser, folder: Path, path: str, scheme: str) -> None:
-    context = browser.new_context(color_scheme=scheme)  # type: ignore[arg-type]
+    context = browser.new_context(color_scheme=scheme)
     context.add_init_script(path=AXE)
     visit = Visit(context, folder)
     tab = visit.open(path)
@@ -333,7 +333,7 @@ def test_the_colours_of_code_can_be_read_in_both_schemes(browser: Browser, folde
         }));
     }"""
     for scheme in ("light", "dark"):
-        context = browser.new_context(color_scheme=scheme)  # type: ignore[arg-type]
+        context = browser.new_context(color_scheme=scheme)
         tab = context.new_page()
         tab.goto((folder / "getting-started.html").as_uri())
         contrasts = tab.evaluate(script)

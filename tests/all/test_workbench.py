@@ -121,7 +121,7 @@ def decoded_in_turn(tab: Tab, lines: list[str]) -> list[tuple[list[str], str, li
 
 @pytest.mark.parametrize("direction", WAYS)
 def test_the_valid_vectors_are_decoded(bench: Tab, direction: str) -> None:
-    bench.get_by_label("Sent").select_option(direction)
+    bench.get_by_label("Sent", exact=True).select_option(direction)
     vectors = [each for each in VECTORS["valid"] if each["direction"] == direction]
     shown = decoded_in_turn(bench, [each["hex"] for each in vectors])
     assert [names for names, _, _ in shown] == [[each["message"]] for each in vectors]
@@ -138,7 +138,7 @@ def test_an_example_is_cut_into_the_same_cells_as_on_its_page(visit: Visit) -> N
             shown.setdefault(message.direction.key, {})[example.hex.hex()] = found
     tab = visit.open("decoder.html")
     for way, examples in shown.items():
-        tab.get_by_label("Sent").select_option(way)
+        tab.get_by_label("Sent", exact=True).select_option(way)
         entries = decoded_in_turn(tab, [*examples])
         assert [strip for _, _, strip in entries] == [*examples.values()]
 
@@ -175,7 +175,7 @@ def test_a_frame_that_is_legal_both_ways_has_both_names(bench: Tab) -> None:
     assert rows(bench).locator(".who").inner_text() == "either"
     assert "These bytes are a frame in each direction" in detail(bench)
     assert texts(bench.locator("#event h4 a")) == ["ActionGroupRun", "ActionGroupStarted"]
-    bench.get_by_label("Sent").select_option("controller_to_host")
+    bench.get_by_label("Sent", exact=True).select_option("controller_to_host")
     assert decoded(bench) == ["ActionGroupStarted"]
 
 
@@ -402,19 +402,19 @@ def arrives(tab: Tab, end: str) -> None:
 @pytest.mark.parametrize("word", ["controller", "controller_to_host"])
 def test_an_address_names_the_direction_or_who_sends(visit: Visit, word: str) -> None:
     tab = visit.open(f"decoder.html?hex=5555040f4c1d&direction={word}")
-    assert tab.get_by_label("Sent").input_value() == "controller_to_host"
+    assert tab.get_by_label("Sent", exact=True).input_value() == "controller_to_host"
     assert decoded(tab) == ["BatteryVoltage"]
 
 
 def test_an_address_that_names_neither_leaves_both_directions_open(visit: Visit) -> None:
     tab = visit.open("decoder.html?hex=5555040f4c1d&direction=nobody")
-    assert tab.get_by_label("Sent").input_value() == ""
+    assert tab.get_by_label("Sent", exact=True).input_value() == ""
 
 
 def test_a_link_holds_the_capture_the_direction_and_the_encoder(visit: Visit) -> None:
     tab = visit.open("decoder.html")
     fill(tab, MIXED)
-    tab.get_by_label("Sent").select_option("host_to_controller")
+    tab.get_by_label("Sent", exact=True).select_option("host_to_controller")
     tab.get_by_label("Message").select_option("ServoMove")
     tab.locator("#words").fill("time_ms=800 targets=1:600,2:400")
     tab.get_by_role("button", name="Copy link").click()
@@ -468,7 +468,7 @@ def test_a_capture_is_saved_as_the_command_prints_it(bench: Tab, name: str, form
 def test_the_encoder_makes_the_frames_of_the_vectors(bench: Tab) -> None:
     for vector in VECTORS["valid"]:
         fill(bench, vector["hex"])
-        bench.get_by_label("Sent").select_option(vector["direction"])
+        bench.get_by_label("Sent", exact=True).select_option(vector["direction"])
         bench.get_by_role("button", name="Edit in the encoder").click()
         assert bench.get_by_label("Message").input_value() == vector["message"]
         assert bench.locator("#encoded").inner_text() == vector["hex"]

@@ -10,7 +10,8 @@ from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.render import snippets
 from framegen.site.project import Project
-from framegen.site.site import Site, render_page, render_site
+from framegen.site.rendering import render_page
+from framegen.site.site import Site, render_site
 
 from tests.docs.reference import ROOT, Page, broken_links, pages_of
 from tests.spec_edits import edited

@@ -36,7 +36,8 @@ _FAULTS = """() => {
     for (const each of document.querySelectorAll("main *")) {
         if (!shown(each)) continue;
         const style = getComputedStyle(each);
-        const scrolls = /auto|scroll/.test(style.overflowX) && each.scrollWidth > each.clientWidth + 1;
+        const scrolls = /auto|scroll/.test(style.overflowX)
+            && each.scrollWidth > each.clientWidth + 1;
         const reached = each.tabIndex >= 0 || each.querySelector("a, button, input, [tabindex]");
         if (scrolls && !reached) faults.push(`no key scrolls ${named(each)}`);
     }

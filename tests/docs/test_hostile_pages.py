@@ -100,6 +100,23 @@ def test_the_data_of_the_decoder_is_data(site: Reference) -> None:
     assert json.loads(data)["messages"][0]["name"] == "ServoMove"
 
 
+def test_what_can_be_searched_is_data_and_text(site: Reference, harmless: Reference) -> None:
+    page, other = site.site["search.html"], harmless.site["search.html"]
+    (data,) = [text for given, text in page.scripts if given.get("type") == "application/json"]
+    assert "<" not in data
+    found, expected = (json.loads(each)["entries"] for each in (data, _index(other)))
+    assert [each["path"] for each in found] == [each["path"] for each in expected]
+    assert sorted(set(skeleton(page))) == sorted(set(skeleton(other)))
+    listed = {link for link in page.links if link.startswith("reference/")}
+    assert listed == {link for link in other.links if link.startswith("reference/")}
+    code = [text for given, text in page.scripts if not given]
+    assert code == [text for given, text in other.scripts if not given]
+
+
+def _index(page: Page) -> str:
+    return next(text for given, text in page.scripts if given.get("id") == "search-index")
+
+
 def test_links_are_those_of_a_harmless_spec(site: Reference, harmless: Reference) -> None:
     for path, page in site.pages.items():
         if path != "spec.html":

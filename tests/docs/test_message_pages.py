@@ -9,7 +9,7 @@ import pytest
 from framegen.model.slots import Items
 from framegen.render import snippets
 from framegen.site.guide import Guide
-from framegen.site.mentions import mentions
+from framegen.site.mentions import Mentions
 from framegen.site.project import Project
 from framegen.site.site import Site
 from framegen.targets.docs.field import field_views
@@ -167,7 +167,7 @@ def test_guides_speak_of_a_message_where_they_link_to_it_or_use_it(
     (shown,) = [each for each in view.messages if each.name == message]
     found = [
         f"{each.guide}: {', '.join(section.heading for section in each.sections)}"
-        for each in mentions(guides, shown, f"{path}.html")
+        for each in Mentions(guides).of(shown, f"{path}.html")
     ]
     assert found == expected
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from framegen.render import snippets
+from framegen.site.codec_scripts import codec_scripts
 from framegen.site.project import Project, read_project
 from framegen.site.search.entry import KINDS, Entry, spellings
 from framegen.site.search.words import with_words
@@ -25,6 +26,11 @@ needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 def project() -> Project:
     files = [ROOT / "spec" / f"{name}.yaml" for name in ("busservo", "lxservo")]
     return read_project({file: compiled_file(file) for file in files}, ROOT / "docs")
+
+
+@cache
+def rendered() -> dict[str, str]:
+    return render_site(project(), snippets())
 
 
 @cache
@@ -76,8 +82,8 @@ SEARCHES: dict[str, set[str]] = {
     # The words of users, which no page of the reference has.
     "limp": {"ServoUnload"},
     "torque off": {"ServoUnload"},
-    "beep": {"Troubleshooting"},
-    "LED2": {"Troubleshooting"},
+    "beep": {"What the board shows", "Troubleshooting"},
+    "LED2": {"What the board shows", "Troubleshooting"},
     "permission denied": {"Troubleshooting"},
     "echo": {"Servos without the controller"},
     "baud rate": {"Hiwonder bus servo controller"},
@@ -153,6 +159,14 @@ def test_words_with_a_slip_are_corrected() -> None:
     for answer in found([*MISSPELLED.values()]):
         assert answer["titles"]
         assert answer["suggestions"] == []
+    # What is offered has hits, or else it is no help.
+    names = [message.vendor_name for message in project().specs[0].spec.messages.values()]
+    pairs = [f"batery {name}" for name in names]
+    offered = [text for answer in found(pairs) for text in answer["suggestions"]]
+    assert 0 < len(offered) < len(pairs)
+    for answer in found(offered):
+        assert answer["titles"]
+        assert not answer["loose"]
     # Two slips are another word, and short words are too like each other.
     assert [each["suggestions"] for each in found(["bttry", "qzx"])] == [[], []]
 
@@ -214,7 +228,7 @@ def bytes_found(queries: list[str]) -> list[dict[str, Any]]:
       return { read: { ...read, bytes: Array.from(read.bytes) }, ...bytesSearch.find(read.bytes) };
     });
     """
-    scripts = ["checksums", "codec", "ranking", "bytes_found"]
+    scripts = [*codec_scripts(project().specs[1].model), "ranking", "bytes_found"]
     answers: list[dict[str, Any]] = run_script(
         scripts, program, {"index": index(), "queries": queries}
     )
@@ -301,7 +315,13 @@ BYTES: dict[str, tuple[list[str], list[str]]] = {
             "Servo 1 to position 800 in 1000 ms, sent to the controller",
         ],
     ),
-    "55 55 09 03 01 E8 03 01 20 03": (["No frame", "No frame"], []),
+    "55 55 09 03 01 E8 03 01 20 03": (
+        [
+            "No frame of the Hiwonder bus servo controller",
+            "No frame of the LX-16A servo bus",
+        ],
+        [],
+    ),
     "11 22 33": ([], []),
 }
 
@@ -315,14 +335,27 @@ def test_bytes_find_frames() -> None:
 
 @needs_node
 def test_bytes_are_told_in_short() -> None:
-    move, off, refused = bytes_found(
-        ["55 55 0B 03 02 20 03 02 20 03 09 20 03", "55 55 06 15 01 03 FF FF", "55 55 09 03 01 E8"]
+    move, off, refused, sibling, begun = bytes_found(
+        [
+            "55 55 0B 03 02 20 03 02 20 03 09 20 03",
+            "55 55 06 15 01 03 FF FF",
+            "55 55 09 03 01 E8",
+            "55 55 02 01",
+            "55 55 08",
+        ]
     )
     assert move["judged"][0]["text"] == (
         "time_ms 800 ms, targets: servo_id 2 position 800; servo_id 9 position 800"
     )
     assert off["judged"][0]["text"] == "positions: servo_id 3 position 65535 (absent)"
-    assert refused["judged"][0]["text"] == "No whole frame: length mismatch at byte 2."
+    assert refused["judged"][0]["text"] == (
+        "Length mismatch at byte 2: ServoMove has a length of 8, 11, 14 .. 254, not 9."
+    )
+    (hinted,) = [each for each in sibling["judged"] if each["protocol"] == "busservo"]
+    assert hinted["text"].endswith(
+        "In the dialect of LeArm and uHand boards, 1 asks for the version."
+    )
+    assert begun["judged"][0]["text"] == "A frame may begin like this; its end is missing."
 
 
 @needs_node
@@ -343,6 +376,7 @@ def test_words_of_users_lead_to_the_first_entry_at_an_address() -> None:
     entries = index()["entries"]
     led = {word: each["path"] for each in entries for word in each.get("also", [])}
     assert led["limp"] == "reference/busservo/messages/ServoUnload.html"
+    assert led["beep"] == "troubleshooting.html"
     assert led["dialout"] == "troubleshooting.html"
     rows = re.findall(
         r"^\| (.+?) \|", (ROOT / "docs" / "words.md").read_text("utf-8"), re.MULTILINE
@@ -369,7 +403,7 @@ def test_numbers_are_found_as_people_write_them() -> None:
 
 
 def test_the_search_alone_has_the_index_and_keeps_within_its_bounds() -> None:
-    pages = render_site(project(), snippets())
+    pages = rendered()
     assert len(pages["search.html"].encode()) < 1_500_000
     holding = [path for path, text in pages.items() if 'id="search-index"' in text]
     assert holding == ["search.html"]
@@ -379,7 +413,7 @@ def test_the_search_alone_has_the_index_and_keeps_within_its_bounds() -> None:
 
 
 def test_what_the_page_lists_is_what_can_be_found() -> None:
-    text = render_site(project(), snippets())["search.html"]
+    text = rendered()["search.html"]
     data = json.loads(re.findall(r'id="search-index">(.*?)</script>', text, re.DOTALL)[0])
     listed = text.partition('id="search-letters"')[2]
     for entry in data["entries"]:

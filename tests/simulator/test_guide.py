@@ -156,3 +156,9 @@ def test_a_speed_is_that_of_the_steps_to_come_until_a_restart() -> None:
 def test_a_stopped_group_completes_its_step() -> None:
     board = board_after([RUN, ActionGroupStop()], 1)
     assert board.servos[1].position == 600
+
+
+def test_the_guide_shows_the_log_as_it_is() -> None:
+    (shown,) = re.findall(r"^ +[\d.]+(  LED2 .*)$", TEXT, re.MULTILINE)
+    move = ServoMove(time_ms=800, targets=[(1, 800)])
+    assert str(board_after([move]).event_log).endswith(shown)

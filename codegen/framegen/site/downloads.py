@@ -96,6 +96,12 @@ class Downloads:
         """The recordings of the protocol among the files that guides link to."""
         return recordings_of(self.reference.model, self.published)
 
+    @property
+    def decoding(self) -> str:
+        """The commands that show what the recordings hold."""
+        command = f"{self.reference.protocol.name} decode --direction any"
+        return "".join(f"{command} {each.word}\n" for each in self.recordings)
+
     def _download(self, name: str, about: str) -> Download:
         path = f"{FOLDER}/{name}"
         return Download(path, len(self.texts[path].encode()), about)

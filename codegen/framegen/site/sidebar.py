@@ -63,7 +63,7 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class SidebarSection:
-    """A section of the plan: its guides, and the references in it."""
+    """A section of the plan: the references in it, and its guides."""
 
     title: str
     about: str
@@ -78,15 +78,15 @@ class SidebarSection:
     @property
     def every_link(self) -> Iterator[Link]:
         """All pages in it, in order."""
-        yield from self.links
         for group in self.groups:
             yield from group.every_link
+        yield from self.links
 
     @property
     def first(self) -> tuple[Link, ...]:
         """The page to begin with, if there is any."""
         groups = (Link(group.path, group.title) for group in self.groups)
-        return (*self.links, *groups)[:1]
+        return (*groups, *self.links)[:1]
 
     def holds(self, page: Page) -> bool:
         """Tell whether a page is in it."""

@@ -3,46 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, cached_property
-from pathlib import Path
+from functools import cached_property
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from framegen import __version__
-from framegen.output import banner
-from framegen.site.downloads import size_in_words
-from framegen.site.escape import anchor, linked, said, script_json
+from framegen.site.codec_scripts import codec_scripts
+from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
-from framegen.site.headings import headings, with_permalinks
-from framegen.site.highlight import code_block
 from framegen.site.home import Introduction, specimen
 from framegen.site.linked_files import is_linked, link_to
 from framegen.site.mark import icon, mark
 from framegen.site.mentions import Mention, Mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
-from framegen.site.policy import assets
 from framegen.site.publication import NOT_FOUND, robots, sitemap
 from framegen.site.references import References
+from framegen.site.rendering import render_page
 from framegen.site.rule_pages import rule_pages
 from framegen.site.search.index import SearchIndex
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
-from framegen.targets.templates import environment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from jinja2 import Environment
     from markupsafe import Markup
 
     from framegen.site.project import Project
     from framegen.site.reference_pages import ReferencePages
     from framegen.targets.target import Snippets
 
-_HERE = Path(__file__).parent
 _PREVIEW = "images/preview.png"
-# The script of every page, before its own.
-COMMON = ("page", "clipboard", "tabs", "search_box")
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
@@ -223,7 +214,9 @@ class Site:
 
     def _search_page(self) -> Page:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
-        scripts = (("checksums", "codec"), ("ranking", "bytes_found"), ("search",))
+        models = [each.reference.model for each in self.references]
+        codec = max(map(codec_scripts, models), key=len, default=("hex",))
+        scripts = (codec, ("ranking", "bytes_found"), ("search",))
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
@@ -304,46 +297,3 @@ class Site:
             start = f"{reference.folder}index.html"
             if start != page.path:
                 yield Link(start, reference.edition.version)
-
-
-def render_page(site: Site, page: Page) -> str:
-    """Render one of the pages of a site."""
-    with site.collection.blaming(page):
-        return _filled(site, page)
-
-
-def _filled(site: Site, page: Page) -> str:
-    before, after = site.neighbours(page)
-    reference = page.context.get("reference")
-    return (
-        _environment()
-        .get_template(f"{page.template}.html.jinja")
-        .render(
-            {
-                "site": site,
-                "page": page,
-                "reference": None,
-                "edition": None,
-                "before": before,
-                "after": after,
-                "banner": banner("" if reference is None else reference.spec),
-                "assets": assets([COMMON, *page.scripts]),
-                **page.context,
-            }
-        )
-    )
-
-
-@cache
-def _environment() -> Environment:
-    made = environment(_HERE / "templates", "html", autoescape=True)
-    made.filters |= {
-        "anchor": anchor,
-        "bytes": size_in_words,
-        "code": code_block,
-        "headings": headings,
-        "linked": linked,
-        "said": said,
-        "with_permalinks": with_permalinks,
-    }
-    return made

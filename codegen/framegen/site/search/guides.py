@@ -57,10 +57,13 @@ def sections(guide: Guide) -> list[Section]:
                 found.append(Section(heading, plain_text(token)))
         elif token.type == "tr_open":
             found[-1].rows.append([])
+        elif token.type == "tr_close":
+            cells = map(plain_text, found[-1].rows[-1])
+            found[-1].text.append(f"{' · '.join(cells)};")
+        elif token.type == "inline" and before in ("td_open", "th_open"):
+            found[-1].rows[-1].append(token)
         elif token.type == "inline":
             found[-1].text.append(plain_text(token))
-            if before in ("td_open", "th_open"):
-                found[-1].rows[-1].append(token)
         elif token.type in ("fence", "code_block"):
             found[-1].text.append(token.content)
         if token.type == "heading_open":

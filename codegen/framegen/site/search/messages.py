@@ -21,11 +21,12 @@ def message_entries(reference: ReferenceView, folder: str) -> Iterator[Entry]:
         yield _message(reference, message, page)
         for field in message.fields:
             yield from _field(reference, message, field, page)
+        usage = "#usage" if message.snippets and message.said.examples else ""
         for name, call, what in _methods(reference, message):
             yield Entry(
                 "method",
                 f"{name}()",
-                page,
+                page + usage,
                 f"Method for {message.name}",
                 sentences(call, what),
                 reference.protocol.name,
@@ -50,13 +51,20 @@ def _message(reference: ReferenceView, message: MessagePage, page: str) -> Entry
         if reference.id_name == message.kind
         else f", {reference.id_name} {message.hex}"
     )
-    method = said.method.name if said.method is not None else ""
+    notes = [note.text for note in message.notes]
     return Entry(
         "message",
         message.name,
         page,
         f"{message.kind.capitalize()}{code if message.hex else ''}, {message.direction}",
-        sentences(said.summary, said.description, said.deprecated, said.vendor_name, method),
+        sentences(
+            said.summary,
+            said.description,
+            *notes,
+            said.deprecated,
+            said.vendor_name,
+            message.method,
+        ),
         reference.protocol.name,
         names=(said.vendor_name, *ids) if said.vendor_name else (*ids,),
     )
@@ -81,28 +89,29 @@ def _field(
         reference.protocol.name,
         names=(plain, plain.rpartition(".")[2]),
     )
-    named = [(value.name, str(value.value), value.about) for value in field.values]
-    bits = [(bits.name, bits.at, bits.about) for bits in field.bits]
-    for name, value, about in (*named, *bits):
-        number = spellings(int(value)) if value.lstrip("-").isdigit() else (value,)
+    for value in field.values:
+        number = {*spellings(value.value), value.hex.lower()} - {""}
         yield Entry(
             "value",
-            name,
-            path,
-            f"{value} in {plain} of {message.name}",
-            sentences(about),
+            value.name,
+            f"{page}#{value.anchor}",
+            f"{value.value} in {plain} of {message.name}",
+            sentences(value.about),
             reference.protocol.name,
-            names=number,
+            names=(*sorted(number),),
         )
+    for bits in field.bits:
+        where = f"{bits.at} in {plain} of {message.name}"
+        about = sentences(bits.about)
+        yield Entry("value", bits.name, path, where, about, reference.protocol.name)
 
 
 def _methods(reference: ReferenceView, message: MessagePage) -> Iterator[tuple[str, str, str]]:
     """Yield the methods of a client that send a message: name, call, and what they do."""
-    method = message.said.method
-    if method is not None:
-        result = f" -> {method.result}" if method.result else ""
-        call = f"{method.name}({', '.join(method.arguments)}){result}"
-        yield method.name, call, message.said.summary
+    if message.method:
+        method = message.said.method
+        result = f" -> {method.result}" if method is not None and method.result else ""
+        yield message.method.partition("(")[0], message.method + result, message.said.summary
     pose = reference.model.spec.pose
     if pose is not None and message.name == pose.read:
         yield pose.present, "", "Finds out which are there."

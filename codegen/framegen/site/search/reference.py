@@ -31,6 +31,7 @@ def _pages(reference: ReferenceView, folder: str) -> Iterator[Entry]:
     said = {
         "index": [
             *reference.description,
+            *(note.text for note in reference.notes),
             f"{reference.link}, {reference.byte_order}-endian",
             *(board.text for board in reference.hid_boards),
         ],
@@ -77,7 +78,7 @@ def _errata(reference: ReferenceView, folder: str) -> Iterator[Entry]:
         yield Entry(
             "erratum",
             question.rstrip("."),
-            f"{folder}errata.html#unknowns",
+            f"{folder}errata.html#unknown-{unknown.number}",
             f"Not known of {unknown.message} {unknown.concern}".rstrip(),
             rest,
             reference.protocol.name,
@@ -87,7 +88,7 @@ def _errata(reference: ReferenceView, folder: str) -> Iterator[Entry]:
 def _lookalike(reference: ReferenceView, other: LookalikeEntry, folder: str) -> Iterator[Entry]:
     path = f"{folder}lookalikes.html#lookalike-{other.key}"
     name = reference.protocol.name
-    about = sentences(*other.about)
+    about = sentences(*other.about, *(f"{each.name}: {each.text}" for each in other.checksums))
     yield Entry("lookalike", other.title, path, "Look-alike", about, name, names=(other.key,))
     for command in other.commands:
         title = f"{command.there[:1].upper()}{command.there[1:]}"
@@ -122,6 +123,13 @@ def _facts(reference: ReferenceView, folder: str) -> Iterator[Entry]:
         for part in envelope.parts:
             where = f"Part of {envelope.what}"
             yield Entry("field", part.name, f"{page}#frame", where, part.text, name)
+        address = envelope.envelope.address
+        if address is None:
+            continue
+        for key, value in address.field.values.items():
+            where = f"{value.value} in {address.name} of {envelope.what}"
+            names = spellings(value.value)
+            yield Entry("value", key, f"{page}#frame", where, sentences(value.about), name, names)
     for end in reference.endpoints:
         about = sentences(end.about, *(note.text for note in end.notes))
         yield Entry("page", end.name, page, "End of the line", about, name)

@@ -3,6 +3,7 @@
 
 // More than this is not judged here, but in the workbench.
 const MOST_BYTES = 2048;
+const MOST_EXPLAINED = 300;
 const MOST_ITEMS = 3;
 
 // The bytes that a query consists of, if it can be read so: `certain` where it can hardly be anything
@@ -83,23 +84,25 @@ function makeBytesSearch({ protocols, entries }) {
   }
 
   // Why bytes with the header of a frame are none, in the direction that knows their id, or else
-  // believes them for longest.
+  // believes them for longest; a protocol that has a hint comes first.
   function refusals(bytes) {
     return codecs.flatMap((protocol) => {
       const { data } = protocol;
-      const headed = data.frames.some(({ header }) => header.length
-        && header.every((byte, at) => bytes[at] === byte || (at > 0 && at >= bytes.length)));
-      if (!headed) return [];
-      const said = data.directions.map((way) => codecOf(protocol).decodeFrame(bytes, way.key));
-      const known = said.filter(({ reason }) => reason !== data.reasons.unknown);
-      const { reason, offset } = (known.length ? known : said)
+      const begins = (header) => header.length && header.every((byte, at) => (at < bytes.length
+        ? bytes[at] === byte : at > 0));
+      if (!data.frames.some(({ header }) => begins(header))) return [];
+      const { refusals: all, hints } = codecOf(protocol).explain(bytes.slice(0, MOST_EXPLAINED), null);
+      const known = all.filter(({ reason }) => reason !== data.reasons.unknown);
+      const { reason, offset, expected } = (known.length ? known : all)
         .reduce((so, each) => (each.offset > so.offset ? each : so));
       const begun = reason === data.reasons.tooShort;
-      const text = begun ? "A frame may begin like this; its end is missing."
-        : `No whole frame: ${reason} at byte ${offset}.`;
-      const title = begun ? "The beginning of a frame" : "No frame";
-      return [shown(protocol, bytes, null, title, protocol.title, text)];
-    });
+      const hinted = begun ? [] : hints.map((hint) => hint.text);
+      const said = begun ? "A frame may begin like this; its end is missing"
+        : `${reason} at byte ${offset}: ${expected}`;
+      const title = `${begun ? "The beginning of a frame" : "No frame"} of the ${protocol.title}`;
+      const text = [said, ...hinted].map(sentence).join(" ");
+      return [{ ...shown(protocol, bytes, null, title, "", text), hints: hints.length }];
+    }).sort((one, other) => other.hints - one.hints);
   }
 
   // The documented frames that hold these bytes, and how many bytes are in front of them.
@@ -129,6 +132,11 @@ function makeBytesSearch({ protocols, entries }) {
   }
 
   return { find };
+}
+
+// What is said, with a capital in front and a full stop behind it.
+function sentence(text) {
+  return text.replace(/^./, (first) => first.toUpperCase()).replace(/[^.!?]$/, "$&.");
 }
 
 // The fields of a frame in a line.

@@ -53,21 +53,25 @@
 
   // The hits of a query: what its bytes are in front, then what its words find.
   function found({ query, kind, protocol }) {
-    const read = bytesIn(query), said = search.find(query, { kind, protocol });
+    const read = bytesIn(query), said = search.find(read?.certain ? "" : query, { kind, protocol });
     const mayTake = (entry) => (!kind || entry.kind === kind) && (!protocol || entry.protocol === protocol);
-    if (!read?.bytes) return { ...said, problem: read?.problem, bytes: null };
+    if (read?.problem) return { ...said, hits: [], counts: {}, suggestions: [], problem: read.problem };
+    if (!read) return { ...said, bytes: null };
     const { judged, known, whole } = bytesSearch.find(read.bytes);
     // What may be a number or a word is taken for bytes if it is a frame, or nothing else.
-    if (!read.certain && !whole && said.hits.length) return { ...said, bytes: null };
+    const isWords = Object.keys(said.counts).length > 0 && !said.loose;
+    const isBytes = read.certain || whole || (!isWords && judged.length + known.length > 0);
+    if (!isBytes) return { ...said, bytes: null };
     const framed = [...judged, ...known].filter((entry) => !protocol || entry.protocol === protocol);
     const hits = framed.filter(mayTake).map((entry) => ({ entry }));
-    return { hits, counts: { frame: framed.length }, loose: false, suggestions: [], words: [], ...read };
+    const counts = { frame: framed.length };
+    return { hits, counts, loose: false, suggestions: [], words: [], whole, ...read };
   }
 
   function bytesShown({ hex, at, size }) {
-    const text = (from, to) => hex.slice(3 * from, 3 * to);
     if (at === undefined) return [hex];
-    return [text(0, at), make("mark", {}, text(at, at + size).trimEnd()), ` ${text(at + size)}`];
+    const end = 3 * (at + size) - 1;
+    return [hex.slice(0, 3 * at), make("mark", {}, hex.slice(3 * at, end)), hex.slice(end)];
   }
 
   function itemOf({ entry }, sought) {
@@ -89,14 +93,17 @@
 
   const counted = (many, what) => `${many} ${many === 1 ? what : `${what}s`}`;
 
-  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions }) {
+  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions, whole }) {
     if (!query) return `${index.entries.length} places to find.`;
     const half = left ? ` The last digit, ${left}, is half a byte.` : "";
     const what = bytes ? counted(bytes.length, "byte") : `“${query}”`;
     const of = kind ? ` in ${index.kinds[kind].toLowerCase()}` : "";
-    if (problem && !hits.length) return `${problem}.`;
+    if (problem) return `${problem}.`;
     if (suggestions.length) return `Nothing found for “${query}”. Did you mean:`;
     if (loose) return `Nothing has all of these words. With some of them: ${hits.length}.`;
+    // What holds them is documented; what else is shown says why they are no frame.
+    const isKnown = whole || hits.some(({ entry }) => !entry.decoder);
+    if (bytes && hits.length && !isKnown) return `${what}, and no whole frame.${half}`;
     return `${hits.length || "Nothing"} found for ${what}${of}.${half}`;
   }
 

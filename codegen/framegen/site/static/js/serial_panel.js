@@ -59,12 +59,12 @@ function showLine(protocol, codec) {
     log.add({ comment: `${time.toFixed(3)} s: ${text}` });
   }
 
-  function end() {
+  function end(why) {
     if (!session) return;
     session.end();
     session = null;
     clearTimeout(timer);
-    comment("disconnected");
+    comment(why);
     count();
   }
 
@@ -205,8 +205,7 @@ function showLine(protocol, codec) {
       begin();
     }
     if (state !== "open" && shownState === "open") {
-      if (state === "lost") comment("the line was lost");
-      end();
+      end(state === "lost" ? "the line was lost" : "disconnected");
     }
     let [text, advice] = [WORDS_OF_STATE[state], ""];
     if (state === "open") text = `Connected to ${name}, at ${settings.ofPort().baudRate} baud.`;

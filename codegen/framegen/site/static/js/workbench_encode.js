@@ -51,6 +51,7 @@ function makeEncoder({ codec, changed, decode }) {
       refuse(error);
       return;
     }
+    fields.mark(null);
     problem.replaceChildren();
     tell();
   }
@@ -58,6 +59,7 @@ function makeEncoder({ codec, changed, decode }) {
   function refuse(error) {
     if (!(error instanceof Unusable) && !(error instanceof NotUnderstood)) throw error;
     frame = null;
+    fields.mark(error);
     problem.replaceChildren(error.message);
     tell();
   }

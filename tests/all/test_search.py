@@ -1,0 +1,388 @@
+"""The search in a real browser: from the box of any page to what was looked for, and back."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from framegen.cli import main
+
+from tests.docs.browser import MILLISECONDS, Visit, launched, needs_chromium, texts
+from tests.docs.looks import WIDTHS, faults, violations
+from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.test_hostile_pages import PAYLOADS, hostile
+from tests.factories import write_files
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import Page as Tab
+
+AXE = NODE_MODULES / "axe-core" / "axe.min.js"
+PAGES = [
+    "index.html",
+    "getting-started.html",
+    "reference/busservo/spec.html",
+    "reference/lxservo/messages/Move.html",
+]
+
+pytestmark = needs_chromium
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the site of this project, as `framegen docs` builds it."""
+    folder = tmp_path_factory.mktemp("a stick") / "the site"
+    with pytest.MonkeyPatch.context() as patched:
+        patched.chdir(ROOT)
+        assert main(["docs", "--out", str(folder)]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with launched() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    context = browser.new_context()
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
+    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
+    visit = Visit(context, folder)
+    yield visit
+    visit.end()
+
+
+def box(tab: Tab) -> Any:
+    return tab.get_by_role("searchbox")
+
+
+def focused(tab: Tab) -> str:
+    script = "document.activeElement.id || document.activeElement.textContent"
+    return str(tab.evaluate(script))
+
+
+def titles(tab: Tab) -> list[str]:
+    return texts(tab.locator("#search-results .found-title a"))
+
+
+def said(tab: Tab) -> str:
+    return tab.locator("#search-count").inner_text().strip()
+
+
+def asked(tab: Tab) -> dict[str, list[str]]:
+    return parse_qs(urlsplit(tab.url).query)
+
+
+def kept(tab: Tab, query: str) -> None:
+    """Wait until the address has the query, which it is given a moment after the last key."""
+    tab.wait_for_function("(q) => new URLSearchParams(location.search).get('q') === q", arg=query)
+
+
+def arrives(tab: Tab, end: str) -> None:
+    tab.wait_for_url(re.compile(re.escape(end) + "$"))
+
+
+# ---------------------------------------------------------------------------- the box
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_the_box_of_a_page_hands_over_what_is_typed(visit: Visit, path: str) -> None:
+    tab = visit.open(path)
+    tab.keyboard.press("/")
+    assert focused(tab) == "search-words"
+    tab.keyboard.type("voltage & battery/+")
+    tab.keyboard.press("Enter")
+    tab.wait_for_url(re.compile(r"search\.html\?"))
+    assert asked(tab) == {"q": ["voltage & battery/+"]}
+    assert box(tab).input_value() == "voltage & battery/+"
+    assert set(titles(tab)[:2]) == {"BatteryVoltageRead", "BatteryVoltage"}
+    tab.go_back()
+    arrives(tab, path)
+
+
+def test_slash_is_a_letter_where_one_types_and_escape_leaves(visit: Visit) -> None:
+    tab = visit.open("getting-started.html")
+    tab.keyboard.press("/")
+    tab.keyboard.type("8/1")
+    assert box(tab).input_value() == "8/1"
+    tab.keyboard.press("Escape")
+    assert focused(tab) != "search-words"
+    assert box(tab).input_value() == "8/1"
+    tab.keyboard.press("Control+/")
+    assert focused(tab) != "search-words"
+    tab.keyboard.press("/")
+    assert focused(tab) == "search-words"
+
+
+def test_an_empty_box_leads_to_the_index(visit: Visit) -> None:
+    tab = visit.open("index.html")
+    box(tab).press("Enter")
+    arrives(tab, "search.html")
+    assert tab.locator("#search-letters").is_visible()
+    assert said(tab).endswith("places to find.")
+
+
+# ---------------------------------------------------------------------------- the page
+
+
+def test_results_come_as_one_types_and_the_address_keeps_them(visit: Visit) -> None:
+    tab = visit.open("search.html")
+    assert focused(tab) == "search-words"
+    seen = []
+    for letter in "limp":
+        tab.keyboard.type(letter)
+        seen.append(titles(tab)[:1])
+    assert seen[-1] == ["ServoUnload"]
+    assert said(tab) == f"{len(titles(tab))} found for “limp”."
+    assert not tab.locator("#search-letters").is_visible()
+    assert texts(tab.locator("#search-results mark"))[0] == "limp"
+    kept(tab, "limp")
+    assert tab.title().startswith("limp")
+
+
+def test_a_search_is_there_again_on_going_back(visit: Visit) -> None:
+    tab = visit.open("search.html")
+    box(tab).fill("position")
+    before = titles(tab)
+    for _ in range(3):
+        tab.keyboard.press("ArrowDown")
+    third = focused(tab)
+    assert third == before[2]
+    tab.keyboard.press("Enter")
+    tab.wait_for_url(re.compile("reference/"))
+    tab.go_back()
+    tab.wait_for_url(re.compile(r"search\.html\?q=position$"))
+    assert box(tab).input_value() == "position"
+    assert titles(tab) == before
+    assert focused(tab) == third
+
+
+def test_enter_goes_to_the_first_and_arrows_to_the_others(visit: Visit) -> None:
+    tab = visit.open("search.html?q=ServoMove")
+    tab.keyboard.press("ArrowDown")
+    assert focused(tab) == "ServoMove"
+    tab.keyboard.press("ArrowDown")
+    assert focused(tab) == titles(tab)[1]
+    tab.keyboard.press("ArrowUp")
+    tab.keyboard.press("ArrowUp")
+    assert focused(tab) == "search-words"
+    tab.keyboard.press("Enter")
+    arrives(tab, "reference/busservo/messages/ServoMove.html")
+
+
+def test_what_is_shown_is_of_the_chosen_kind(visit: Visit) -> None:
+    tab = visit.open("search.html?q=percent")
+    tab.get_by_role("radio", name=re.compile("^Errata")).check()
+    count = int(
+        tab.get_by_role("radio", name=re.compile("^Errata")).evaluate(
+            "(radio) => radio.parentElement.querySelector('.count').textContent"
+        )
+    )
+    assert said(tab) == f"{count} found for “percent” in errata."
+    assert len(titles(tab)) == min(count, 30)
+    kept(tab, "percent")
+    tab.get_by_role("radio", name="LX-16A servo bus").check()
+    assert said(tab) == "Nothing found for “percent” in errata."
+    tab.wait_for_function("() => location.search.includes('in=lxservo')")
+    tab.reload()
+    assert said(tab) == "Nothing found for “percent” in errata."
+    tab.get_by_role("button", name="Search all kinds and protocols").click()
+    assert titles(tab)
+    assert not tab.locator("#search-advice").is_visible()
+
+
+def test_more_is_shown_on_demand(visit: Visit) -> None:
+    tab = visit.open("search.html?q=servo")
+    assert len(titles(tab)) == 30
+    tab.get_by_role("button", name="Show more").click()
+    assert len(titles(tab)) == 60
+    assert focused(tab) == titles(tab)[30]
+
+
+def test_a_slip_is_corrected(visit: Visit) -> None:
+    tab = visit.open("search.html?q=batery")
+    assert said(tab).startswith("Nothing found for “batery”. Did you mean:")
+    assert titles(tab)[0] == "BatteryVoltageRead"
+    assert tab.locator("#search-advice").is_visible()
+    tab.get_by_role("button", name="battery").click()
+    assert box(tab).input_value() == "battery"
+    assert not tab.locator("#search-advice").is_visible()
+
+
+def test_no_hit_gives_advice(visit: Visit) -> None:
+    tab = visit.open("search.html?q=xyzzy")
+    assert said(tab) == "Nothing found for “xyzzy”."
+    assert titles(tab) == []
+    advice = tab.locator("#search-advice")
+    assert advice.is_visible()
+    for name in ("the workbench", "look-alikes", "Troubleshooting", "What people call it"):
+        assert advice.get_by_role("link", name=name).first.is_visible()
+
+
+def test_bytes_of_no_frame_are_taken_to_the_workbench(visit: Visit) -> None:
+    tab = visit.open("search.html?q=11 22 33")
+    assert said(tab) == "Nothing found for 3 bytes."
+    tab.locator("#search-advice").get_by_role("link", name="the workbench").first.click()
+    arrives(tab, "reference/busservo/decoder.html?hex=112233")
+
+
+# ---------------------------------------------------------------------------- bytes
+
+
+def test_bytes_find_the_frame_and_offer_to_decode_it(visit: Visit) -> None:
+    tab = visit.open("index.html")
+    tab.keyboard.press("/")
+    tab.keyboard.type("55 55 02 0F")
+    tab.keyboard.press("Enter")
+    tab.wait_for_url(re.compile("search"))
+    assert said(tab) == "2 found for 4 bytes."
+    first = tab.locator("#search-results > li").first
+    assert "BatteryVoltageRead" in first.inner_text()
+    assert "host to controller" in first.inner_text()
+    first.get_by_role("link", name="Decode it in the workbench").click()
+    tab.wait_for_url(re.compile(r"reference/busservo/decoder\.html\?hex=5555020f"))
+
+
+def test_bytes_that_are_a_frame_both_ways_are_shown_both_ways(visit: Visit) -> None:
+    tab = visit.open("search.html?q=55 55 05 06 08 01 00")
+    assert titles(tab)[:2] == ["ActionGroupRun", "ActionGroupStarted"]
+    assert "group 8, times 1" in tab.locator("#search-results > li").first.inner_text()
+
+
+def test_a_part_of_a_frame_is_marked_where_it_stands(visit: Visit) -> None:
+    tab = visit.open("search.html?q=03 01 E8")
+    assert titles(tab)[0] == "Servo 1 to position 800 in 1000 ms"
+    code = tab.locator("#search-results code").first
+    assert code.inner_text() == "55 55 08 03 01 E8 03 01 20 03"
+    assert code.locator("mark").inner_text() == "03 01 E8"
+
+
+def test_numbers_and_words_of_hex_digits_are_words_first(visit: Visit) -> None:
+    tab = visit.open("search.html?q=9600")
+    assert "9600" in said(tab)
+    assert "Nothing comes back" in titles(tab)
+    box(tab).fill("dead beef")
+    assert said(tab).startswith("Nothing found for “dead beef”.")
+    box(tab).fill("01e803")
+    assert said(tab).endswith("found for 3 bytes.")
+    box(tab).fill("55550207")
+    assert titles(tab)[:2] == ["ActionGroupStop", "ActionGroupStopped"]
+
+
+def test_half_a_byte_and_wrong_digits_are_told(visit: Visit) -> None:
+    tab = visit.open("search.html?q=55 55 02 0")
+    assert said(tab).endswith("The last digit, 0, is half a byte.")
+    box(tab).fill("55 55 09 03 01 E8 03 01 20 03")
+    assert said(tab) == "10 bytes, and no whole frame."
+    assert "with that they are ServoMove" in tab.locator("#search-results").inner_text()
+    box(tab).fill("55 55 0G 02")
+    assert said(tab) == "“0G” is no byte in hex."
+
+
+# ---------------------------------------------------------------------------- for everybody
+
+
+def test_without_a_script_the_page_lists_everything(browser: Browser, folder: Path) -> None:
+    context = browser.new_context(java_script_enabled=False)
+    visit = Visit(context, folder)
+    tab = visit.open("reference/busservo/messages/ServoMove.html")
+    assert not box(tab).is_visible()
+    tab.get_by_role("link", name="Search and index").click()
+    arrives(tab, "search.html")
+    assert not tab.locator("#search-form").is_visible()
+    assert tab.get_by_text("Without JavaScript").is_visible()
+    assert tab.locator("#search-letters a").count() > 500
+    tab.locator("#search-letters").get_by_role("link", name="ServoUnload", exact=True).click()
+    arrives(tab, "reference/busservo/messages/ServoUnload.html")
+    visit.end()
+    context.close()
+
+
+QUERIES = [
+    "",
+    "servo",
+    "55 55 05 06 08 01 00",
+    "batery",
+    "xyzzy",
+    "55" * 400,
+    "w" * 300,
+    "a b " * 999,
+]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", WIDTHS)
+def test_the_page_has_no_fault_whatever_is_typed(visit: Visit, width: int, scheme: Any) -> None:
+    tab = visit.tab
+    tab.set_viewport_size({"width": width, "height": 900})
+    tab.emulate_media(color_scheme=scheme)
+    visit.open("search.html")
+    for query in QUERIES:
+        box(tab).fill(query)
+        assert faults(tab) == [], query
+
+
+def test_the_keyboard_alone_reaches_every_choice(visit: Visit) -> None:
+    tab = visit.open("search.html?q=battery")
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("document.activeElement.name") == "search-kinds"
+    tab.keyboard.press("ArrowRight")
+    assert asked_kind(tab) == "message"
+    assert titles(tab) == ["BatteryVoltageRead", "BatteryVoltage"]
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("document.activeElement.name") == "search-protocols"
+    tab.keyboard.press("Tab")
+    assert focused(tab) == "BatteryVoltageRead"
+    tab.keyboard.press("/")
+    assert focused(tab) == "search-words"
+
+
+def asked_kind(tab: Tab) -> str:
+    return str(tab.locator("#search-kinds input:checked").input_value())
+
+
+@pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed; see `make docs-tools`")
+def test_axe_finds_no_violation(browser: Browser, folder: Path) -> None:
+    context = browser.new_context(bypass_csp=True)
+    context.set_default_timeout(MILLISECONDS)
+    tab = context.new_page()
+    tab.goto((folder / "search.html").as_uri())
+    tab.add_script_tag(path=AXE)
+    for query in QUERIES:
+        box(tab).fill(query)
+        for scheme in ("light", "dark"):
+            tab.emulate_media(color_scheme=scheme)
+            assert violations(tab, {}) == [], f"{query}, {scheme}"
+    context.close()
+
+
+def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:
+    site = hostile(" ".join(PAYLOADS.values()))
+    write_files({path: page.text for path, page in site.site.items()}, tmp_path)
+    visit = Visit(context, tmp_path)
+    visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))
+    tab = visit.open("search.html")
+    for query in (
+        "script",
+        "onmouseover",
+        "evil",
+        "servo",
+        "55 55 08 03 01 E8 03 01 20 03",
+        "<img>",
+    ):
+        box(tab).fill(query)
+        assert titles(tab) or query == "<img>"
+        assert tab.locator("main img, main script, main style").count() == 0
+    visit.end()
