@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 # The files of the workbench, in the order in which they are joined.
 _WORKBENCH = (
     "elements",
+    "save_file",
+    "strip",
     "columns",
     "capture_place",
     "hex_text",
@@ -47,7 +49,7 @@ _WORKBENCH = (
 )
 
 # Those of the page of a message.
-_LIVE = ("elements", "capture_place", "notation", "fields", "live")
+_LIVE = ("elements", "strip", "capture_place", "notation", "fields", "live")
 
 
 class ReferencePages:

@@ -216,7 +216,7 @@ class Site:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
         models = [each.reference.model for each in self.references]
         codec = max(map(codec_scripts, models), key=len, default=("hex",))
-        scripts = (codec, ("ranking", "bytes_found"), ("search",))
+        scripts = (codec, ("elements", "ranking", "bytes_found"), ("search",))
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
