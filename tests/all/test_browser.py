@@ -14,7 +14,6 @@ from tests.docs.browser import (
     launched,
     needs_chromium,
     site_on_disk,
-    texts,
 )
 from tests.docs.reference import NODE_MODULES, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile

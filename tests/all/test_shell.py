@@ -81,7 +81,7 @@ def test_no_page_is_wider_than_the_display_or_has_a_dead_end(visit: Visit, path:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("path", PAGES)
 def test_axe_finds_nothing(browser: Browser, folder: Path, path: str, scheme: str) -> None:
-    context = browser.new_context(color_scheme=scheme)
+    context = browser.new_context(color_scheme=scheme)  # type: ignore[arg-type]
     context.add_init_script(path=AXE)
     visit = Visit(context, folder)
     tab = visit.open(path)

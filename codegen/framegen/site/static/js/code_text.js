@@ -45,14 +45,14 @@ function takeWord({ 0: word, groups, index: at }, open, text) {
   const inside = open.at(-1), isPair = /^[0-9A-F]{2}$/i.test(word);
   if (inside?.isIndex) return;
   if (inside?.isCall && groups.number) {
-    throw new Unreadable(word, at, "is an argument, not a byte", "write a list, like bytes([85, 85])");
+    throw new Unreadable(word, at, "is an argument, not a byte", "write a list, like bytes([10, 27])");
   }
   if (inside && (groups.number || (isPair && inside.mark !== "("))) inside.numbers.push([word, at]);
   else if (groups.number || (!inside && isPair && !/^\s*[=([:.]/.test(text.slice(at + word.length)))) {
     throw new Unreadable(word, at, "stands outside of the list",
       "put it into the brackets, or write hex alone");
   } else if (inside && inside.mark !== "(" && !/^(?:u?int8_t|u8|byte|char|unsigned)$/i.test(word)) {
-    throw new Unreadable(word, at, "is no byte", "write numbers, like 0x55 or 85");
+    throw new Unreadable(word, at, "is no byte", "write numbers, like 0x1B or 27");
   }
 }
 
@@ -73,7 +73,7 @@ function numberIn(word, at, asHex) {
   const plain = word.replace(/(?<=[0-9a-f])u?l*$/i, ""), digits = plain.replace(/^0x/i, "");
   const isHex = asHex || digits !== plain;
   if (!(isHex ? /^[0-9a-f]+$/i : /^(?:0?[0-9]|[1-9][0-9]+)$/).test(digits)) {
-    throw new Unreadable(word, at, "is no number", "write it like 0x55 or 85");
+    throw new Unreadable(word, at, "is no number", "write it like 0x1B or 27");
   }
   const value = parseInt(digits, isHex ? 16 : 10);
   if (value > 255) {
@@ -115,5 +115,5 @@ function pieceOf(piece, at) {
   } else if (piece.codePointAt(0) < 0x80) {
     return [piece.charCodeAt(0)];
   }
-  throw new Unreadable(piece, at, "stands for no byte", "write it like \\x55");
+  throw new Unreadable(piece, at, "stands for no byte", "write it like \\x1B");
 }

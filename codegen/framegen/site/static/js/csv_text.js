@@ -88,7 +88,7 @@ function makeCsvReader(header, sample, senders) {
     const [pattern, , valueOf] = form || CSV_FORMS[0];
     if (!pattern.test(cell)) {
       const problem = `is no byte, in the column “${header.names[header.value]}”`;
-      const hint = "export the values in hex, like 0x55";
+      const hint = "export the values in hex, like 0x1B";
       throw new Unreadable(cell || line, cell ? place : start, problem, hint);
     }
     const time = Number(textIn(cells, header.time) || NaN);

@@ -103,7 +103,7 @@ function refusedHex(word, at) {
   const run = /(?:^|0x|\\x)([0-9a-f]+)$/i.exec(word), digits = run ? run[1] : word;
   const place = at + word.length - digits.length;
   if (digits.length === 1) {
-    const hint = `did you mean 0${digits}? Decimal numbers are read in brackets: [85, 85, 2, 7]`;
+    const hint = `did you mean 0${digits}? Decimal numbers are read in brackets: [10, 27, 255]`;
     return new Unreadable(digits, place, "is half a byte", hint);
   }
   const problem = `is ${digits.length} digits, which is no whole number of bytes`;
