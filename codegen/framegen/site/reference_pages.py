@@ -109,8 +109,15 @@ class ReferencePages:
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
+        # A codec on each page of each edition is most of a site: older ones have their workbench.
+        if template == "message" and not self._is_newest:
+            return ()
         shown = {"decoder": (_WORKBENCH, LINE_SCRIPT), "message": (_LIVE,)}.get(template)
         return (codec_scripts(self.reference.model), *shown) if shown else ()
+
+    @property
+    def _is_newest(self) -> bool:
+        return self.edition is self.shelf.versions.newest
 
     def _data(self, view: PageView) -> dict[str, object]:
         match view.template:
@@ -118,6 +125,8 @@ class ReferencePages:
                 model = self.reference.model
                 return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
             case "message" if view.message is not None:
+                if not self._is_newest:
+                    return {"live": None}
                 own = protocol_data(self.reference.model, [view.message.name])
                 return {"live": script_json(own)}
             case "spec":
