@@ -180,6 +180,21 @@ def test_tabs_are_chosen_by_keys_and_remembered_on_all_pages(visit: Visit) -> No
     assert faults(tab) == []
 
 
+def test_an_address_opens_the_tab_that_it_names(visit: Visit) -> None:
+    with_tabs = [path for path in PAGES if "data-tabs" in (visit.folder / path).read_text("utf-8")]
+    if not with_tabs:
+        pytest.skip("no page has tabs")
+    tab = visit.open(with_tabs[0])
+    panels = tab.locator(".tabs").first.locator(":scope > [role=tabpanel]")
+    second = panels.nth(1)
+    assert not second.is_visible()
+    tab.evaluate("(id) => { location.hash = id; }", second.get_attribute("id"))
+    second.wait_for(state="visible")
+    assert not panels.first.is_visible()
+    tab.evaluate("() => { location.hash = '%'; }")
+    assert second.is_visible()
+
+
 # ---------------------------------------------------------------------------- copying
 
 

@@ -169,6 +169,12 @@ def test_a_refusal_says_why_with_its_numbers(bench: Tab, text: str, said: str) -
     assert said in detail(bench)
 
 
+def test_what_was_meant_stands_before_why_it_is_refused(bench: Tab) -> None:
+    fill(bench, "55 55 01 07 01 20 03 E8 03 E8")
+    said = detail(bench)
+    assert said.index("This looks like a frame of the LX-16A") < said.index("has a length of")
+
+
 def test_the_right_frame_takes_the_place_of_the_wrong_one(bench: Tab) -> None:
     fill(bench, "55 55 02 0F 55 55 09 03 01 E8 03 01 20 03 55 55 02 0F")
     assert len(decoded(bench)) == 3

@@ -135,6 +135,7 @@ class Site:
                 for each in view.message_pages
             }
             found[f"../{view.spec}"] = f"{pages.folder}spec.html"
+            found[f"{above}README.md#workbench"] = f"{pages.folder}decoder.html"
         return found
 
     @cached_property

@@ -78,7 +78,7 @@ function makeDetail(element, { codec, take, edit }) {
     ] : [];
     return [
       bytesOf(event, at), ...notes.map((note) => make("p", { class: "quiet small" }, note)),
-      reasons(event, refusals), ...agreed, ...hints.map((hint) => hinted(event, hint)),
+      ...hints.map((hint) => hinted(event, hint)), reasons(event, refusals), ...agreed,
     ];
   }
 
