@@ -117,7 +117,7 @@ class ReferencePages:
 
     @property
     def _is_newest(self) -> bool:
-        return self.edition is self.shelf.versions.newest
+        return self.edition is self.editions.versions.newest
 
     def _data(self, view: PageView) -> dict[str, object]:
         match view.template:
