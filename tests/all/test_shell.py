@@ -6,11 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.cli import main
 
-from tests.docs.browser import Visit, launched, needs_chromium, texts
+from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
 from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.reference import NODE_MODULES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,17 +28,7 @@ pytestmark = needs_chromium
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the site of this project, as `make docs` builds it."""
-    folder = tmp_path_factory.mktemp("stick") / "the site"
-    with pytest.MonkeyPatch.context() as patched:
-        patched.chdir(ROOT)
-        assert main(["docs", "--out", str(folder)]) == 0
-    return folder
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
+    return project_on_disk(tmp_path_factory.mktemp("stick") / "the site")
 
 
 @pytest.fixture
@@ -47,13 +36,6 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
     context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
 
 
 def width(tab: Tab, pixels: int, height: int = 900) -> None:

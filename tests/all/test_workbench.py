@@ -15,7 +15,6 @@ from tests.docs.browser import (
     MILLISECONDS,
     Visit,
     decoded,
-    launched,
     needs_chromium,
     site_on_disk,
     texts,
@@ -26,9 +25,7 @@ from tests.docs.reference import NODE_MODULES, ROOT, reference
 from tests.factories import in_larger_unit, vectors_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from playwright.sync_api import Browser, BrowserContext, Locator
+    from playwright.sync_api import Browser, Locator
     from playwright.sync_api import Page as Tab
 
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
@@ -48,27 +45,6 @@ pytestmark = needs_chromium
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the reference in a folder, as `framegen docs` builds it."""
     return site_on_disk(tmp_path_factory.mktemp("stick") / "the workbench")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
-def context(browser: Browser) -> Iterator[BrowserContext]:
-    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
-    yield context
-    context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
 
 
 @pytest.fixture

@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
-from framegen.cli import main
 
+from tests.docs.browser import project_on_disk
 from tests.docs.reference import ROOT, Page, broken_links
 from tests.docs.test_validity import complaints
 from tests.docs.test_validity import pytestmark as needs_validator
@@ -15,12 +15,8 @@ from tests.factories import compiled_file
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder that `make docs` builds."""
-    folder = tmp_path_factory.mktemp("build") / "site"
     assert "\t$(IN)/framegen docs --out $(SITE) " in (ROOT / "Makefile").read_text("utf-8")
-    with pytest.MonkeyPatch.context() as patched:
-        patched.chdir(ROOT)
-        assert main(["docs", "--out", str(folder)]) == 0
-    return folder
+    return project_on_disk(tmp_path_factory.mktemp("build") / "site")
 
 
 @pytest.fixture(scope="module")

@@ -19,12 +19,14 @@ if TYPE_CHECKING:
 
     from framegen.comparison.edition import Edition
     from framegen.site.project import Project
-    from framegen.site.shelf import Shelf
+    from framegen.site.reference_editions import ReferenceEditions
     from framegen.targets.docs.reference import PageView
 
 # The files of the workbench, in the order in which they are joined.
 _WORKBENCH = (
     "elements",
+    "save_file",
+    "strip",
     "columns",
     "capture_place",
     "hex_text",
@@ -47,7 +49,7 @@ _WORKBENCH = (
 )
 
 # Those of the page of a message.
-_LIVE = ("elements", "capture_place", "notation", "fields", "live")
+_LIVE = ("elements", "strip", "capture_place", "notation", "fields", "live")
 
 
 class ReferencePages:
@@ -55,16 +57,16 @@ class ReferencePages:
 
     def __init__(
         self,
-        shelf: Shelf,
+        editions: ReferenceEditions,
         edition: Edition,
         project: Project,
         rules: Callable[[], Mapping[str, str]],
     ) -> None:
         """Take what is to be shown, and what stands beside it."""
-        self.shelf = shelf
+        self.editions = editions
         self.edition = edition
-        self.reference = shelf.views[edition]
-        self.folder = shelf.root(edition)
+        self.reference = editions.views[edition]
+        self.folder = editions.root(edition)
         self.downloads = Downloads(self.reference, project.files)
         self._rules = rules
 
@@ -72,7 +74,7 @@ class ReferencePages:
     def full_title(self) -> str:
         """The title of the protocol, and the version where that is not the newest."""
         title = self.reference.protocol.title
-        is_newest = self.edition is self.shelf.versions.newest
+        is_newest = self.edition is self.editions.versions.newest
         return title if is_newest else f"{title} {self.edition.version}"
 
     @property
@@ -88,7 +90,7 @@ class ReferencePages:
     def _made(self) -> Iterator[Page]:
         reference = self.reference
         for view in (*reference.pages, *reference.message_pages):
-            notice = self.shelf.notice(self.edition, view)
+            notice = self.editions.notice(self.edition, view)
             yield Page(
                 path=f"{self.folder}{view.html}",
                 template=view.template,
@@ -122,7 +124,7 @@ class ReferencePages:
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}
             case "changelog":
-                return {"versions": what_changed(self.shelf, self.edition, self._rules())}
+                return {"versions": what_changed(self.editions, self.edition, self._rules())}
             case "downloads":
                 return {"downloads": self.downloads}
             case _:
