@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 KINDS = ["index.html", "search.html", GUIDE, WORKBENCH, SERVO_MOVE]
+# Of older editions, messages have the templates that they have in the newest.
 GROUPS = [
     "",
     "project",
@@ -34,7 +35,6 @@ GROUPS = [
     "reference/busservo/1.0.0",
     "reference/lxservo/1.0.0",
 ]
-# Of an older edition, the pages of messages are made by the templates that the newest is made by.
 
 pytestmark = needs_chromium
 
