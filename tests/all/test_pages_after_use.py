@@ -85,7 +85,7 @@ def judged(tab: Tab) -> list[tuple[str, str]]:
     found = looks.violations(tab, {"rules": {"target-size": {"enabled": True}}})
     # Of the dark page, nothing but the colours differs.
     tab.emulate_media(color_scheme="dark")
-    found += looks.violations(tab, {"runOnly": ["cat.color"]})
+    found += looks.violations(tab, {"runOnly": ["color-contrast"]})
     tab.emulate_media(color_scheme="light")
     return found
 

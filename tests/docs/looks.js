@@ -121,7 +121,7 @@ function textFaults() {
 // A finger or a shaking hand meets what is 24 pixels wide and high.
 function targetFaults() {
   return [...document.querySelectorAll(CONTROLS)].filter(shown).filter((each) => {
-    const label = each.matches("[type=checkbox], [type=radio]") && each.closest("label");
+    const label = each.matches("[type=checkbox], [type=radio]") && each.labels[0];
     const { width, height } = (label || each).getBoundingClientRect();
     return width > 1 && (width < 23.5 || height < 23.5);
   }).map((each) => {

@@ -102,7 +102,7 @@ def fields_wrong(tab: Tab) -> None:
     """Type into each field what no frame can carry."""
     for each in tab.locator("#live-fields input").all():
         each.fill("9" * 60 + " and a word")
-    assert tab.locator("#live-fields [aria-invalid=true]").count() > 1
+    assert tab.locator("#live-fields [aria-invalid=true]").count() >= 1
 
 
 def fields_many(tab: Tab) -> None:
