@@ -193,13 +193,6 @@ function startKeys() {
     const beside = target.closest("label, form") || target;
     const differs = look(target) !== before.get(target) || target.closest(".chips");
     if (before.has(target) && !differs) faults.push(`not seen to have the focus: ${named(beside)}`);
-    const { top, bottom, left, right } = target.getBoundingClientRect();
-    const isOff = bottom <= 0 || top >= innerHeight || right <= 0 || left >= innerWidth;
-    if (isOff) faults.push(`focused out of sight: ${named(target)}`);
-    const over = document.elementFromPoint((left + right) / 2, Math.min(bottom, innerHeight) - 3);
-    if (over && over.closest("body > header") && !target.closest("header")) {
-      faults.push(`focused below the header: ${named(target)}`);
-    }
   };
   document.addEventListener("focusin", reached);
   window.endKeys = () => {
