@@ -13,7 +13,7 @@ from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
 from framegen.site.home import Introduction, specimen
 from framegen.site.linked_files import is_linked, link_to
-from framegen.site.mark import icon, mark
+from framegen.site.logo import icon, logo
 from framegen.site.mentions import Mention, Mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
@@ -77,9 +77,9 @@ class Site:
         return __version__
 
     @property
-    def mark(self) -> Markup:
-        """The mark beside the title."""
-        return mark()
+    def logo(self) -> Markup:
+        """The logo beside the title."""
+        return logo()
 
     @property
     def icon(self) -> str:
@@ -135,6 +135,7 @@ class Site:
                 for each in view.message_pages
             }
             found[f"../{view.spec}"] = f"{pages.folder}spec.html"
+            found[f"{above}README.md#workbench"] = f"{pages.folder}decoder.html"
         return found
 
     @cached_property
@@ -216,7 +217,7 @@ class Site:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
         models = [each.reference.model for each in self.references]
         codec = max(map(codec_scripts, models), key=len, default=("hex",))
-        scripts = (codec, ("ranking", "bytes_found"), ("search",))
+        scripts = (codec, ("elements", "ranking", "bytes_found"), ("search",))
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
@@ -291,7 +292,7 @@ class Site:
     def _trail_of_older(self, page: Page) -> Iterator[Link]:
         reference = self.collection.of(page)
         if reference is not None:
-            newest, title = reference.shelf.folder, reference.reference.protocol.title
+            newest, title = reference.editions.folder, reference.reference.protocol.title
             yield Link(f"{newest}index.html", title)
             yield Link(f"{newest}changelog.html", "Versions")
             start = f"{reference.folder}index.html"
