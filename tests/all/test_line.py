@@ -17,7 +17,7 @@ from framegen.cli import main
 from lxservo_simulator import VirtualBus
 
 from tests.docs.browser import Visit, needs_chromium
-from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.reference import ROOT
 from tests.docs.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
 from tests.independent import faults
 from tests.independent.board import Board

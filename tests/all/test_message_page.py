@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.docs.browser import needs_chromium, site_on_disk
-from tests.docs.looks import WIDTHS, faults
-from tests.docs.reference import reference
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,19 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo_simulator import VirtualController
-from framegen.cli import main
 
 from tests.docs import looks
-from tests.docs.browser import MILLISECONDS, Visit, launched, needs_chromium
-from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk
+from tests.docs.reference import NODE_MODULES
 from tests.docs.serial_host import LiveTab, SerialHost, VirtualEnd
 from tests.docs.uses import GUIDE, SERVO_MOVE, USES, WORKBENCH
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import Browser
     from playwright.sync_api import Page as Tab
 
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
@@ -43,31 +41,7 @@ pytestmark = needs_chromium
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the site of this project, as it is published."""
     folder = tmp_path_factory.mktemp("stick") / "the site"
-    with pytest.MonkeyPatch.context() as patched:
-        patched.chdir(ROOT)
-        assert main(["docs", "--out", str(folder), "--base", "https://docs.example/"]) == 0
-    return folder
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
-def context(browser: Browser) -> Iterator[BrowserContext]:
-    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
-    yield context
-    context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
+    return project_on_disk(folder, "--base", "https://docs.example/")
 
 
 def opened(visit: Visit, use: str) -> Tab:

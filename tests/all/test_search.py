@@ -8,9 +8,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import pytest
 
-from tests.docs.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk, texts
-from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES
+from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import write_files
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
-from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES
+from tests.docs.looks import faults
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -24,7 +24,7 @@ from tests.docs.reference import ROOT, reference
 from tests.factories import in_larger_unit, vectors_of
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Locator
     from playwright.sync_api import Page as Tab
 
 SITE = reference("busservo")
