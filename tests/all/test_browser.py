@@ -82,11 +82,13 @@ def test_anchors_land(visit: Visit) -> None:
     assert line.strip().endswith("position:")
 
 
-def test_the_front_page_leads_to_the_reference(visit: Visit) -> None:
-    tab = visit.open("../index.html")
-    tab.get_by_role("link", name="Hiwonder bus servo controller").click()
-    arrives(tab, "busservo/index.html")
+def test_the_front_page_leads_to_the_reference(context: BrowserContext, folder: Path) -> None:
+    visit = Visit(context, folder.parent.parent)
+    tab = visit.open("index.html")
+    tab.get_by_role("main").get_by_role("link", name="Every documented frame").click()
+    arrives(tab, "busservo/examples.html")
     assert tab.get_by_role("searchbox").is_visible()
+    visit.end()
 
 
 # ---------------------------------------------------------------------------- looks
@@ -135,7 +137,7 @@ def test_everything_is_readable_without_a_script(browser: Browser, folder: Path)
     assert tab.get_by_text("This page needs JavaScript").is_visible()
     assert not tab.locator("#hex").is_visible()
     tab.goto((folder / "messages" / "ServoMove.html").as_uri())
-    assert "E8 03" in tab.locator(".strip").nth(1).inner_text()
+    assert "E8 03" in tab.locator("#example-1 .strip").first.inner_text()
     assert not tab.locator("button.copy").first.is_visible()
     context.close()
 
