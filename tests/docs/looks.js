@@ -121,9 +121,9 @@ function textFaults() {
 // A finger or a shaking hand meets what is 24 pixels wide and high.
 function targetFaults() {
   return [...document.querySelectorAll(CONTROLS)].filter(shown).filter((each) => {
-    const label = each.matches("[type=checkbox], [type=radio]") && each.labels[0];
-    const { width, height } = (label || each).getBoundingClientRect();
-    return width > 1 && (width < 23.5 || height < 23.5);
+    const parts = each.matches("[type=checkbox], [type=radio]") ? [each, ...each.labels] : [each];
+    const sizes = parts.map((part) => part.getBoundingClientRect());
+    return sizes[0].width > 1 && !sizes.some(({ width, height }) => width >= 23.5 && height >= 23.5);
   }).map((each) => {
     const { width, height } = each.getBoundingClientRect();
     return `${Math.round(width)} by ${Math.round(height)} small: ${named(each)}`;
