@@ -17,7 +17,7 @@ from framegen.cli import main
 from lxservo_simulator import VirtualBus
 
 from tests.docs.browser import Visit, needs_chromium
-from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.reference import ROOT
 from tests.docs.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
 from tests.independent import faults
 from tests.independent.board import Board
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from tests.docs.serial_host import End
     from tests.independent.faults import Script
 
-AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 VOLTAGE = busservo.BatteryVoltage(7500).encode()
 
 pytestmark = needs_chromium
@@ -416,37 +415,6 @@ def test_the_recording_goes_to_the_list_of_the_page(browser: Browser, site: Path
         live.tab.wait_for_function(
             "() => document.getElementById('decoded').textContent.includes('10 bytes: 2 messages')"
         )
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [380, 768, 1440])
-def test_a_page_after_use(browser: Browser, site: Path, width: int, scheme: str) -> None:
-    """With traffic, 200 bytes of noise and a lost line, nothing is cut off, and axe is content."""
-    screen = {"viewport": {"width": width, "height": 900}, "color_scheme": scheme}
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board), **screen) as made:
-        live = made.open()
-        live.connect()
-        live.send("ServoPositionsRead")
-        live.reply("ServoPositions ")
-        board.send_bytes(bytes(range(100)) * 2)
-        live.count("noise", 200)
-        for is_lost in (False, True):
-            if is_lost:
-                made.host.unplug(live.tab)
-                live.status("The line was lost")
-            assert live.tab.evaluate("document.documentElement.scrollWidth") <= width
-            if AXE.exists():
-                assert axe(live) == []
-
-
-def axe(live: LiveTab) -> list[str]:
-    """Return what axe finds in the panel and in the encoder."""
-    live.tab.evaluate(AXE.read_text("utf-8") + ";0")
-    found: list[str] = live.tab.evaluate(
-        """async () => (await axe.run({ include: [".line", ".line-send"] })).violations
-            .flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html}`))"""
-    )
-    return found
 
 
 def test_the_keyboard_is_enough(browser: Browser, site: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from framegen.cli import main
@@ -14,7 +14,7 @@ from tests.docs.browser import (
     site_on_disk,
     texts,
 )
-from tests.docs.reference import NODE_MODULES, reference
+from tests.docs.reference import reference
 from tests.factories import BUSSERVO, compiled_file, vectors_of
 from tests.protocols.specs import FILES
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
     from playwright.sync_api import Page as Tab
 
-AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 SERVO_MOVE = "messages/ServoMove.html"
 MESSAGES = [f"messages/{name}.html" for name in reference("busservo").model.messages]
 
@@ -189,24 +188,6 @@ def test_every_message_begins_with_a_frame_and_keeps_its_place_in_the_page(
     for width in looks.WIDTHS:
         tab.set_viewport_size({"width": width, "height": 900})
         assert looks.faults(tab) == [], width
-
-
-@pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed")
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_is_wrong_for_a_reader_of_the_fields_after_use(
-    browser: Browser, folder: Path, scheme: Any
-) -> None:
-    context = browser.new_context(color_scheme=scheme, viewport={"width": 380, "height": 800})
-    visit = Visit(context, folder)
-    tab = visit.open(SERVO_MOVE)
-    tab.get_by_role("button", name="Add an item").click()
-    field(tab, "time_ms").fill("soon")
-    # The policy of the page allows no other script: this one is of the test.
-    tab.evaluate(AXE.read_text("utf-8") + "; 0")
-    found = tab.evaluate("axe.run('.live')")
-    assert [each["id"] for each in found["violations"]] == []
-    visit.end()
-    context.close()
 
 
 def test_without_a_script_there_are_no_fields(browser: Browser, folder: Path) -> None:

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.docs.browser import needs_chromium, site_on_disk
-from tests.docs.looks import WIDTHS, faults
-from tests.docs.reference import reference
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,8 +16,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page as Tab
 
 pytestmark = [needs_chromium, pytest.mark.slow]
-
-MESSAGES = [*reference("busservo").model.messages]
 
 
 @pytest.fixture(scope="module")
@@ -119,18 +115,3 @@ def test_an_erratum_and_its_message_lead_to_each_other(tab: Tab, folder: Path) -
     ).first.click()
     tab.wait_for_url("**/messages/ServoUnload.html#erratum-5")
     assert tab.locator("#erratum-5").is_visible()
-
-
-@pytest.mark.parametrize("width", WIDTHS)
-def test_pages_are_whole_at_any_width_after_use(tab: Tab, folder: Path, width: int) -> None:
-    tab.set_viewport_size({"width": width, "height": 900})
-    found = {}
-    for message in MESSAGES:
-        opened(tab, folder, message)
-        for name in ("Shell", "Codec", "Client"):
-            tab.get_by_role("tab", name=name).click()
-        found[message] = faults(tab)
-    for page in ("index", "errata", "lookalikes", "cheatsheet", "sequences", "examples", "stream"):
-        tab.goto((folder / f"{page}.html").as_uri())
-        found[page] = faults(tab)
-    assert {page: each for page, each in found.items() if each} == {}

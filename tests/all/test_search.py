@@ -8,9 +8,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import pytest
 
-from tests.docs.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk, texts
-from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES
+from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import write_files
 
@@ -20,7 +18,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext
     from playwright.sync_api import Page as Tab
 
-AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 PAGES = [
     "index.html",
     "getting-started.html",
@@ -283,30 +280,6 @@ def test_without_a_script_the_page_lists_everything(browser: Browser, folder: Pa
     context.close()
 
 
-QUERIES = [
-    "",
-    "servo",
-    "55 55 05 06 08 01 00",
-    "batery",
-    "xyzzy",
-    "55" * 400,
-    "w" * 300,
-    "a b " * 999,
-]
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", WIDTHS)
-def test_the_page_has_no_fault_whatever_is_typed(visit: Visit, width: int, scheme: Any) -> None:
-    tab = visit.tab
-    tab.set_viewport_size({"width": width, "height": 900})
-    tab.emulate_media(color_scheme=scheme)
-    visit.open("search.html")
-    for query in QUERIES:
-        box(tab).fill(query)
-        assert faults(tab) == [], query
-
-
 def test_the_keyboard_alone_reaches_every_choice(visit: Visit) -> None:
     tab = visit.open("search.html?q=battery")
     tab.keyboard.press("Tab")
@@ -324,21 +297,6 @@ def test_the_keyboard_alone_reaches_every_choice(visit: Visit) -> None:
 
 def asked_kind(tab: Tab) -> str:
     return str(tab.locator("#search-kinds input:checked").input_value())
-
-
-@pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed; see `make docs-tools`")
-def test_axe_finds_no_violation(browser: Browser, folder: Path) -> None:
-    context = browser.new_context(bypass_csp=True)
-    context.set_default_timeout(MILLISECONDS)
-    tab = context.new_page()
-    tab.goto((folder / "search.html").as_uri())
-    tab.add_script_tag(path=AXE)
-    for query in QUERIES:
-        box(tab).fill(query)
-        for scheme in ("light", "dark"):
-            tab.emulate_media(color_scheme=scheme)
-            assert violations(tab, {}) == [], f"{query}, {scheme}"
-    context.close()
 
 
 def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
-from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES
+from tests.docs.looks import faults
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext
     from playwright.sync_api import Page as Tab
 
-AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 MESSAGE = "reference/busservo/messages/ServoMove.html"
 PAGES = ["index.html", "getting-started.html", "project/contributing.html", MESSAGE]
 
@@ -47,36 +45,6 @@ def focused(tab: Tab) -> str:
 
 
 # ---------------------------------------------------------------------------- at any width
-
-
-@pytest.mark.parametrize("path", PAGES)
-def test_no_page_is_wider_than_the_display_or_has_a_dead_end(visit: Visit, path: str) -> None:
-    tab = visit.open(path)
-    found = []
-    for pixels in WIDTHS:
-        width(tab, pixels)
-        found += [(pixels, each) for each in faults(tab)]
-    assert found == []
-
-
-@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: make docs-tools")
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("path", PAGES)
-def test_axe_finds_nothing(browser: Browser, folder: Path, path: str, scheme: str) -> None:
-    context = browser.new_context(color_scheme=scheme)  # type: ignore[arg-type]
-    context.add_init_script(path=AXE)
-    visit = Visit(context, folder)
-    tab = visit.open(path)
-    found = []
-    for pixels in (380, 1440):
-        width(tab, pixels)
-        found += violations(tab, {})
-    assert found == []
-    width(tab, 380)
-    tab.get_by_role("button", name="Menu").click()
-    assert violations(tab, {}) == []
-    visit.end()
-    context.close()
 
 
 @pytest.mark.parametrize("path", PAGES)
@@ -231,34 +199,6 @@ def test_copying_works_without_the_clipboard_of_the_page(browser: Browser, folde
 # ---------------------------------------------------------------------------- keys, colours, paper
 
 
-@pytest.mark.parametrize("path", PAGES)
-def test_every_link_and_button_is_reached_by_the_tabulator(visit: Visit, path: str) -> None:
-    tab = visit.open(path)
-    width(tab, 1440)
-    expected = tab.evaluate(
-        "[...document.querySelectorAll('a[href], button, input, select, textarea, summary')]"
-        ".filter((each) => each.checkVisibility({ visibilityProperty: true }) && each.tabIndex >= 0"
-        "  && !each.disabled).length"
-    )
-    reached: set[int] = set()
-    for _ in range(expected + 200):
-        tab.keyboard.press("Tab")
-        place = tab.evaluate(
-            "[...document.querySelectorAll('a[href], button, input, select, textarea, summary')]"
-            ".indexOf(document.activeElement)"
-        )
-        if place in reached and len(reached) == expected:
-            break
-        if place >= 0:
-            reached.add(place)
-            outline = tab.evaluate("getComputedStyle(document.activeElement).outlineStyle")
-            beside = tab.evaluate("document.activeElement.matches('.chips input')")
-            assert beside or outline != "none", focused(tab)
-    assert len(reached) == expected
-    # The first is the way around the navigation.
-    tab.evaluate("document.activeElement.blur()")
-
-
 def test_the_first_key_leads_around_the_navigation(visit: Visit) -> None:
     tab = visit.open(MESSAGE)
     tab.keyboard.press("Tab")
@@ -282,31 +222,6 @@ def test_with_colours_of_the_user_one_sees_where_one_is(browser: Browser, folder
     assert faults(tab) == []
     visit.end()
     context.close()
-
-
-@pytest.mark.parametrize("path", PAGES)
-def test_on_paper_there_is_content_alone_and_all_of_it(visit: Visit, path: str) -> None:
-    tab = visit.open(path)
-    tab.emulate_media(media="print", color_scheme="dark")
-    width(tab, 760)
-    hidden = "nav, #sidebar, button, .permalink, .skip, .search-box form"
-    assert [each for each in tab.locator(hidden).all() if each.is_visible()] == []
-    assert tab.locator("h1").is_visible()
-    assert visit.style("body", "backgroundColor") == "rgb(255, 255, 255)"
-    cut = tab.evaluate(
-        "[...document.querySelectorAll('main pre, main .scroll')]"
-        ".filter((each) => each.checkVisibility())"
-        ".filter((each) => getComputedStyle(each).overflowX !== 'visible')"
-        ".map((each) => each.outerHTML.slice(0, 80))"
-    )
-    assert cut == []
-    wide = tab.evaluate(
-        "[...document.querySelectorAll('main pre')]"
-        ".filter((each) => each.checkVisibility() && each.scrollWidth > each.clientWidth + 1)"
-        ".map((each) => each.outerHTML.slice(0, 80))"
-    )
-    assert wide == []
-    tab.emulate_media(media="screen")
 
 
 def test_the_colours_of_code_can_be_read_in_both_schemes(browser: Browser, folder: Path) -> None:

@@ -53,11 +53,11 @@ def site_on_disk(root: Path) -> Path:
     return root / "reference" / "busservo"
 
 
-def project_on_disk(folder: Path) -> Path:
+def project_on_disk(folder: Path, *options: str) -> Path:
     """Build the site of this project in a folder, as `make docs` does, and return the folder."""
     with pytest.MonkeyPatch.context() as patched:
         patched.chdir(ROOT)
-        assert main(["docs", "--out", str(folder)]) == 0
+        assert main(["docs", "--out", str(folder), *options]) == 0
     return folder
 
 

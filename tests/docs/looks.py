@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -9,45 +10,81 @@ if TYPE_CHECKING:
 
 # Widths of a phone at 200 %, a phone, a tablet and a desk.
 WIDTHS = (320, 380, 768, 1440)
+# What an A4 page has between its margins, in the pixels of a style sheet.
+PAPER = 700
 
-# What a reader would stumble over: a page wider than the display and what makes it so, an id that
-# stands twice, a link within the page to nothing, a picture that does not show, what can be
-# reached with the keyboard and has no size, and a scroll box that the keyboard does not reach.
-_FAULTS = """() => {
-    const wide = document.documentElement.clientWidth, faults = [];
-    const named = (each) => each.outerHTML.slice(0, 90).replace(/\\s+/g, " ");
-    const shown = (each) => each.checkVisibility({ visibilityProperty: true });
-    if (document.documentElement.scrollWidth > wide) {
-        const over = [...document.body.querySelectorAll("*")]
-            .filter((each) => shown(each) && each.getBoundingClientRect().right > wide + 1);
-        faults.push(`${document.documentElement.scrollWidth} wide: ${over.slice(-1).map(named)}`);
-    }
-    const ids = [...document.querySelectorAll("[id]")].map(({ id }) => id);
-    for (const id of new Set(ids.filter((each, i) => ids.indexOf(each) !== i))) {
-        faults.push(`the id ${id} stands twice`);
-    }
-    for (const link of document.querySelectorAll('a[href^="#"]')) {
-        const id = decodeURIComponent(link.getAttribute("href").slice(1));
-        if (id && !document.getElementById(id)) faults.push(`no #${id}`);
-    }
-    for (const image of document.images) {
-        if (shown(image) && !image.naturalWidth) faults.push(`does not show: ${named(image)}`);
-    }
-    for (const each of document.querySelectorAll("main *")) {
-        if (!shown(each)) continue;
-        const style = getComputedStyle(each);
-        const scrolls = /auto|scroll/.test(style.overflowX)
-            && each.scrollWidth > each.clientWidth + 1;
-        const reached = each.tabIndex >= 0 || each.querySelector("a, button, input, [tabindex]");
-        if (scrolls && !reached) faults.push(`no key scrolls ${named(each)}`);
-    }
-    return faults;
-}"""
+_LOOKS = Path(__file__).with_suffix(".js").read_text("utf-8")
 
 
 def faults(tab: Tab) -> list[str]:
-    """Return what is wrong with the page in its present state and width."""
-    found: list[str] = tab.evaluate(_FAULTS)
+    """Return what is wrong with the page in its present state and width.
+
+    A page that is wider than the display, and what makes it so; an id that stands twice; a link
+    within the page to nothing; a picture that does not show; a scroll box that the keyboard does
+    not reach; text that is cut off, that leaves its cell or button, or lies over other text; and
+    a control that is smaller than 24 pixels.
+    """
+    return _found(tab, "screenFaults")
+
+
+def faults_at_widths(tab: Tab) -> list[str]:
+    """Return what is wrong with the page at each of the widths."""
+    found = []
+    for width in WIDTHS:
+        tab.set_viewport_size({"width": width, "height": 900})
+        found += [f"{width}: {each}" for each in faults(tab)]
+    return found
+
+
+def faults_on_paper(tab: Tab) -> list[str]:
+    """Return what of the page would be printed in vain, or cut off at the edge of the paper."""
+    tab.set_viewport_size({"width": PAPER, "height": 900})
+    tab.emulate_media(media="print")
+    tab.evaluate("dispatchEvent(new Event('beforeprint'))")
+    found = _found(tab, "paperFaults")
+    tab.evaluate("dispatchEvent(new Event('afterprint'))")
+    tab.emulate_media(media="screen")
+    return found
+
+
+def faults_in_forced_colours(tab: Tab) -> list[str]:
+    """Return the controls that cannot be told from text in colours of the user's own."""
+    tab.emulate_media(forced_colors="active")
+    found = _found(tab, "edgeFaults")
+    tab.emulate_media(forced_colors="none")
+    return found
+
+
+def faults_in_motion(tab: Tab) -> list[str]:
+    """Return what moves though the user wants no motion."""
+    tab.emulate_media(reduced_motion="reduce")
+    found = _found(tab, "motionFaults")
+    tab.emulate_media(reduced_motion="no-preference")
+    return found
+
+
+def faults_from_right_to_left(tab: Tab) -> list[str]:
+    """Return what blows the page up when it is read from right to left."""
+    tab.evaluate("document.documentElement.dir = 'rtl'")
+    found = _found(tab, "wideFaults")
+    tab.evaluate("document.documentElement.dir = 'ltr'")
+    return found
+
+
+def dead_controls(tab: Tab) -> list[str]:
+    """Return the controls of a page without scripts that would do nothing."""
+    return _found(tab, "deadFaults")
+
+
+def faults_of_keyboard(tab: Tab) -> list[str]:
+    """Return what Tab does not reach, reaches twice, or reaches without showing that it did."""
+    many = tab.evaluate(f"() => {{ {_LOOKS}; return startKeys(); }}")
+    # Boxes that scroll are stops on the way, too.
+    for _ in range(2 * many + 20):
+        tab.keyboard.press("Tab")
+        if tab.evaluate("hasComeRound()"):
+            break
+    found: list[str] = tab.evaluate("endKeys()")
     return found
 
 
@@ -57,3 +94,8 @@ def violations(tab: Tab, options: dict[str, Any]) -> list[tuple[str, str]]:
         "(options) => axe.run(options)", {"resultTypes": ["violations"], **options}
     )
     return [(each["id"], each["nodes"][0]["html"][:120]) for each in found["violations"]]
+
+
+def _found(tab: Tab, kind: str) -> list[str]:
+    found: list[str] = tab.evaluate(f"() => {{ {_LOOKS}; return first({kind}()); }}")
+    return found

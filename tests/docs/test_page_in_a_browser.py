@@ -8,6 +8,7 @@ from framegen.cli import main
 from framegen.language.values import to_hex
 from framegen.model.codec import encode
 
+from tests.docs import looks
 from tests.docs.browser import Visit, decoded, launched, needs_chromium, site_on_disk, texts
 from tests.protocols.specs import FILES, messages_of
 
@@ -36,6 +37,11 @@ def test_the_workbench_shows_frames_noise_and_unknown_frames(tmp_path: Path) -> 
             "6 E8 03 time_ms 1000 ms",
             "8 01 targets[0].servo_id 1",
         ]
+        # After use, nothing is cut off, covered, out of reach, or printed in vain.
+        tab.get_by_label("A capture").fill("55 55 03 63 01 " + "A5 " * 200)
+        tab.locator("#events [role=option]").last.click()
+        assert looks.faults_at_widths(tab) == []
+        assert looks.faults_on_paper(tab) == []
         visit.end()
 
 

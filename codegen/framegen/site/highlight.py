@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
 # What the languages of the guides are called by readers.
 _TITLES = {
-    "bat": "the command prompt",
+    "bat": "the commands",
     "c": "C",
-    "console": "a shell",
-    "diff": "a difference",
+    "console": "the commands",
+    "diff": "the difference",
     "json": "JSON",
-    "powershell": "PowerShell",
+    "powershell": "the commands",
     "pycon": "Python",
     "python": "Python",
-    "sh": "a shell",
+    "sh": "the commands",
     "toml": "TOML",
     "yaml": "YAML",
 }

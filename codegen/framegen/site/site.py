@@ -145,11 +145,8 @@ class Site:
         for pages in self.references:
             view, above = pages.reference, f"reference/{pages.reference.folder}/"
             found |= {
-                f"{above}{each.markdown}": f"{pages.folder}{each.html}" for each in view.pages
-            }
-            found |= {
                 f"{above}{each.markdown}": f"{pages.folder}{each.html}"
-                for each in view.message_pages
+                for each in (*view.pages, *view.message_pages)
             }
             found[f"../{view.spec}"] = f"{pages.folder}spec.html"
             found[f"{above}README.md#workbench"] = f"{pages.folder}decoder.html"

@@ -25,7 +25,12 @@ document.addEventListener("click", async (event) => {
   const text = copied ? "Copied" : "Not copied";
   announce(text);
   if (button.dataset.label === undefined) button.dataset.label = button.textContent;
+  button.dataset.name ??= button.ariaLabel || "";
+  button.ariaLabel = null;
   button.textContent = text;
   clearTimeout(Number(button.dataset.timer));
-  button.dataset.timer = setTimeout(() => { button.textContent = button.dataset.label; }, 1500);
+  button.dataset.timer = setTimeout(() => {
+    button.textContent = button.dataset.label;
+    button.ariaLabel = button.dataset.name || null;
+  }, 1500);
 });

@@ -25,6 +25,10 @@ function announce(text) {
     show();
     sidebar.addEventListener("toggle", show);
   }
+  // Where the display has room for the sidebar beside the page, it is no menu over it.
+  matchMedia("(min-width: 64.01rem)").addEventListener("change", () => {
+    if (sidebar?.matches(":popover-open")) sidebar.hidePopover();
+  });
 }
 
 // The contents mark the part that is being read.

@@ -102,7 +102,7 @@ function makeDetail(element, { codec, take, edit }) {
 
   // All bytes of noise, or its two ends; the byte at which it was refused is marked.
   function bytesOf(event, refusedAt) {
-    const shown = make("p", { class: "dump bytes" });
+    const shown = make("p", { class: "dump bytes", tabindex: "0", role: "group", "aria-label": "The bytes" });
     const piece = (from, to) => {
       const bytes = event.rest(from, to), place = refusedAt === null ? -1 : refusedAt - from;
       if (place < 0 || place >= bytes.length) return [toHex(bytes)];
