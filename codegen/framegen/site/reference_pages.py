@@ -17,6 +17,8 @@ from framegen.site.what_changed import what_changed
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from markupsafe import Markup
+
     from framegen.comparison.edition import Edition
     from framegen.site.project import Project
     from framegen.site.reference_editions import ReferenceEditions
@@ -74,8 +76,7 @@ class ReferencePages:
     def full_title(self) -> str:
         """The title of the protocol, and the version where that is not the newest."""
         title = self.reference.protocol.title
-        is_newest = self.edition is self.editions.versions.newest
-        return title if is_newest else f"{title} {self.edition.version}"
+        return title if self._is_newest else f"{title} {self.edition.version}"
 
     @property
     def files(self) -> dict[str, str]:
@@ -117,7 +118,10 @@ class ReferencePages:
 
     @property
     def _is_newest(self) -> bool:
-        return self.edition is self.shelf.versions.newest
+        return self.edition is self.editions.versions.newest
+
+    def _live_data(self, message: str) -> Markup:
+        return script_json(protocol_data(self.reference.model, [message]))
 
     def _data(self, view: PageView) -> dict[str, object]:
         match view.template:
@@ -125,10 +129,7 @@ class ReferencePages:
                 model = self.reference.model
                 return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
             case "message" if view.message is not None:
-                if not self._is_newest:
-                    return {"live": None}
-                own = protocol_data(self.reference.model, [view.message.name])
-                return {"live": script_json(own)}
+                return {"live": self._live_data(view.message.name) if self._is_newest else None}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}
