@@ -27,7 +27,7 @@ _HEAD = """\
 `framegen diff` compares two editions of a spec. It names each change by one of the rules below.
 A rule says why a change matters and what to do about it.
 What the change breaks is not fixed: `framegen diff` tries it out for each pair of editions,
-with the frames of both, their requests and replies, and the libraries that are generated from them.
+with the frames of both, their requests and replies, and the libraries generated from them.
 
 Each rule has an example, with what that breaks between a host, which has the library,
 and a lamp, which answers.
