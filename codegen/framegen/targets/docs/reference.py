@@ -335,7 +335,7 @@ class ReferenceView:
                 "decoder",
                 "Workbench",
                 "Workbench",
-                f"Decode captures of the {title}, and make frames. Nothing leaves the page.",
+                f"Decode captures of the {title}, and make frames; connect a device by its serial port.",
                 in_markdown=False,
             ),
             PageView(
