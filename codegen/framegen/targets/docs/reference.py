@@ -335,7 +335,7 @@ class ReferenceView:
                 "decoder",
                 "Workbench",
                 "Workbench",
-                f"Decode captures of the {title}, and make frames. Nothing leaves the page.",
+                f"Decode captures of the {title}, make frames, and talk to a device.",
                 in_markdown=False,
             ),
             PageView(
