@@ -135,7 +135,9 @@ def test_a_guide_has_a_name_that_links_can_have(tmp_path: Path, name: str) -> No
 def test_two_specs_have_two_names(tmp_path: Path) -> None:
     other = tmp_path / "other.yaml"
     shutil.copy(LAMP, other)
-    with pytest.raises(Unusable, match=r"lamp\.yaml and other\.yaml are both of the protocol stage_lamp"):
+    with pytest.raises(
+        Unusable, match=r"lamp\.yaml and other\.yaml are both of the protocol stage_lamp"
+    ):
         read_project({file: compiled(file) for file in (LAMP, other)})
 
 

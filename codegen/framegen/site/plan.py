@@ -113,7 +113,9 @@ def _entry(item: Token) -> Iterator[Entry]:
         rest = "".join(
             " " if "break" in each.type else each.content for each in children[end + 1 :]
         )
-        yield Entry(unquote(str(children[0].attrGet("href"))), label, _sentence(rest, children[end + 1 :]))
+        yield Entry(
+            unquote(str(children[0].attrGet("href"))), label, _sentence(rest, children[end + 1 :])
+        )
 
 
 def _sentence(text: str, tokens: Sequence[Token]) -> str:

@@ -123,10 +123,9 @@ class ReferencePages:
                 model = self.reference.model
                 return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
             case "message" if view.message is not None:
-                if not self._is_newest:
-                    return {"live": None}
-                own = protocol_data(self.reference.model, [view.message.name])
-                return {"live": script_json(own)}
+                own = [view.message.name] if self._is_newest else []
+                data = protocol_data(self.reference.model, own) if own else None
+                return {"live": None if data is None else script_json(data)}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from framegen import __version__
-from framegen.console import visible
-from framegen.reading.yamltree import Unusable
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
@@ -21,6 +18,7 @@ from framegen.site.mentions import Mention, Mentions
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.publication import NOT_FOUND, robots, sitemap
+from framegen.site.reading_order import beside, refuse_twins
 from framegen.site.references import References
 from framegen.site.rendering import render_page
 from framegen.site.rule_pages import rule_pages
@@ -42,7 +40,7 @@ _PREVIEW = "images/preview.png"
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
-    _refuse_twins(site)
+    refuse_twins(site.guides, site.pages)
     files = {page.path: render_page(site, page) for page in site.pages} | site.collection.files
     if project.base:
         # Where a page stands for another, or for none at all, it is not for search engines.
@@ -52,18 +50,6 @@ def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
         files["sitemap.xml"] = sitemap(project.base, listed)
         files["robots.txt"] = robots(project.base)
     return files
-
-
-def _refuse_twins(site: Site) -> None:
-    """Refuse a guide that would replace another page, or be replaced by it."""
-    guides = {guide.page: guide.path for guide in site.guides}
-    counts = Counter(page.path for page in site.pages)
-    for path, guide in guides.items():
-        if counts[path] > 1:
-            raise Unusable(
-                f"docs/{visible(guide)} would become {visible(path)}, which is another page",
-                hint="give it another name",
-            )
 
 
 @dataclass(frozen=True)
@@ -117,7 +103,11 @@ class Site:
     @cached_property
     def collection(self) -> References:
         """The references of all editions."""
-        return References(self.project, self.snippets, lambda: rule_pages(self.guides))
+        return References(self.project, self.snippets, lambda: self._rule_pages)
+
+    @cached_property
+    def _rule_pages(self) -> dict[str, str]:
+        return rule_pages(self.guides)
 
     @property
     def references(self) -> list[ReferencePages]:
@@ -282,16 +272,18 @@ class Site:
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
-        order = self._order
-        if page.path not in order:
-            return None, None
-        at = list(order).index(page.path)
-        links = list(order.values())
-        return (links[at - 1] if at else None, links[at + 1] if at + 1 < len(links) else None)
+        if page.path in self._places:
+            return beside(self._order, page)
+        older = self.collection.of(page)
+        return beside([Link(each.path, each.label) for each in older.pages] if older else (), page)
 
     @cached_property
-    def _order(self) -> dict[str, Link]:
-        return {link.path: link for section in self.sidebar for link in section.every_link}
+    def _order(self) -> list[Link]:
+        return [link for section in self.sidebar for link in section.every_link]
+
+    @cached_property
+    def _places(self) -> frozenset[str]:
+        return frozenset(link.path for link in self._order)
 
     def trail(self, page: Page) -> list[Link]:
         """Return the links that lead from home to a page, which is not among them."""
