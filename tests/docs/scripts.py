@@ -25,7 +25,7 @@ const sayable = (key, value) => {
 };
 const meant = (key, value) => (typeof value?.number !== "string" ? value
   : /^-?[0-9]+$/.test(value.number) ? BigInt(value.number) : Number(value.number));
-const asked = JSON.parse(require("fs").readFileSync(0, "utf8"), meant);
+const asked = JSON.parse(given, meant);
 """
 _END = "console.log(JSON.stringify(answers, sayable));"
 _EXACT = 1 << 53
@@ -34,9 +34,11 @@ _EXACT = 1 << 53
 def run_script(names: Iterable[str], program: str, asked: object) -> Any:
     """Run a program behind files of the page; it finds `asked`, and leaves `answers`."""
     files = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in names)
+    given = f"const given = {json.dumps(json.dumps(_sayable(asked)))};"
+    # All of it goes in by the input: an argument has a greatest size.
     done = subprocess.run(
-        [str(NODE), "--input-type=commonjs", "-e", f"{files}\n{_BEGIN}{program}{_END}"],
-        input=json.dumps(_sayable(asked)),
+        [str(NODE), "--input-type=commonjs", "-"],
+        input=f"{files}\n{given}{_BEGIN}{program}{_END}",
         capture_output=True,
         encoding="utf-8",
         check=False,

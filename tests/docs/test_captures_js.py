@@ -103,6 +103,12 @@ FORMS = [
     ("  can0  123   [4]  55 55 02 07", "lines of candump", STOP),
     ("00000000  55 55 02 07   |UU..|\n00000004", "a hex dump", STOP),
     ("00000000: 5555 0207                 UU..", "a hex dump", STOP),
+    ("00000000: 55550207    UU..", "a hex dump", STOP),
+    ("000000f0: 5555 0207    UU..", "a hex dump", STOP),
+    (f"00000000  {'00 ' * 15}00\n*\n00000030  55 02\n00000032", "a hex dump", 48 * "00" + "5502"),
+    (f"00000000: {'5500 ' * 8} U.U.\n*\n00000020: 0207  ..", "a hex dump", 16 * "5500" + "0207"),
+    ("\ufeff00000000  55 55 02 07", "a hex dump", STOP),
+    ("unsigned char stop[] = {\n  0x55, 0x07\n};\nunsigned int len = 2;", "a list in hex", "5507"),
     ("uart-1: 55\nuart-1: 55\nuart-1: 02\nuart-1: 07", "annotations of a logic analyser", STOP),
     (
         "8-16 UART: RX: 55\n16-17 UART: Stop bit\n17-25 UART: RX: 07",
@@ -114,7 +120,13 @@ FORMS = [
         "a table of a logic analyser",
         "5507",
     ),
-    ("Time [s],Value,Parity Error\r\n0.1,85,\r\n0.2,7,\r\n", "a table of a logic analyser", "5507"),
+    (
+        "Time [s],Value,Parity Error\r\n0.1,85,\r\n0.2,7,\r\n",
+        "a table of a logic analyser in decimal",
+        "5507",
+    ),
+    ("Time [s],Value\n0.1,U (0x55)\n0.2,'7' (0x07)\n", "a table of a logic analyser", "5507"),
+    ("\ufeffTime [s],Value\n0.1,0x55\n", "a table of a logic analyser", "55"),
     ("time;data\n0.1;55\n0.2;0F\n", "a table of a logic analyser", "550f"),
     (NEW_TABLE, "a table of a logic analyser", "555502"),
     ("\ufeff55 55 02 07\r\n", "hex", STOP),
@@ -130,6 +142,10 @@ REFUSED = [
     ("[85, 85", 1, 1, "["),
     ("85, 85]", 1, 7, "]"),
     ("[85,\n 300]", 2, 2, "300"),
+    ("[85, 1.5]", 1, 6, "1.5"),
+    ("{85};\nx = 2, 7;", 2, 5, "2"),
+    ("*\n00000010  55\n00000011", 1, 1, "*"),
+    ("\ufeff55 55\n0G", 2, 2, "G"),
     ("{0x55, 010}", 1, 8, "010"),
     ("{0x55, size}", 1, 8, "size"),
     ("bytes(4)", 1, 7, "4"),
@@ -173,6 +189,12 @@ def test_what_no_form_has_is_refused_at_its_place() -> None:
         assert text[answer["at"] :].startswith(found)
         assert answer["size"] == len(found)
         assert answer["hint"]
+
+
+@pytest.mark.parametrize("behind", ["", "00000011  55\n", "00000008  55\n", "fffffff0  55\n"])
+def test_lines_that_a_hex_dump_leaves_out_are_never_lost(behind: str) -> None:
+    (answer,) = answers_to([f"00000000  {'00 ' * 15}00\n*\n{behind}"])
+    assert (answer["line"], answer["column"], answer["found"]) == (3, 1, "*")
 
 
 def test_hex_is_read_as_the_library_reads_it() -> None:

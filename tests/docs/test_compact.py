@@ -36,9 +36,11 @@ def test_a_script_keeps_its_code(written: str, expected: str) -> None:
 
 
 def test_a_style_sheet_has_a_rule_a_line() -> None:
-    written = (
-        "/* why */\na,\nb {\n  color: red;\n  top: 0;\n}\n@media print {\n  a { top: 1px; }\n}\n"
+    rule, printed = (
+        "a,\nb {\n  color: red;\n  top: 0;\n}\n",
+        "@media print {\n  a { top: 1px; }\n}\n",
     )
+    written = f"/* why */\n{rule}{printed}"
     assert compact_style(written) == (
         "a,b {color: red;top: 0;}\n@media print {a { top: 1px; }\n}\n"
     )

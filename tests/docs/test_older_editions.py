@@ -23,14 +23,20 @@ def test_one_page_of_an_edition_leads_to_the_next() -> None:
     (older,) = site.collection.older
     paths = [page.path for page in older.pages]
     for before, after in pairwise(older.pages):
-        next_link, previous = site.neighbours(before)[1], site.neighbours(after)[0]
+        next_link, previous = (
+            site.navigation.neighbours(before)[1],
+            site.navigation.neighbours(after)[0],
+        )
         assert next_link is not None
         assert previous is not None
         assert (next_link.path, previous.path) == (after.path, before.path)
-    assert site.neighbours(older.pages[0])[0] is None
-    assert site.neighbours(older.pages[-1])[1] is None
+    assert site.navigation.neighbours(older.pages[0])[0] is None
+    assert site.navigation.neighbours(older.pages[-1])[1] is None
     newest = {
-        link.path for page in site.references[0].pages for link in site.neighbours(page) if link
+        link.path
+        for page in site.references[0].pages
+        for link in site.navigation.neighbours(page)
+        if link
     }
     assert newest.isdisjoint(paths)
 

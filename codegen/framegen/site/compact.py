@@ -34,9 +34,10 @@ def compact_script(text: str) -> str:
 def _code(lines: list[str]) -> Iterator[str]:
     in_comment = False
     for line in map(str.strip, lines):
-        code = line
+        rest = line
         if in_comment or line.startswith("/*"):
             _, end, after = line.partition("*/")
-            in_comment, code = not end, after.strip()
-        if code and not code.startswith("//"):
-            yield code
+            in_comment = not end
+            rest = after.strip()
+        if rest and not rest.startswith("//"):
+            yield rest

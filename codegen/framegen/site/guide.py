@@ -33,8 +33,8 @@ _WHOLE = 24
 class Guide:
     """One file of Markdown, by its path below the folder of the guides.
 
-    `published` are the files that its links may lead to, with their pages; a link to any other
-    becomes its text.
+    `published` are the files that its links may lead to, with their pages, and `FILE#SECTION`
+    where a section has a page of its own; a link to any other becomes its text.
     """
 
     path: str
@@ -113,6 +113,10 @@ class Guide:
         file = posixpath.normpath(place)
         below = file.startswith(f"{_FOLDER}/")
         name = file.removeprefix(f"{_FOLDER}/") if below else f"../{file}"
+        # A section may have become a page of its own.
+        section = self.published.get(f"{name}#{anchor}")
+        if section is not None:
+            return f"{'../' * self.page.count('/')}{section}"
         page = self.published.get(name)
         if page is None and unquote(name) in self.published:
             page = quote(self.published[unquote(name)])

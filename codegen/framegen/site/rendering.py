@@ -32,7 +32,7 @@ def render_page(site: Site, page: Page) -> str:
 
 
 def _filled(site: Site, page: Page) -> str:
-    before, after = site.neighbours(page)
+    before, after = site.navigation.neighbours(page)
     reference = page.context.get("reference")
     return (
         _environment()

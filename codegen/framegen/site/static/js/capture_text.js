@@ -7,7 +7,7 @@ const CAPTURE_SAMPLE = 65536;
 // The form that a text which begins so has. `says` holds the names of those who send and the reasons
 // of noise, as `captureWords` gives them.
 function recognise(sample, says) {
-  const text = sample.replace(/^\ufeff/, ""), lines = firstLines(text);
+  const lines = firstLines(sample);
   const form = lineFormOf(lines);
   if (form) return { name: form.name, byLine: true, make: () => makeLineReader(form, says) };
   const header = csvHeader(lines);
@@ -16,7 +16,7 @@ function recognise(sample, says) {
     const make = () => makeCsvReader(header, lines, says.senders);
     return { name, byLine: true, make };
   }
-  const plain = text.replace(/#[^\n]*|\/\/[^\n]*|\/\*[^]*?(?:\*\/|$)/g, " ");
+  const plain = sample.replace(/#[^\n]*|\/\/[^\n]*|\/\*[^]*?(?:\*\/|$)/g, " ");
   if (/[[{('"]/.test(plain)) return { name: "code", whole: true, make: makeCodeReader };
   return { name: "hex", make: makePlainReader };
 }
@@ -101,7 +101,10 @@ function makeTextReader(says, take) {
   }
 
   function feed(text) {
-    held += text;
+    // A mark of the byte order is no part of the first line.
+    const isMarked = !form && !held && text.startsWith("\ufeff");
+    if (isMarked) place = 1;
+    held += isMarked ? text.slice(1) : text;
     if (!form) {
       if (held.length < CAPTURE_SAMPLE) return;
       begin(held.slice(0, CAPTURE_SAMPLE));
@@ -118,6 +121,11 @@ function makeTextReader(says, take) {
     const piece = held;
     held = "";
     read(piece);
+    try {
+      if (reader.end) reader.end();
+    } catch (error) {
+      throw error instanceof Unreadable ? Object.assign(error, { line, column, at: place }) : error;
+    }
     return { ...seen, name: reader.name || form.name };
   }
 

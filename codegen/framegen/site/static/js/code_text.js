@@ -4,7 +4,7 @@
 const CODE_TOKEN = new RegExp([
   /(?<comment>#[^\n]*|\/\/[^\n]*|\/\*[^]*?(?:\*\/|$))/,
   /(?<literal>[bB])?(?<quote>"""|'''|"|')(?<text>(?:\\[^]|(?!\k<quote>)[^])*)(?<close>\k<quote>)?/,
-  /(?<number>[0-9][0-9A-Za-z_]*)/,
+  /(?<number>[0-9][0-9A-Za-z_]*(?:\.[0-9]+)?)/,
   /(?<word>[A-Za-z_][0-9A-Za-z_]*)/,
   /(?<open>[[{(])|(?<shut>[\]})])/,
   /(?<other>[^])/,
@@ -22,7 +22,7 @@ function readCode(text) {
     if (groups.quote) readLiteral(token, bytes, kinds);
     else if (groups.open) open.push(opened(groups.open, at, before));
     else if (groups.shut) close(open, token, bytes, kinds);
-    else if (groups.number || groups.word) takeWord(token, open, text);
+    else if (groups.number || groups.word) takeWord(token, open, text, before, kinds);
     else if (open.length ? !/[,;.]/.test(token[0]) : /[^ -~]/.test(token[0])) {
       throw new Unreadable(token[0], at, "is no part of a list", "put commas between the bytes");
     }
@@ -41,9 +41,11 @@ function opened(mark, at, before) {
   return { mark, at, numbers: [], isIndex: mark === "[" && named, isCall: mark === "(" && named };
 }
 
-function takeWord({ 0: word, groups, index: at }, open, text) {
+function takeWord({ 0: word, groups, index: at }, open, text, before, kinds) {
   const inside = open.at(-1), isPair = /^[0-9A-F]{2}$/i.test(word);
   if (inside?.isIndex) return;
+  // `unsigned int data_len = 24;` goes with an array, as xxd -i writes it.
+  if (!inside && kinds.size && before === "=" && /^[0-9]+\s*;/.test(text.slice(at, at + 12))) return;
   if (inside?.isCall && groups.number) {
     throw new Unreadable(word, at, "is an argument, not a byte", "write a list, like bytes([10, 27])");
   }

@@ -14,6 +14,7 @@ const CSV_FORMS = [
   [/^0x[0-9a-f]{1,2}$/i, "hex", (cell) => parseInt(cell, 16)],
   [/^0b[01]{1,8}$/i, "binary", (cell) => parseInt(cell.slice(2), 2)],
   [/^(?:[0-9]|[1-9][0-9]|1[0-9]{2}|2[0-4][0-9]|25[0-5])$/, "decimal", Number],
+  [/^.*\(0x[0-9a-f]{1,2}\)$/i, "hex", (cell) => parseInt(cell.slice(cell.lastIndexOf("(") + 1), 16)],
   [/^[0-9a-f]{2}$/i, "hex", (cell) => parseInt(cell, 16)],
 ];
 
@@ -109,5 +110,6 @@ function makeCsvReader(header, sample, senders) {
     });
   }
 
-  return { read, form: form ? form[1] : "hex" };
+  const isPlain = !form || form[1] === "hex";
+  return { read, name: isPlain ? "" : `a table of a logic analyser in ${form[1]}` };
 }

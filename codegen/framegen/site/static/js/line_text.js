@@ -1,6 +1,8 @@
 // Captures of a line an event: what the command prints and records, candump, hex dumps, analysers.
 "use strict";
 
+// So many bytes at most are left out of a hex dump by one `*`.
+const DUMP_MOST = 1 << 26;
 const LINE_SKIPPED = /^\s*(?:#|\$ |\^C$|hint: |[0-9]+ bytes?: )/;
 
 // A pattern written in pieces.
@@ -36,10 +38,11 @@ const LINE_FORMS = [
   },
   {
     name: "a hex dump",
-    begins: /^0{7,8}(?::|\s\s)/,
+    begins: /^(?:0{7,8}(?::|\s\s)|[0-9A-F]{8}(?:: (?:[0-9A-F]{2})+\s|\s\s.*\|$))/i,
     pattern: inPieces("i",
-      String.raw`^(?:[0-9A-F]{7,8}\s\s(?<hex>(?:[0-9A-F]{2}\s{1,2}){0,15}[0-9A-F]{2})(?:\s+\|.*\|)?`,
-      String.raw`|[0-9A-F]{8}:\s(?<spaced>(?:[0-9A-F]{2,4}\s){1,16})\s.*|[0-9A-F]{7,8})\s*$`),
+      String.raw`^(?:(?<place>[0-9A-F]{7,8})(?=\s*$|:\s|\s\s)`,
+      String.raw`(?:\s\s(?<hex>(?:[0-9A-F]{2}\s{1,2}){0,15}[0-9A-F]{2})(?:\s+\|.*\|)?`,
+      String.raw`|:\s(?<spaced>(?:(?:[0-9A-F]{2})+\s)+)\s.*|)|\*)\s*$`),
     joined: true,
   },
   {
@@ -60,11 +63,14 @@ function lineFormOf(lines) {
 // A reader of whole lines. `senders` are directions by the name of who sends them, and `reasons`
 // those that noise has. It hands `take` the bytes of a line with what the line says of them.
 function makeLineReader(form, { senders, reasons, received }) {
+  const repeated = makeRepeatedLines();
+
   function read(text, take) {
     for (const [line, start] of linesOf(text)) {
       const found = form.pattern.exec(line);
       if (found) {
         const said = form.read ? form.read(line, start) : found.groups;
+        if ("place" in said && !repeated.take(said, start, take)) continue;
         takeLine(said, line, start, take);
       } else if (!LINE_SKIPPED.test(line) && !isAnnotation(line)) {
         const at = start + line.search(/\S/);
@@ -105,7 +111,39 @@ function makeLineReader(form, { senders, reasons, received }) {
     return { direction: senders.get(sender) ?? unnamed, noise: isNoise ? why || "" : null };
   }
 
-  return { read };
+  return { read, end: repeated.end };
+}
+
+// In a hex dump, `*` stands for lines like the one before, as many as the place on the next one says.
+function makeRepeatedLines() {
+  let star = null, place = 0, before = "";
+
+  function refused(hint, at = star) {
+    return new Unreadable("*", at, "leaves out lines, and nothing says how many", hint);
+  }
+
+  // Take a line; whether it has bytes of its own.
+  function take(said, start, give) {
+    if (said.place === undefined) {
+      star = start;
+      if (!before) throw refused("paste the line in front of it as well");
+      return false;
+    }
+    const at = parseInt(said.place, 16);
+    if (star !== null) {
+      const bytes = readHexOf(before, start), left = at - place - bytes.length;
+      if (left < 0 || left % bytes.length || left > DUMP_MOST) throw refused("dump it whole, by -v", start);
+      for (let done = 0; done < left; done += bytes.length) give(bytes, { channel: "", time: null });
+    }
+    [star, place, before] = [null, at, said.hex ?? said.spaced ?? ""];
+    return true;
+  }
+
+  function end() {
+    if (star !== null) throw refused("paste the line behind it as well", 0);
+  }
+
+  return { take, end };
 }
 
 function readHexOf(hex, at) {
