@@ -13,6 +13,7 @@ from framegen.comparison.revision import NotInRevision, Revision
 from framegen.compile import compile_leniently, placed
 from framegen.language.load import read_source
 from framegen.language.version import Version
+from framegen.model.layout import LONGEST
 from framegen.project import FOLDER, all_specs
 from framegen.reading.yamltree import Unusable
 
@@ -24,12 +25,23 @@ RELEASED = "released"
 
 
 def edition_of(source: Source) -> Edition:
-    """Read an edition, whatever today's rules say of it. Raises Unusable where it has no model."""
+    """Read an edition, whatever today's rules say of it.
+
+    Raises Unusable where it has no model, or frames too long to be looked at.
+    """
     try:
         compiled = compile_leniently(source)
     except Unusable as error:
         raise placed(error, source) from None
     model = compiled.model
+    for message in model.messages.values():
+        # Frames are made of what it allows, to be compared: these would not fit into memory.
+        if message.largest > LONGEST:
+            raise Unusable(
+                f"{source.name}: {message.name} has frames of up to {message.largest} bytes, and "
+                f"no frame may have more than {LONGEST}",
+                hint="bound its list by `count:`",
+            )
     # So that what is made of two editions does not differ by where they are from.
     path = f"spec/{model.spec.protocol.name}.yaml"
     compiled = replace(compiled, source=replace(compiled.source, path=path))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.reading_order import beside
 from framegen.site.sidebar import Group, Link, Messages, SidebarSection
 
 if TYPE_CHECKING:
@@ -56,12 +57,10 @@ class Navigation:
 
     def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
         """Return the pages before and after a page, in the order of the navigation."""
-        order = self._order
-        if page.path not in order:
-            return None, None
-        at = list(order).index(page.path)
-        links = list(order.values())
-        return (links[at - 1] if at else None, links[at + 1] if at + 1 < len(links) else None)
+        if page.path in self._places:
+            return beside(self._order, page)
+        older = self.references.of(page)
+        return beside([Link(each.path, each.label) for each in older.pages] if older else (), page)
 
     def trail(self, page: Page) -> list[Link]:
         """Return the links that lead from home to a page, which is not among them."""
@@ -103,5 +102,9 @@ class Navigation:
         )
 
     @cached_property
-    def _order(self) -> dict[str, Link]:
-        return {link.path: link for section in self.sidebar for link in section.every_link}
+    def _order(self) -> list[Link]:
+        return [link for section in self.sidebar for link in section.every_link]
+
+    @cached_property
+    def _places(self) -> frozenset[str]:
+        return frozenset(link.path for link in self._order)

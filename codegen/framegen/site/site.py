@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from framegen import __version__
-from framegen.console import visible
-from framegen.reading.yamltree import Unusable
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
@@ -22,6 +19,7 @@ from framegen.site.navigation import Navigation
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.publication import NOT_FOUND, robots, sitemap
+from framegen.site.reading_order import refuse_twins
 from framegen.site.references import References
 from framegen.site.rendering import render_page
 from framegen.site.rule_pages import rule_pages
@@ -43,7 +41,7 @@ _PREVIEW = "images/preview.png"
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
-    _refuse_twins(site)
+    refuse_twins(site.guides, site.pages)
     files = {page.path: render_page(site, page) for page in site.pages} | site.collection.files
     if project.base:
         # Where a page stands for another, or for none at all, it is not for search engines.
@@ -53,18 +51,6 @@ def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
         files["sitemap.xml"] = sitemap(project.base, listed)
         files["robots.txt"] = robots(project.base)
     return files
-
-
-def _refuse_twins(site: Site) -> None:
-    """Refuse a guide that would replace another page, or be replaced by it."""
-    guides = {guide.page: guide.path for guide in site.guides}
-    counts = Counter(page.path for page in site.pages)
-    for path, guide in guides.items():
-        if counts[path] > 1:
-            raise Unusable(
-                f"docs/{visible(guide)} would become {visible(path)}, which is another page",
-                hint="give it another name",
-            )
 
 
 @dataclass(frozen=True)
@@ -118,7 +104,11 @@ class Site:
     @cached_property
     def collection(self) -> References:
         """The references of all editions."""
-        return References(self.project, self.snippets, lambda: rule_pages(self.guides))
+        return References(self.project, self.snippets, lambda: self._rule_pages)
+
+    @cached_property
+    def _rule_pages(self) -> dict[str, str]:
+        return rule_pages(self.guides)
 
     @property
     def references(self) -> list[ReferencePages]:
