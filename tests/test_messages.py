@@ -223,7 +223,7 @@ def test_what_counts_a_list_can_be_read(case: Case) -> None:
         (ServoMove.time_ms, "How long the motion takes."),
         (ServoMove.targets, "The servos to turn and where to, in the order of the frame."),
         (ServoTarget.servo_id, "The servo to turn."),
-        (BatteryVoltage.voltage_mv, "The voltage at the controller's supply terminals."),
+        (BatteryVoltage.voltage_mv, "The voltage of the controller board."),
     ],
 )
 def test_help_shows_what_stands_below_a_field(field: Any, words: str) -> None:

@@ -202,7 +202,11 @@ def test_what_is_emitted_for_every_protocol_names_none() -> None:
 # ------------------------------------------------------------------ what is kept of them
 
 
-PAGES = sorted((CODEGEN / "targets" / "docs" / "templates").glob("*.jinja"))
+PAGES = sorted(
+    template
+    for folder in ("targets/docs/templates", "site/templates")
+    for template in (CODEGEN / folder).glob("*.jinja")
+)
 
 
 @pytest.mark.parametrize("template", [*TEMPLATES, *PAGES], ids=lambda path: path.name)

@@ -707,7 +707,7 @@ class ModeWrite(Message):
     MODE_MOTOR: typing.Final = 1
     """It turns on and on."""
     mode = U8(5, high=1, names={"servo": MODE_SERVO, "motor": MODE_MOTOR})
-    """What the servo is."""
+    """Whether the servo turns to positions, or on and on."""
     speed = I16(7, low=-1000, high=1000)
     """How fast a motor turns, and which way round. A servo has no use for it."""
 
@@ -847,7 +847,7 @@ class LedWrite(Message):
     LED_OFF: typing.Final = 1
     """It is dark."""
     led = U8(5, high=1, names={"on": LED_ON, "off": LED_OFF})
-    """Whether it is dark."""
+    """Whether the LED is lit."""
 
     def __new__(cls, servo_id: int, led: int) -> typing.Self:
         cls.SHAPE.check(servo_id, led)
@@ -1354,7 +1354,7 @@ class Mode(Message):
     MODE_MOTOR: typing.Final = 1
     """It turns on and on."""
     mode = U8(5, names={"servo": MODE_SERVO, "motor": MODE_MOTOR})
-    """What the servo is."""
+    """Whether the servo turns to positions, or on and on."""
     speed = I16(7)
     """How fast a motor turns, and which way round."""
 
@@ -1428,7 +1428,7 @@ class Led(Message):
     LED_OFF: typing.Final = 1
     """It is dark."""
     led = U8(5, names={"on": LED_ON, "off": LED_OFF})
-    """Whether it is dark."""
+    """Whether the LED is lit."""
 
     def __new__(cls, servo_id: int, led: int) -> typing.Self:
         cls.SHAPE.check(servo_id, led)

@@ -50,7 +50,7 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("section", ["Add a command", "A field of another width"])
+@pytest.mark.parametrize("section", ["Add a command", "Widen a field"])
 def test_every_test_passes_where_the_guide_was_followed(section: str, tmp_path: Path) -> None:
     page = (ROOT / GUIDE).read_text(encoding="utf-8")
     begin = page.index(f"\n## {section}\n") + 1

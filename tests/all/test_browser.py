@@ -11,7 +11,6 @@ from tests.docs.browser import (
     MILLISECONDS,
     Visit,
     decoded,
-    launched,
     needs_chromium,
     site_on_disk,
 )
@@ -20,7 +19,6 @@ from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import vectors_of, write_files
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser, BrowserContext
@@ -39,27 +37,6 @@ pytestmark = needs_chromium
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the reference in a folder, as `framegen docs` builds it."""
     return site_on_disk(tmp_path_factory.mktemp("stick") / "the reference")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
-def context(browser: Browser) -> Iterator[BrowserContext]:
-    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
-    yield context
-    context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
 
 
 def arrives(tab: Tab, end: str) -> None:

@@ -5,14 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.cli import main
 
-from tests.docs.browser import Visit, launched, needs_chromium
+from tests.docs.browser import Visit, needs_chromium, project_on_disk
 from tests.docs.test_drawings import DRAWINGS, drawings
-from tests.documents import ROOT
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser
@@ -32,12 +29,6 @@ PICTURES = """() => [...document.images].map((image) => [
 ])"""
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
-
-
 @drawings
 def test_no_words_leave_the_paper(browser: Browser, drawing: Path) -> None:
     tab = browser.new_page()
@@ -48,12 +39,10 @@ def test_no_words_leave_the_paper(browser: Browser, drawing: Path) -> None:
 
 @pytest.mark.parametrize("width", [380, 1440])
 def test_the_policy_of_a_page_lets_its_drawings_show(
-    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, width: int
+    browser: Browser, tmp_path: Path, width: int
 ) -> None:
-    monkeypatch.chdir(ROOT)
-    assert main(["docs", "--out", str(tmp_path / "site")]) == 0
     context = browser.new_context(viewport={"width": width, "height": 900})
-    visit = Visit(context, tmp_path / "site")
+    visit = Visit(context, project_on_disk(tmp_path / "site"))
     tab = visit.open("getting-started.html")
     assert tab.evaluate(PICTURES) == [[f"wiring-{each}.svg", True] for each in ORDER]
     assert sorted(ORDER) == [drawing.stem.removeprefix("wiring-") for drawing in DRAWINGS]

@@ -16,7 +16,7 @@ from busservo_simulator import Faults, VirtualController
 from framegen.cli import main
 from lxservo_simulator import VirtualBus
 
-from tests.docs.browser import Visit, launched, needs_chromium
+from tests.docs.browser import Visit, needs_chromium
 from tests.docs.reference import NODE_MODULES, ROOT
 from tests.docs.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
 from tests.independent import faults
@@ -45,12 +45,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
         spec = str(ROOT / "spec" / f"{name}.yaml")
         assert main(["docs", spec, "--out", str(out / name)]) == 0
     return out
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
 
 
 class Desk:

@@ -10,7 +10,6 @@ from framegen.cli import main
 from tests.docs import looks
 from tests.docs.browser import (
     Visit,
-    launched,
     needs_chromium,
     site_on_disk,
     texts,
@@ -36,12 +35,6 @@ pytestmark = needs_chromium
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return site_on_disk(tmp_path_factory.mktemp("live"))
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
 
 
 @pytest.fixture

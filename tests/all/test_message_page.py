@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.docs.browser import launched, needs_chromium, site_on_disk
+from tests.docs.browser import needs_chromium, site_on_disk
 from tests.docs.looks import WIDTHS, faults
 from tests.docs.reference import reference
 
@@ -25,12 +25,6 @@ MESSAGES = [*reference("busservo").model.messages]
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return site_on_disk(tmp_path_factory.mktemp("site"))
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
 
 
 @pytest.fixture

@@ -170,6 +170,36 @@ def test_the_library_runs_alone(
     assert shown.startswith("BatteryVoltage\nThe voltage of the battery.\n")
 
 
+GUIDES = {
+    "README.md": "# Boards\n\nAll of them.\n\n## Learn\n\n- [First steps](first.md): to begin.\n",
+    "first.md": "# First steps\n\n```python\nprint(1)\n```\n",
+}
+
+
+@pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
+def test_the_generator_builds_a_site_where_nothing_else_of_ours_is(
+    built: Path, install: Callable[..., Path], ending: str, tmp_path: Path
+) -> None:
+    programs = install(*files_of(built, "framegen", ending))
+    for folder, files in {"docs": GUIDES, "spec": {}}.items():
+        (tmp_path / folder).mkdir()
+        for name, text in files.items():
+            (tmp_path / folder / name).write_text(text, encoding="utf-8")
+    shutil.copy(ROOT / "spec" / "busservo.yaml", tmp_path / "spec")
+    (tmp_path / "pyproject.toml").touch()
+    run(programs / "framegen", "docs", "--out", "site", cwd=tmp_path)
+    reference = tmp_path / "site" / "reference" / "busservo"
+    assert (tmp_path / "site" / "first.html").is_file()
+    workbench = (reference / "decoder.html").read_text(encoding="utf-8")
+    for name in ("strip", "workbench"):
+        script = ROOT / "codegen" / "framegen" / "site" / "static" / "js" / f"{name}.js"
+        assert script.read_text(encoding="utf-8").splitlines()[-1] in workbench
+    assert "@media print" in workbench
+    assert "data:image/svg+xml," in workbench
+    run(programs / "framegen", "docs", "spec/busservo.yaml", "--out", "alone", cwd=tmp_path)
+    assert (tmp_path / "alone" / "index.html").is_file()
+
+
 @pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
 def test_all_packages_run_together(
     built: Path, install: Callable[..., Path], ending: str, tmp_path: Path

@@ -7,16 +7,14 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from framegen.cli import main
 
-from tests.docs.browser import MILLISECONDS, Visit, launched, needs_chromium, texts
+from tests.docs.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk, texts
 from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.reference import NODE_MODULES
 from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import write_files
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser, BrowserContext
@@ -36,32 +34,7 @@ pytestmark = needs_chromium
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the site of this project, as `framegen docs` builds it."""
-    folder = tmp_path_factory.mktemp("a stick") / "the site"
-    with pytest.MonkeyPatch.context() as patched:
-        patched.chdir(ROOT)
-        assert main(["docs", "--out", str(folder)]) == 0
-    return folder
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
-def context(browser: Browser) -> Iterator[BrowserContext]:
-    context = browser.new_context()
-    yield context
-    context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
+    return project_on_disk(tmp_path_factory.mktemp("a stick") / "the site")
 
 
 def box(tab: Tab) -> Any:

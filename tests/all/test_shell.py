@@ -6,11 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.cli import main
 
-from tests.docs.browser import Visit, launched, needs_chromium, texts
+from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
 from tests.docs.looks import WIDTHS, faults, violations
-from tests.docs.reference import NODE_MODULES, ROOT
+from tests.docs.reference import NODE_MODULES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,17 +28,7 @@ pytestmark = needs_chromium
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the site of this project, as `make docs` builds it."""
-    folder = tmp_path_factory.mktemp("stick") / "the site"
-    with pytest.MonkeyPatch.context() as patched:
-        patched.chdir(ROOT)
-        assert main(["docs", "--out", str(folder)]) == 0
-    return folder
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
+    return project_on_disk(tmp_path_factory.mktemp("stick") / "the site")
 
 
 @pytest.fixture
@@ -47,13 +36,6 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
     context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
 
 
 def width(tab: Tab, pixels: int, height: int = 900) -> None:
@@ -196,6 +178,21 @@ def test_tabs_are_chosen_by_keys_and_remembered_on_all_pages(visit: Visit) -> No
     tabs.nth(1).press("Home")
     assert tabs.first.get_attribute("aria-selected") == "true"
     assert faults(tab) == []
+
+
+def test_an_address_opens_the_tab_that_it_names(visit: Visit) -> None:
+    with_tabs = [path for path in PAGES if "data-tabs" in (visit.folder / path).read_text("utf-8")]
+    if not with_tabs:
+        pytest.skip("no page has tabs")
+    tab = visit.open(with_tabs[0])
+    panels = tab.locator(".tabs").first.locator(":scope > [role=tabpanel]")
+    second = panels.nth(1)
+    assert not second.is_visible()
+    tab.evaluate("(id) => { location.hash = id; }", second.get_attribute("id"))
+    second.wait_for(state="visible")
+    assert not panels.first.is_visible()
+    tab.evaluate("() => { location.hash = '%'; }")
+    assert second.is_visible()
 
 
 # ---------------------------------------------------------------------------- copying

@@ -15,7 +15,6 @@ from tests.docs.browser import (
     MILLISECONDS,
     Visit,
     decoded,
-    launched,
     needs_chromium,
     site_on_disk,
     texts,
@@ -26,9 +25,7 @@ from tests.docs.reference import NODE_MODULES, ROOT, reference
 from tests.factories import in_larger_unit, vectors_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from playwright.sync_api import Browser, BrowserContext, Locator
+    from playwright.sync_api import Browser, Locator
     from playwright.sync_api import Page as Tab
 
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
@@ -48,27 +45,6 @@ pytestmark = needs_chromium
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the reference in a folder, as `framegen docs` builds it."""
     return site_on_disk(tmp_path_factory.mktemp("stick") / "the workbench")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with launched() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
-def context(browser: Browser) -> Iterator[BrowserContext]:
-    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
-    yield context
-    context.close()
-
-
-@pytest.fixture
-def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
-    """Yield a visit on which no error may happen, and only pages on the disk be requested."""
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
 
 
 @pytest.fixture
@@ -191,6 +167,12 @@ def test_a_frame_that_is_legal_both_ways_has_both_names(bench: Tab) -> None:
 def test_a_refusal_says_why_with_its_numbers(bench: Tab, text: str, said: str) -> None:
     fill(bench, text)
     assert said in detail(bench)
+
+
+def test_what_was_meant_stands_before_why_it_is_refused(bench: Tab) -> None:
+    fill(bench, "55 55 01 07 01 20 03 E8 03 E8")
+    said = detail(bench)
+    assert said.index("This looks like a frame of the LX-16A") < said.index("has a length of")
 
 
 def test_the_right_frame_takes_the_place_of_the_wrong_one(bench: Tab) -> None:

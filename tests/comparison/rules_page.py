@@ -24,18 +24,17 @@ PAGE = ROOT / "docs" / "what-changes-break.md"
 _HEAD = """\
 # What changes break
 
-`framegen diff` compares two editions of a spec, and tells what became of what:
-each change by the name of a rule below.
-A rule says why a change matters and what to do about it, not what it breaks: that is tried out
-anew for each two specs, with the frames that both can send, the exchanges that they have,
-and the libraries that are made from them.
+`framegen diff` compares two editions of a spec. It names each change by one of the rules below.
+A rule says why a change matters and what to do about it.
+What the change breaks is not fixed: `framegen diff` tries it out for each pair of editions,
+with the frames of both, their requests and replies, and the libraries that are generated from them.
 
-For the example of each rule, the outcome stands beside it.
-The host has the library, and the lamp answers;
-one of them has the edition before, and the other the one after.
-`as before` is said where nothing is noticed, and `new` where only what is new is not understood.
-Of a whole spec, the lines that do not matter are left out.
-At a terminal, `framegen rules --changes` lists the rules, and `framegen rules ID` tells of one.
+Each rule has an example, with what that breaks between a host, which has the library,
+and a lamp, which answers.
+One end has the edition before the change, the other the edition after it.
+`as before` means that nothing changes, `new` that an old end does not understand what is new.
+The examples show only the lines of the spec that matter.
+In a shell, `framegen rules --changes` lists the rules, and `framegen rules ID` explains one.
 """
 _SUBJECTS = {
     "line": "The line",

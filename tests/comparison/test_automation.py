@@ -358,7 +358,7 @@ def test_each_hook_is_a_verb_that_does_its_work(
 
 def snippets() -> list[Any]:
     """Return what the guide gives to copy."""
-    _, _, section = GUIDE.read_text(encoding="utf-8").partition("\n## Before others see it\n")
+    _, _, section = GUIDE.read_text(encoding="utf-8").partition("\n## Check every pull request\n")
     texts = re.findall(
         r"^```yaml\n(.*?)^```$", section.partition("\n## ")[0], re.MULTILINE | re.DOTALL
     )

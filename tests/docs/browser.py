@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from framegen.cli import main
 
-from tests.docs.reference import SPECS
+from tests.docs.reference import ROOT, SPECS
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -51,6 +51,14 @@ def site_on_disk(root: Path) -> Path:
     """Build the reference below `root`, as `framegen docs` does, and return its folder."""
     assert main(["docs", str(SPECS["busservo"]), "--out", str(root)]) == 0
     return root / "reference" / "busservo"
+
+
+def project_on_disk(folder: Path) -> Path:
+    """Build the site of this project in a folder, as `make docs` does, and return the folder."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.chdir(ROOT)
+        assert main(["docs", "--out", str(folder)]) == 0
+    return folder
 
 
 class Visit:

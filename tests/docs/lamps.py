@@ -53,6 +53,7 @@ FIRST = """# The very first steps
 
 Into [the second](second.md), [the frames](reference/greenhouse/README.md#frames),
 [a message](reference/greenhouse/messages/VentsOpen.md), [the spec](../demo.yaml),
+[the workbench](reference/greenhouse/README.md#workbench),
 [changes](../CHANGELOG.md), [a file](../tests/x.py), [elsewhere](https://example.org/).
 
 ### A smaller "one"

@@ -23,6 +23,7 @@ def test_links_of_a_guide_lead_to_pages_or_are_text() -> None:
         "reference/greenhouse/index.html#frames": "the frames",
         "reference/greenhouse/messages/VentsOpen.html": "a message",
         "reference/greenhouse/spec.html": "the spec",
+        "reference/greenhouse/decoder.html": "the workbench",
         "project/changelog.html": "changes",
         "https://example.org/": "elsewhere",
     }.items():

@@ -31,7 +31,7 @@ const answers = asked.texts.map(([name, text]) => {
   try {
     return { hex: hex(codec.encode(name, readNotation(kind, text))) };
   } catch (error) {
-    if (!(error instanceof NotUnderstood) && !(error instanceof Unusable)) throw error;
+    if (!(error instanceof Unusable)) throw error;
     return { message: error.message, at: error.at, size: error.size };
   }
 });

@@ -240,7 +240,7 @@ const hex = (text) => text.match(/../g).map((digits) => parseInt(digits, 16));
 const session = makeSession({
   codec, protocol, direction: protocol.line.received, baud: 9600, localEcho: asked.echo ?? false,
   show: ({ at, isSent, event, sender, names }) => said.push(
-    [at, isSent ? ">" : "<", sender, names.join(" or ") || event.reason, hexOf(event.bytes)]),
+    [at, isSent ? ">" : "<", sender, names.join(" or ") || event.reason, toHex(event.bytes)]),
   answered: ({ question, event, took, late, missing }) => said.push(
     ["answer", question.event.message, event.message, took, late, missing]),
   unanswered: ({ event }) => said.push(["silence", event.message]),

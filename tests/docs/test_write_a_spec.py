@@ -63,7 +63,7 @@ def test_the_guide_shows_what_is_said_of_a_wrong_checksum() -> None:
     text = SPECS["pumps"].text.replace("crc-16/modbus", "crc-16/arc")
     source = Source("spec/pumps.yaml", text)
     said = next(each for each in compile_spec(source).findings if ".Status." in each.path)
-    [shown] = re.findall(r"```\n(example: .*?)```", GUIDE, re.DOTALL)
+    [shown] = re.findall(r"```text\n(example: .*?)```", GUIDE, re.DOTALL)
     assert shown == f"example: {said.message}\n  = hint: {said.hint}\n"
 
 

@@ -32,8 +32,8 @@ _WHOLE = 24
 class Guide:
     """One file of Markdown, by its path below the folder of the guides.
 
-    `published` are the files that its links may lead to, with their pages; a link to any other
-    becomes its text.
+    `published` are the files that its links may lead to, with their pages, and `FILE#SECTION`
+    where a section has a page of its own; a link to any other becomes its text.
     """
 
     path: str
@@ -95,7 +95,12 @@ class Guide:
         place = posixpath.join(_FOLDER, posixpath.dirname(self.path), path)
         file = posixpath.normpath(place)
         below = file.startswith(f"{_FOLDER}/")
-        page = self.published.get(file.removeprefix(f"{_FOLDER}/") if below else f"../{file}")
+        name = file.removeprefix(f"{_FOLDER}/") if below else f"../{file}"
+        # A section may have become a page of its own.
+        section = self.published.get(f"{name}#{anchor}")
+        if section is not None:
+            return f"{'../' * self.page.count('/')}{section}"
+        page = self.published.get(name)
         return None if page is None else f"{'../' * self.page.count('/')}{page}{mark}{anchor}"
 
 

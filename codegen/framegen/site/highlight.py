@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from pygments.util import ClassNotFound
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from pygments.lexer import Lexer
     from pygments.token import _TokenType
 
 # What the languages of the guides are called by readers.
@@ -113,13 +115,21 @@ def _by_line(pieces: Iterable[_Piece]) -> Iterator[tuple[bool, _Piece]]:
 
 
 def _coloured(code: str, language: str) -> list[_Piece]:
-    try:
-        lexer = get_lexer_by_name(language, stripnl=False, ensurenl=False)
-    except ClassNotFound:
+    lexer = _lexer(language)
+    if lexer is None:
         return [("", code)]
     return [(_class(kind), text) for kind, text in lexer.get_tokens(code)]
 
 
+@cache
+def _lexer(language: str) -> Lexer | None:
+    try:
+        return get_lexer_by_name(language, stripnl=False, ensurenl=False)
+    except ClassNotFound:
+        return None
+
+
+@cache
 def _class(kind: _TokenType) -> str:
     return next((name for group, name in _CLASSES if kind in group), "")
 

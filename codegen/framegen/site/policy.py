@@ -11,10 +11,18 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
+from framegen.site.compact import compact_script, compact_style
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 _STATIC = Path(__file__).parent / "static"
+# The files of the style sheet that only the pages of some templates need.
+_STYLES_OF = {
+    "8-fields": ("decoder", "message"),
+    "8-line": ("decoder",),
+    "8-workbench": ("decoder",),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,16 +42,26 @@ class Assets:
         )
 
 
-def assets(scripts: Sequence[Sequence[str]]) -> Assets:
-    """Return what a page needs; each script is made of files, by name without suffix."""
-    return Assets(style(), [script(*names) for names in scripts])
+def assets(template: str, scripts: Sequence[Sequence[str]]) -> Assets:
+    """Return what a page of a template needs; each script is made of files, without suffix."""
+    return Assets(_style(template), [_compact(*names) for names in scripts])
 
 
 @cache
-def style() -> Markup:
-    """Return the style sheet of all pages: the files of static/css, in the order of their names."""
+def _style(template: str) -> Markup:
+    """Return a style sheet: files of static/css, in the order of their names."""
     files = sorted((_STATIC / "css").glob("*.css"))
-    return Markup("\n".join(file.read_text(encoding="utf-8") for file in files))  # noqa: S704 - ours
+    texts = [
+        file.read_text(encoding="utf-8")
+        for file in files
+        if template in _STYLES_OF.get(file.stem, (template,))
+    ]
+    return Markup("".join(map(compact_style, texts)))  # noqa: S704 - ours
+
+
+@cache
+def _compact(*names: str) -> Markup:
+    return Markup(compact_script(script(*names)))  # noqa: S704 - ours
 
 
 @cache

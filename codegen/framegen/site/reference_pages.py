@@ -17,14 +17,18 @@ from framegen.site.what_changed import what_changed
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from markupsafe import Markup
+
     from framegen.comparison.edition import Edition
     from framegen.site.project import Project
-    from framegen.site.shelf import Shelf
+    from framegen.site.reference_editions import ReferenceEditions
     from framegen.targets.docs.reference import PageView
 
 # The files of the workbench, in the order in which they are joined.
 _WORKBENCH = (
     "elements",
+    "save_file",
+    "strip",
     "columns",
     "capture_place",
     "hex_text",
@@ -47,7 +51,7 @@ _WORKBENCH = (
 )
 
 # Those of the page of a message.
-_LIVE = ("elements", "capture_place", "notation", "fields", "live")
+_LIVE = ("elements", "strip", "capture_place", "notation", "fields", "live")
 
 
 class ReferencePages:
@@ -55,16 +59,16 @@ class ReferencePages:
 
     def __init__(
         self,
-        shelf: Shelf,
+        editions: ReferenceEditions,
         edition: Edition,
         project: Project,
         rules: Callable[[], Mapping[str, str]],
     ) -> None:
         """Take what is to be shown, and what stands beside it."""
-        self.shelf = shelf
+        self.editions = editions
         self.edition = edition
-        self.reference = shelf.views[edition]
-        self.folder = shelf.root(edition)
+        self.reference = editions.views[edition]
+        self.folder = editions.root(edition)
         self.downloads = Downloads(self.reference, project.files)
         self._rules = rules
 
@@ -72,8 +76,7 @@ class ReferencePages:
     def full_title(self) -> str:
         """The title of the protocol, and the version where that is not the newest."""
         title = self.reference.protocol.title
-        is_newest = self.edition is self.shelf.versions.newest
-        return title if is_newest else f"{title} {self.edition.version}"
+        return title if self._is_newest else f"{title} {self.edition.version}"
 
     @property
     def files(self) -> dict[str, str]:
@@ -88,7 +91,7 @@ class ReferencePages:
     def _made(self) -> Iterator[Page]:
         reference = self.reference
         for view in (*reference.pages, *reference.message_pages):
-            notice = self.shelf.notice(self.edition, view)
+            notice = self.editions.notice(self.edition, view)
             yield Page(
                 path=f"{self.folder}{view.html}",
                 template=view.template,
@@ -107,8 +110,18 @@ class ReferencePages:
             )
 
     def _scripts(self, template: str) -> tuple[tuple[str, ...], ...]:
+        # A codec on each page of each edition is most of a site: older ones have their workbench.
+        if template == "message" and not self._is_newest:
+            return ()
         shown = {"decoder": (_WORKBENCH, LINE_SCRIPT), "message": (_LIVE,)}.get(template)
         return (codec_scripts(self.reference.model), *shown) if shown else ()
+
+    @property
+    def _is_newest(self) -> bool:
+        return self.edition is self.editions.versions.newest
+
+    def _live_data(self, message: str) -> Markup:
+        return script_json(protocol_data(self.reference.model, [message]))
 
     def _data(self, view: PageView) -> dict[str, object]:
         match view.template:
@@ -116,13 +129,12 @@ class ReferencePages:
                 model = self.reference.model
                 return {"data": script_json({**protocol_data(model), "line": line_data(model)})}
             case "message" if view.message is not None:
-                own = protocol_data(self.reference.model, [view.message.name])
-                return {"live": script_json(own)}
+                return {"live": self._live_data(view.message.name) if self._is_newest else None}
             case "spec":
                 compiled = self.reference.compiled
                 return {"listing": listing(compiled.source, compiled.tree)}
             case "changelog":
-                return {"versions": what_changed(self.shelf, self.edition, self._rules())}
+                return {"versions": what_changed(self.editions, self.edition, self._rules())}
             case "downloads":
                 return {"downloads": self.downloads}
             case _:

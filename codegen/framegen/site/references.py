@@ -6,8 +6,8 @@ from contextlib import contextmanager, nullcontext
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.site.reference_editions import ReferenceEditions, editions_of, same_as_newest_page
 from framegen.site.reference_pages import ReferencePages
-from framegen.site.shelf import Shelf, kept_page, shelf_of
 from framegen.site.versions import blaming
 
 if TYPE_CHECKING:
@@ -28,27 +28,27 @@ class References:
         """Take what is to be shown."""
         self._project = project
         self._rules = rules
-        self._shelves = [
-            shelf_of(spec, project.released.get(spec.spec.protocol.name, ()), snippets)
+        self._editions = [
+            editions_of(spec, project.released.get(spec.spec.protocol.name, ()), snippets)
             for spec in project.specs
         ]
 
     @cached_property
     def newest(self) -> list[ReferencePages]:
         """The reference of each protocol, as it is now."""
-        return [self._reference(shelf, shelf.versions.newest) for shelf in self._shelves]
+        return [self._reference(editions, editions.versions.newest) for editions in self._editions]
 
     @cached_property
     def older(self) -> list[ReferencePages]:
         """The references of older editions, which the navigation leaves out."""
         return [
-            self._reference(shelf, edition)
-            for shelf in self._shelves
-            for edition in shelf.versions.older
+            self._reference(editions, edition)
+            for editions in self._editions
+            for edition in editions.versions.older
         ]
 
-    def _reference(self, shelf: Shelf, edition: Edition) -> ReferencePages:
-        return ReferencePages(shelf, edition, self._project, self._rules)
+    def _reference(self, editions: ReferenceEditions, edition: Edition) -> ReferencePages:
+        return ReferencePages(editions, edition, self._project, self._rules)
 
     @property
     def pages(self) -> Iterator[Page]:
@@ -59,8 +59,8 @@ class References:
             with blaming(reference.edition):
                 pages = reference.pages
             yield from pages
-        for shelf in self._shelves:
-            yield from kept_page(shelf)
+        for editions in self._editions:
+            yield from same_as_newest_page(editions)
 
     @cached_property
     def files(self) -> dict[str, str]:

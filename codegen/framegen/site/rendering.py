@@ -32,7 +32,7 @@ def render_page(site: Site, page: Page) -> str:
 
 
 def _filled(site: Site, page: Page) -> str:
-    before, after = site.neighbours(page)
+    before, after = site.navigation.neighbours(page)
     reference = page.context.get("reference")
     return (
         _environment()
@@ -46,7 +46,7 @@ def _filled(site: Site, page: Page) -> str:
                 "before": before,
                 "after": after,
                 "banner": banner("" if reference is None else reference.spec),
-                "assets": assets([COMMON, *page.scripts]),
+                "assets": assets(page.template, [COMMON, *page.scripts]),
                 **page.context,
             }
         )

@@ -13,8 +13,9 @@ from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
 from framegen.site.home import Introduction, specimen
 from framegen.site.linked_files import is_linked, link_to
-from framegen.site.mark import icon, mark
+from framegen.site.logo import icon, logo
 from framegen.site.mentions import Mention, Mentions
+from framegen.site.navigation import Navigation
 from framegen.site.page import Page
 from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.publication import NOT_FOUND, robots, sitemap
@@ -22,7 +23,6 @@ from framegen.site.references import References
 from framegen.site.rendering import render_page
 from framegen.site.rule_pages import rule_pages
 from framegen.site.search.index import SearchIndex
-from framegen.site.sidebar import Group, Link, Messages, SidebarSection
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from framegen.site.project import Project
     from framegen.site.reference_pages import ReferencePages
+    from framegen.site.sidebar import SidebarSection
     from framegen.targets.target import Snippets
 
 _PREVIEW = "images/preview.png"
@@ -77,9 +78,9 @@ class Site:
         return __version__
 
     @property
-    def mark(self) -> Markup:
-        """The mark beside the title."""
-        return mark()
+    def logo(self) -> Markup:
+        """The logo beside the title."""
+        return logo()
 
     @property
     def icon(self) -> str:
@@ -135,6 +136,7 @@ class Site:
                 for each in view.message_pages
             }
             found[f"../{view.spec}"] = f"{pages.folder}spec.html"
+            found[f"{above}README.md#workbench"] = f"{pages.folder}decoder.html"
         return found
 
     @cached_property
@@ -147,45 +149,14 @@ class Site:
         return [] if self.plan is None else self.plan.sections
 
     @cached_property
+    def navigation(self) -> Navigation:
+        """The ways between its pages."""
+        return Navigation(self._sections, self._entries, self.guides, self.collection)
+
+    @property
     def sidebar(self) -> list[SidebarSection]:
-        """The sections of the plan, with what they list; what it does not list comes last."""
-        guides = {guide.path: self._link(guide) for guide in self.guides}
-        groups = {each.reference.folder: self._group(each) for each in self.references}
-        found: list[SidebarSection] = []
-        for section in self._sections:
-            listed = [guides.pop(entry.link, None) for entry in section.entries]
-            named = [groups.pop(entry.protocol, None) for entry in section.entries]
-            links = [link for link in listed if link is not None]
-            shown = [group for group in named if group is not None]
-            found.append(SidebarSection(section.title, section.about, (*links,), (*shown,)))
-        if guides or groups:
-            title = "More" if found else "Reference"
-            found.append(SidebarSection(title, "", (*guides.values(),), (*groups.values(),)))
-        return found
-
-    def _link(self, guide: Guide) -> Link:
-        entry = self._entries.get(guide.path)
-        if entry is None:
-            return Link(guide.page, guide.title, guide.about)
-        return Link(guide.page, entry.label, entry.about)
-
-    def _group(self, pages: ReferencePages) -> Group:
-        view = pages.reference
-        entry = self._entries.get(f"reference/{view.folder}/README.md")
-        title, about = (
-            (view.protocol.title, view.protocol.summary)
-            if entry is None
-            else (entry.label, entry.about)
-        )
-        links = [Link(page.path, page.label, page.about) for page in pages.pages]
-        end = len(view.pages)
-        by_way = {way: list[Link]() for way in view.ways}
-        for message, link in zip(view.messages, links[end:], strict=True):
-            by_way[message.way].append(link)
-        messages = [Messages(way, (*each,)) for way, each in by_way.items() if each]
-        return Group(
-            title, about, view.protocol.version, links[0].path, (*links[:end],), (*messages,)
-        )
+        """The sections of the navigation."""
+        return self.navigation.sidebar
 
     @cached_property
     def pages(self) -> list[Page]:
@@ -195,7 +166,7 @@ class Site:
     def _made(self) -> Iterator[Page]:
         yield Page("index.html", "home", self.title, "Home", self._about, context=self._home)
         for guide in self.guides:
-            link = self._link(guide)
+            link = self.navigation.link(guide)
             yield Page(
                 guide.page, "guide", guide.title, link.label, link.about, context={"guide": guide}
             )
@@ -216,7 +187,7 @@ class Site:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
         models = [each.reference.model for each in self.references]
         codec = max(map(codec_scripts, models), key=len, default=("hex",))
-        scripts = (codec, ("ranking", "bytes_found"), ("search",))
+        scripts = (codec, ("elements", "ranking", "bytes_found"), ("search",))
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
@@ -263,37 +234,3 @@ class Site:
         shown = self.sidebar[: listing[0] + 1] if listing else self.sidebar
         paths = {link.path for section in shown for link in section.links}
         return [guide for guide in self.guides if guide.page in paths]
-
-    def neighbours(self, page: Page) -> tuple[Link | None, Link | None]:
-        """Return the pages before and after a page, in the order of the navigation."""
-        order = self._order
-        if page.path not in order:
-            return None, None
-        at = list(order).index(page.path)
-        links = list(order.values())
-        return (links[at - 1] if at else None, links[at + 1] if at + 1 < len(links) else None)
-
-    @cached_property
-    def _order(self) -> dict[str, Link]:
-        return {link.path: link for section in self.sidebar for link in section.every_link}
-
-    def trail(self, page: Page) -> list[Link]:
-        """Return the links that lead from home to a page, which is not among them."""
-        home = Link("index.html", "Home")
-        for section in self.sidebar:
-            if section.holds(page):
-                groups = [group for group in section.groups if group.holds(page)]
-                above = [Link(group.path, group.title) for group in groups]
-                here = Link(f"index.html#{section.id}", section.title)
-                return [home, here, *(link for link in above if link.path != page.path)]
-        return [] if page.path == home.path else [home, *self._trail_of_older(page)]
-
-    def _trail_of_older(self, page: Page) -> Iterator[Link]:
-        reference = self.collection.of(page)
-        if reference is not None:
-            newest, title = reference.shelf.folder, reference.reference.protocol.title
-            yield Link(f"{newest}index.html", title)
-            yield Link(f"{newest}changelog.html", "Versions")
-            start = f"{reference.folder}index.html"
-            if start != page.path:
-                yield Link(start, reference.edition.version)

@@ -57,7 +57,7 @@ class Versions:
         self._pairs: dict[str, Pair] = {}
 
     @cached_property
-    def kept(self) -> Edition | None:
+    def unchanged(self) -> Edition | None:
         """The last release, if the newest edition says what it said."""
         last = next(iter(self.released), None)
         return last if last is not None and _says(last) == _says(self.newest) else None
@@ -65,7 +65,7 @@ class Versions:
     @cached_property
     def older(self) -> list[Edition]:
         """The released editions that have pages of their own."""
-        return [each for each in self.released if each is not self.kept]
+        return [each for each in self.released if each is not self.unchanged]
 
     @cached_property
     def editions(self) -> list[Edition]:
@@ -74,7 +74,7 @@ class Versions:
 
     def waits(self, edition: Edition) -> bool:
         """Tell whether an edition has yet to be released, in a project that releases at all."""
-        return edition is self.newest and self.kept is None and bool(self.released)
+        return edition is self.newest and self.unchanged is None and bool(self.released)
 
     def before(self, edition: Edition) -> Edition | None:
         """Return the edition that was released before another; None for the first."""

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from framegen.comparison.report.verdict import Verdict
     from framegen.comparison.report.view import Section, View
     from framegen.language.spec import Release
-    from framegen.site.shelf import Shelf
+    from framegen.site.reference_editions import ReferenceEditions
 
 # As many lines of one list; `framegen diff` shows all.
 _MOST = 100
@@ -91,7 +91,7 @@ class VerdictLine:
 class VersionChanges:
     """One version: what its author says of it, and what was worked out."""
 
-    shelf: Shelf
+    editions: ReferenceEditions
     version: str
     entry: Release | None
     edition: Edition | None
@@ -100,12 +100,12 @@ class VersionChanges:
     @cached_property
     def view(self) -> View | None:
         """What was worked out; None where there is nothing to compare it with."""
-        return None if self.edition is None else self.shelf.versions.changes(self.edition)
+        return None if self.edition is None else self.editions.versions.changes(self.edition)
 
     @property
     def waits(self) -> bool:
         """Whether it has yet to be released."""
-        return self.edition is not None and self.shelf.versions.waits(self.edition)
+        return self.edition is not None and self.editions.versions.waits(self.edition)
 
     @property
     def anchor(self) -> str:
@@ -115,7 +115,7 @@ class VersionChanges:
     @property
     def path(self) -> str:
         """The start of its reference, below the root of the site; "" where it is not kept."""
-        return "" if self.edition is None else f"{self.shelf.root(self.edition)}index.html"
+        return "" if self.edition is None else f"{self.editions.root(self.edition)}index.html"
 
     @property
     def since(self) -> str:
@@ -172,9 +172,9 @@ class VersionChanges:
             return {}
         editions = [self.edition] if self.view is None else [self.view.old, self.edition]
         return {
-            name: f"{self.shelf.root(each)}{path}"
+            name: f"{self.editions.root(each)}{path}"
             for each in editions
-            for name, path in self.shelf.views[each].addresses.items()
+            for name, path in self.editions.views[each].addresses.items()
         }
 
     def _lines(self, view: View, changes: Sequence[Change]) -> list[ChangeLine]:
@@ -196,13 +196,13 @@ class VersionChanges:
     def _page(self, view: View, name: str) -> str:
         """Return the page of a message; of one that is gone, that in the edition before."""
         edition = view.new if name in view.new.spec.messages else view.old
-        address = self.shelf.views[edition].addresses.get(name)
-        return "" if address is None else f"{self.shelf.root(edition)}{address}"
+        address = self.editions.views[edition].addresses.get(name)
+        return "" if address is None else f"{self.editions.root(edition)}{address}"
 
     def _change(self, view: View, change: Change, told: set[str] | None = None) -> ChangeLine:
         edition = view.old if change.new is None else view.new
         anchor = nearest_anchor(edition.compiled.tree, change.path)
-        spec = f"{self.shelf.root(edition)}spec.html{f'#{anchor}' if anchor else ''}"
+        spec = f"{self.editions.root(edition)}spec.html{f'#{anchor}' if anchor else ''}"
         rule = rule_of(change)
         link = NamedLink(change.rule, self.rules.get(change.rule, ""))
         if rule is None or told is None or rule.id in told or is_documentation(change):
@@ -211,31 +211,33 @@ class VersionChanges:
         return ChangeLine(visible(change.text), spec, link, rule.why, rule.do)
 
 
-def what_changed(shelf: Shelf, edition: Edition, rules: Mapping[str, str]) -> list[VersionChanges]:
+def what_changed(
+    editions: ReferenceEditions, edition: Edition, rules: Mapping[str, str]
+) -> list[VersionChanges]:
     """Return every version that an edition knows of, the newest first.
 
     Those of its history whose text was not kept have its words alone. `rules` are the pages about
     kinds of changes, by their rule.
     """
-    versions = shelf.versions
-    editions = versions.editions[versions.editions.index(edition) :]
+    versions = editions.versions
+    shown = versions.editions[versions.editions.index(edition) :]
     entries = {each.version: each for each in edition.spec.history}
     # Where changes wait for their release, the history tells of the release alone.
-    last = {each.version: each for each in reversed(editions)} | {
-        each.version: each for each in versions.older if each in editions
+    last = {each.version: each for each in reversed(shown)} | {
+        each.version: each for each in versions.older if each in shown
     }
     found = [
         VersionChanges(
-            shelf,
+            editions,
             each.version,
             entries.get(each.version) if last[each.version] is each else None,
             each,
             rules,
         )
-        for each in editions
+        for each in shown
     ]
     found += [
-        VersionChanges(shelf, version, entry, None, rules)
+        VersionChanges(editions, version, entry, None, rules)
         for version, entry in entries.items()
         if version not in last
     ]

@@ -449,8 +449,8 @@ class AsyncController(AsyncClient):
         `servo_id`: The servo that is meant, or that replies (0..254). 254 (all): Every servo.
         None replies, save to ServoIdRead.
 
-        `mode`: What the servo is (0..1). 0 (servo): It turns to positions. 1 (motor): It turns
-        on and on.
+        `mode`: Whether the servo turns to positions, or on and on (0..1). 0 (servo): It turns to
+        positions. 1 (motor): It turns on and on.
 
         `speed`: How fast a motor turns, and which way round. A servo has no use for it
         (-1000..1000).
@@ -523,7 +523,7 @@ class AsyncController(AsyncClient):
         `servo_id`: The servo that is meant, or that replies (0..254). 254 (all): Every servo.
         None replies, save to ServoIdRead.
 
-        `led`: Whether it is dark (0..1). 0 (on): It is lit. 1 (off): It is dark.
+        `led`: Whether the LED is lit (0..1). 0 (on): It is lit. 1 (off): It is dark.
 
         Returns once the frame is handed over; `delay` of the result is how many seconds later it
         is on the wire.
@@ -540,8 +540,8 @@ class AsyncController(AsyncClient):
         `servo_id`: The servo that is meant, or that replies (0..254). 254 (all): Every servo.
         None replies, save to ServoIdRead.
 
-        Returns `led` of the Led: Whether it is dark (0..255). 0 (on): It is lit. 1 (off): It is
-        dark.
+        Returns `led` of the Led: Whether the LED is lit (0..255). 0 (on): It is lit. 1 (off): It
+        is dark.
 
         Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
         time, and TransportError.

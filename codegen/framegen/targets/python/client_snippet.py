@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from framegen.targets.python.client_view import ClientView
@@ -9,6 +10,8 @@ from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.exports import import_order
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.targets.python.method_view import MethodView
@@ -22,28 +25,34 @@ def client_snippet(library: Model, message: MessageLayout) -> str:
     What is sent is called. Of what is received, a reply is what a method returns, a refusal what it
     raises, and a report what one waits for.
     """
-    methods = ClientView(library).methods
     if message.direction == library.roles.sent:
-        (method,) = (each for each in methods if each.request == message.name)
-        return _program(library, [], [_call(method)])
+        return _program(library, [], [_call(each) for each in _methods(library, [message.name])])
     if message.direction != library.roles.received:
         return ""
-    for method in methods:
-        if method.exchange.reply is message:
-            return _program(library, [], [_call(method)])
-        if method.exchange.refusal is message:
-            lines = ["try:", f"    {_call(method, 8)}", "except RefusedError as error:"]
-            return _program(library, ["RefusedError"], [*lines, "    print(error.refusal)"])
-    causes = [each for each in methods if message.name in each.exchange.reports]
+    for method in _methods(library, library.answers.get(message.name, [])):
+        return _program(library, [], [_call(method)])
+    for method in _methods(library, library.refuses.get(message.name, [])):
+        lines = ["try:", f"    {_call(method, 8)}", "except RefusedError as error:"]
+        return _program(library, ["RefusedError"], [*lines, "    print(error.refusal)"])
+    causes = _methods(library, library.reports_on.get(message.name, []))
     return _program(
         library,
         [message.name],
         [
-            *(_call(method) for method in causes[:1]),
-            "# Or controller.on_report(print): every report, as it comes.",
+            *(_call(method) for method in islice(causes, 1)),
+            (
+                "# NoReportError tells of none in 30 s. "
+                "Or controller.on_report(print), for all of them."
+            ),
             f"print(controller.wait_for({message.name}, timeout=30))",
         ],
     )
+
+
+def _methods(library: Model, requests: Iterable[str]) -> Iterator[MethodView]:
+    """Yield the methods of the client that send these messages."""
+    found = map(ClientView(library).method, requests)
+    return (method for method in found if method is not None)
 
 
 def _call(method: MethodView, indent: int = 4) -> str:

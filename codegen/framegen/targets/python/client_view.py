@@ -100,6 +100,12 @@ class ClientView:
     def _methods(self, flavour: Flavour) -> list[MethodView]:
         return [MethodView(each, self.model, flavour) for each in self.model.exchanges]
 
+    def method(self, request: str) -> MethodView | None:
+        """Return the method of the client for threads that sends a message, if one does."""
+        exchange = self.model.exchanges_by_request.get(request)
+        flavour = self.FLAVOURS["Controller"]
+        return None if exchange is None else MethodView(exchange, self.model, flavour)
+
     @property
     def pose(self) -> PoseView | None:
         """The pose methods of the client for threads, where there are any."""

@@ -52,7 +52,9 @@ def codec_snippet(model: Model, message: MessageLayout, example: Example) -> str
 def _shell(model: Model, library: Model, message: MessageLayout, example: Example) -> str:
     """Write a command that sends a message or asks for it, or shows those that come."""
     program = package_of(model)
-    asked = next((each.request for each in library.exchanges if message in each.answers), None)
+    requests = library.answers.get(message.name, []) + library.refuses.get(message.name, [])
+    sent = library.exchanges_by_request
+    asked = next((library.messages[each] for each in requests if each in sent), None)
     if asked is not None and asked.message.examples:
         message, example = asked, asked.message.examples[0]
     if message.direction == library.roles.sent:

@@ -77,7 +77,7 @@ function makeBytesSearch({ protocols, entries }) {
       const { way, names } = ways.reduce((so, each) => (each.names.length > so.names.length ? each : so));
       if (!names.length) return [];
       const rest = names.length > MOST_ITEMS ? ` and ${names.length - MOST_ITEMS} more` : "";
-      const title = `${names.length} ${names.length === 1 ? "frame" : "frames"} among these bytes`;
+      const title = `${pluralized(names.length, "frame")} among these bytes`;
       return [shown(protocol, bytes, way, title, `${protocol.title}, ${way.text}`,
         names.slice(0, MOST_ITEMS).join(", ") + rest)];
     });

@@ -48,7 +48,7 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       try {
         return read();
       } catch (error) {
-        if (!isMistake(error)) throw error;
+        if (!(error instanceof Unusable)) throw error;
         return otherwise;
       }
     }
@@ -129,7 +129,7 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
       try {
         return each.read();
       } catch (error) {
-        if (!isMistake(error)) throw error;
+        if (!(error instanceof Unusable)) throw error;
         return field.low ?? 0;
       }
     }
@@ -199,7 +199,6 @@ function makeFields(codec, kind, { values: first, onInput = () => {} }) {
   };
 }
 
-const isMistake = (error) => error instanceof Unusable || error instanceof NotUnderstood;
 const namesOf = ({ names = {} }) => Object.keys(names);
 
 // Why a field is wrong, without its place, beside which it stands.

@@ -15,7 +15,7 @@ function makeLive(codec, [kind]) {
       hex.value = toHex(frame);
       take(frame);
     } catch (error) {
-      if (!isMistake(error)) throw error;
+      if (!(error instanceof Unusable)) throw error;
       const isPlaced = form.mark(error);
       refuse([isPlaced ? `No frame: ${error.message}` : error.message], null);
     }
@@ -29,7 +29,7 @@ function makeLive(codec, [kind]) {
       form.show(found.fields);
       return take(bytes);
     } catch (error) {
-      if (!isMistake(error)) throw error;
+      if (!(error instanceof Unusable)) throw error;
       return refuse([error.message], hex);
     }
   }
@@ -59,19 +59,13 @@ function makeLive(codec, [kind]) {
     const event = codec.decodeFrame(frame, kind.direction), text = toHex(frame);
     hex.setAttribute("aria-invalid", "false");
     status.className = "quiet small";
-    status.textContent = `${kind.name}, ${way.text}: ${frame.length} byte${frame.length === 1 ? "" : "s"}.`;
+    status.textContent = `${kind.name}, ${way.text}: ${pluralized(frame.length, "byte")}.`;
     strip.hidden = false;
-    strip.replaceChildren(...event.rows.map(cell));
+    strip.replaceChildren(...stripCells(event.rows));
     copy.disabled = false;
     copy.dataset.copy = text;
     lead(text);
     keep(text);
-  }
-
-  function cell({ role, at, bytes, path, text }) {
-    return make("li", { class: role }, make("span", { class: "offset" }, String(at)), " ",
-      make("span", { class: "bytes" }, toHex(bytes)), " ", make("span", { class: "name" }, path),
-      text ? " " : null, text ? make("span", { class: "value" }, text) : null);
   }
 
   // The workbench opens what stands here, right or wrong.

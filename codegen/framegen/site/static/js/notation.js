@@ -6,11 +6,9 @@ const NOTATION_WHOLE = /^-?(?:0x[0-9a-f]+|0o[0-7]+|0b[01]+|0+|[1-9][0-9]*)$/i;
 const NOTATION_FLOAT = /^[-+]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[-+]?[0-9]+)?|inf(?:inity)?|nan)$/i;
 
 // What was typed cannot be used: the part, where it stands, and why.
-class NotUnderstood extends Error {
-  constructor(path, found, at, why) {
-    super(`${path}: ${found ? `“${shortened(found)}” ${why}` : why}`);
-    Object.assign(this, { path, at, size: found.length });
-  }
+function notUnderstood(path, found, at, why) {
+  const said = found ? `“${shortened(found)}” ${why}` : why;
+  return new Unusable(`${path}: ${said}`, { at, size: found.length, path });
 }
 
 // The values of all fields in `text`, by name.
@@ -19,16 +17,16 @@ function readNotation(kind, text) {
   for (const { 0: word, index } of text.matchAll(/[^ \t\n]+/g)) {
     const sign = word.indexOf("="), name = sign < 0 ? word : word.slice(0, sign);
     const slot = kind.given.find((each) => each.name === name);
-    if (!slot) throw new NotUnderstood(kind.name, name, index, `is no field: it has ${fieldNames(kind)}`);
-    if (sign < 0) throw new NotUnderstood(name, word, index, `has no value: write ${name}=…`);
-    if (name in values) throw new NotUnderstood(name, word, index, "is given twice");
+    if (!slot) throw notUnderstood(kind.name, name, index, `is no field: it has ${fieldNames(kind)}`);
+    if (sign < 0) throw notUnderstood(name, word, index, `has no value: write ${name}=…`);
+    if (name in values) throw notUnderstood(name, word, index, "is given twice");
     values[name] = readField(slot, word.slice(sign + 1), index + sign + 1);
   }
   for (const slot of kind.given) {
     if (slot.name in values) continue;
     if (slot.optional) values[slot.name] = null;
     else if (slot.role === "counter") values[slot.name] = 0;
-    else throw new NotUnderstood(slot.name, "", text.length, `is not given: write ${slot.name}=…`);
+    else throw notUnderstood(slot.name, "", text.length, `is not given: write ${slot.name}=…`);
   }
   return values;
 }
@@ -52,7 +50,7 @@ function readField(slot, text, at = 0) {
 function readItem({ fields, element }, path, item, at) {
   if (element === null) return readNumberIn(fields[0], path, item, at);
   const parts = item.split(":"), names = fields.map(({ name }) => name).join(":");
-  if (parts.length !== fields.length) throw new NotUnderstood(path, item, at, `is not ${names}`);
+  if (parts.length !== fields.length) throw notUnderstood(path, item, at, `is not ${names}`);
   let place = at;
   return Object.fromEntries(fields.map((field, i) => {
     const start = place;
@@ -65,7 +63,7 @@ function readNumberIn(slot, path, text, at) {
   if (slot.role === "text") return unescaped(text);
   if (slot.float) {
     if (!NOTATION_FLOAT.test(text)) {
-      throw new NotUnderstood(path, text, at, "is no number: write it like 1.5");
+      throw notUnderstood(path, text, at, "is no number: write it like 1.5");
     }
     return Number(text.replace(/inf(inity)?/i, "Infinity").replace(/nan/i, "NaN"));
   }
@@ -75,7 +73,7 @@ function readNumberIn(slot, path, text, at) {
     const all = [...Object.keys(names), ...Object.keys(slot.bits || {})];
     const known = all.map((name) => `, or ${name}`).join("");
     const why = `${text ? "is no number" : "a number is missing"}: write it like 12 or 0x0C${known}`;
-    throw new NotUnderstood(path, text, at, why);
+    throw notUnderstood(path, text, at, why);
   }
   const value = text[0] === "-" ? -BigInt(text.slice(1)) : BigInt(text);
   return slot.wide || !Number.isSafeInteger(Number(value)) ? value : Number(value);

@@ -2,20 +2,12 @@
 "use strict";
 
 {
-  const byId = (id) => document.getElementById(id);
   const index = JSON.parse(byId("search-index").textContent);
   const search = makeSearch(index), bytesSearch = makeBytesSearch(index);
   const words = byId("search-words"), results = byId("search-results"), title = document.title;
   const titles = new Map(index.protocols.map((protocol) => [protocol.name, protocol.title]));
   const A_PAGE = 30, UNTIL_KEPT = 300;
   let shown = A_PAGE, keeping = 0;
-
-  function make(tag, attributes = {}, ...children) {
-    const element = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-    element.append(...children);
-    return element;
-  }
 
   const marked = (text, sought) => piecesOf(text, sought).map(
     (piece) => (piece.hit ? make("mark", {}, piece.text) : piece.text));

@@ -17,11 +17,3 @@ async function fileOf(recording, { name, codec, protocol, rest }) {
   const day = dayAndZone(new Date()).slice(0, 19).replace(" ", "_").replaceAll(":", "");
   return new File(parts, `${protocol.name}_${day}.hex`, { type: "text/plain" });
 }
-
-function saveFile(file) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(file);
-  link.download = file.name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-}

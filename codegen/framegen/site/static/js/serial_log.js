@@ -16,26 +16,15 @@ function makeLineLog(element, draw = drawSoon) {
   // The rows to be drawn, and whether that is under way.
   let rows = [], fresh = 0, isDue = false, isHeld = false;
 
-  function span(name, text) {
-    const made = document.createElement("span");
-    made.className = name;
-    made.textContent = text;
-    return made;
-  }
+  const span = (name, text) => make("span", { class: name }, text);
 
   function item(row) {
-    const made = document.createElement("li");
-    if (row.comment !== undefined) {
-      made.className = "comment";
-      made.textContent = row.comment;
-      return made;
-    }
-    made.className = [row.isSent ? "sent" : "", row.isNoise ? "noise" : ""].join(" ").trim();
+    if (row.comment !== undefined) return make("li", { class: "comment" }, row.comment);
+    const kind = [row.isSent ? "sent" : "", row.isNoise ? "noise" : ""].join(" ").trim();
     const rest = row.bytes.length - LOG_BYTES;
-    const hex = hexOf(row.bytes.slice(0, LOG_BYTES)) + (rest > 0 ? ` … and ${rest} more` : "");
-    made.append(span("time", `${row.time.toFixed(3)} s`), span("way-of", row.way), span("says", row.says()),
-      span("bytes", hex));
-    return made;
+    const hex = toHex(row.bytes.slice(0, LOG_BYTES)) + (rest > 0 ? ` … and ${rest} more` : "");
+    return make("li", { class: kind }, span("time", `${row.time.toFixed(3)} s`), span("way-of", row.way),
+      span("says", row.says()), span("bytes", hex));
   }
 
   function redraw() {

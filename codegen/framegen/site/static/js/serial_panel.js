@@ -5,7 +5,6 @@
 const LISTED_BOUND = 500_000;
 
 function showLine(protocol, codec) {
-  const byId = (id) => document.getElementById(id);
   const data = protocol.line, panel = byId("line-panel");
   const wait = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });
   const why = whyNoSerial({
@@ -239,13 +238,8 @@ function showLine(protocol, codec) {
   async function offerGranted() {
     const ports = line.state === "closed" ? await line.granted().catch(() => []) : [];
     if (line.state !== "closed") ports.length = 0;
-    byId("line-granted").replaceChildren(...ports.map((port) => {
-      const button = document.createElement("button");
-      button.type = "button";
-      button.textContent = `Connect to ${nameOfPort(port)} again`;
-      button.addEventListener("click", () => connect((wanted) => line.open(port, wanted)));
-      return button;
-    }));
+    byId("line-granted").replaceChildren(...ports.map((port) =>
+      button(`Connect to ${nameOfPort(port)} again`, () => connect((wanted) => line.open(port, wanted)))));
   }
 
   function connect(start) {

@@ -7,8 +7,6 @@ const CHUNK_SIZE = 64 * 1024;
 // What comes before the bytes of an entry has at most so many bytes.
 const HEAD_SIZE = 32;
 
-const hexOf = (bytes) => [...bytes].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
-
 // The time of day as a recording begins with it: `2026-01-02 09:08:07.250000 +0000`.
 function dayAndZone(date) {
   const two = (number) => String(Math.trunc(number)).padStart(2, "0");
@@ -82,7 +80,7 @@ function makeRecording(began, { bound = RECORDING_BOUND, chunkSize = CHUNK_SIZE 
   // One line; `say(entry)` may know more of what an entry is than its name.
   function lineOf(entry, say) {
     if (!entry.bytes.length) return `# ${entry.what}\n`;
-    return `${hexOf(entry.bytes)}  # ${entry.time.toFixed(6)} s, ${entry.who}: ${say(entry) ?? entry.what}\n`;
+    return `${toHex(entry.bytes)}  # ${entry.time.toFixed(6)} s, ${entry.who}: ${say(entry) ?? entry.what}\n`;
   }
 
   // The text, piece by piece.

@@ -64,4 +64,21 @@
     choose(group, sections[0]?.dataset.tab);
     choose(group, recall(group.dataset.tabs));
   });
+
+  // What an address names may stand in a section that is not shown.
+  const reveal = () => {
+    let id = location.hash.slice(1);
+    try { id = decodeURIComponent(id); } catch { /* It is an id as it stands, or none. */ }
+    const named = id && document.getElementById(id);
+    const within = (section) => section.hidden && section.contains(named);
+    let isMoved = false;
+    for (const group of groups) {
+      const section = named && [...group.querySelectorAll(":scope > [data-tab]")].find(within);
+      if (section) choose(group, section.dataset.tab);
+      isMoved = isMoved || Boolean(section);
+    }
+    if (isMoved) named.scrollIntoView();
+  };
+  window.addEventListener("hashchange", reveal);
+  reveal();
 }

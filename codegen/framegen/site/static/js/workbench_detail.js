@@ -54,14 +54,8 @@ function makeDetail(element, { codec, take, edit }) {
       make("button", { type: "button", class: "copy", "data-copy": toHex(event.bytes) }, "Copy hex"))];
   }
 
-  function strip(rows, at) {
-    const cells = rows.map((row) => make("li", { class: row.role },
-      make("span", { class: "offset" }, String(at + row.at)), " ",
-      make("span", { class: "bytes" }, toHex(row.bytes)), " ",
-      make("span", { class: "name" }, row.path), " ",
-      make("span", { class: "value" }, row.text)));
-    return make("ol", { class: "strip", "aria-label": "The bytes" }, ...cells);
-  }
+  const strip = (rows, at) =>
+    make("ol", { class: "strip", "aria-label": "The bytes" }, ...stripCells(rows, at));
 
   function facts(pairs) {
     return make("dl", { class: "facts small" }, ...pairs.flatMap(([label, text]) =>
@@ -84,7 +78,7 @@ function makeDetail(element, { codec, take, edit }) {
     ] : [];
     return [
       bytesOf(event, at), ...notes.map((note) => make("p", { class: "quiet small" }, note)),
-      reasons(event, refusals), ...agreed, ...hints.map((hint) => hinted(event, hint)),
+      ...hints.map((hint) => hinted(event, hint)), reasons(event, refusals), ...agreed,
     ];
   }
 

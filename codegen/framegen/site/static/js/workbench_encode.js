@@ -34,7 +34,7 @@ function makeEncoder({ codec, changed, decode }) {
     } catch (error) {
       refuse(error);
       words.setAttribute("aria-invalid", "true");
-      if (error.at !== undefined && error.size) {
+      if (error.size) {
         problem.append(" ", button("Show the place", () => {
           words.focus();
           words.setSelectionRange(error.at, error.at + error.size);
@@ -57,7 +57,7 @@ function makeEncoder({ codec, changed, decode }) {
   }
 
   function refuse(error) {
-    if (!(error instanceof Unusable) && !(error instanceof NotUnderstood)) throw error;
+    if (!(error instanceof Unusable)) throw error;
     frame = null;
     fields.mark(error);
     problem.replaceChildren(error.message);

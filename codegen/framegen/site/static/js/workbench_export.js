@@ -42,11 +42,8 @@ function makeExport(codec, protocol) {
     const known = ["id", "address", "counter"];
     const numbers = frame.slots.filter(({ role, at }) => at >= 0 && known.includes(role));
     const tail = frame.slots.slice(body + 1).reduce((sum, { size }) => sum + size, 0);
-    const said = numbers.map((slot) => {
-      const own = [...bytes.slice(slot.at, slot.at + slot.size)];
-      if (slot.order === "little") own.reverse();
-      return `, ${asciiJson(slot.name)}: ${own.reduce((so, byte) => so * 256n + BigInt(byte), 0n)}`;
-    });
+    const said = numbers.map(({ name, at, size, order }) =>
+      `, ${asciiJson(name)}: ${readWide({ size, order, signed: false }, bytes, at)}`);
     const parameters = bytes.slice(frame.slots[body].at, bytes.length - tail);
     return `${said.join("")}, "parameters": "${toHex(parameters)}"`;
   }
@@ -80,14 +77,6 @@ async function saveCapture(capture, { head, line, type, ending }, title) {
       since = performance.now();
     }
   }
-  download(parts, type, name);
+  saveFile(new File(parts, name, { type }));
   announce(`${counted(capture.size, "event")} saved as ${name}`);
-}
-
-// Hand a file to the browser, which saves it where downloads go.
-function download(parts, type, name) {
-  const address = URL.createObjectURL(new Blob(parts, { type }));
-  const link = make("a", { href: address, download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }

@@ -28,9 +28,9 @@ function encodingOf(bytes) {
   }
 }
 
-// The pieces of a file with their places. All of them come in the same room, so that nothing is left
+// The slices of a file with their places. All of them come in the same room, so that nothing is left
 // behind of a long one.
-async function* piecesOf(file) {
+async function* readSlices(file) {
   const reader = file.stream().getReader({ mode: "byob" });
   let room = new ArrayBuffer(INPUT_FILE);
   try {
@@ -92,7 +92,7 @@ function makeInput({ says, progress }) {
     const encoding = isRaw ? null : encodingOf(new Uint8Array(await file.slice(0, 4096).arrayBuffer()));
     const text = encoding ? new TextDecoder(encoding) : null;
     const reader = text ? makeTextReader(says, capture.add) : null;
-    for await (const [at, bytes] of piecesOf(file)) {
+    for await (const [at, bytes] of readSlices(file)) {
       const piece = text ? text.decode(bytes, { stream: true }) : bytes;
       const step = text ? INPUT_TEXT : INPUT_BYTES;
       for (let from = 0; from < piece.length; from += step) {

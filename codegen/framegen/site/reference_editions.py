@@ -1,4 +1,4 @@
-"""The shelf of a reference: its editions, and where in each of them a page has its like."""
+"""The editions of a reference, and where in each of them a page has its like."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class EditionNotice:
 
 
 @dataclass(frozen=True, eq=False)
-class Shelf:
+class ReferenceEditions:
     """The editions of a reference, each with what its pages show.
 
     `folder` is that of the newest, below the root of the site.
@@ -120,7 +120,9 @@ class Shelf:
         return {**pairing.to_new}, pairing.guessed
 
 
-def shelf_of(compiled: Compiled, released: Sequence[Edition], snippets: Snippets) -> Shelf:
+def editions_of(
+    compiled: Compiled, released: Sequence[Edition], snippets: Snippets
+) -> ReferenceEditions:
     """Return the editions of a protocol: the spec as it is now, and what was released of it."""
     versions = Versions(newest_edition(compiled), released)
     views = {versions.newest: ReferenceView(compiled, snippets)}
@@ -128,26 +130,26 @@ def shelf_of(compiled: Compiled, released: Sequence[Edition], snippets: Snippets
         name = f"spec/released/{each.spec.protocol.name}-{each.version}.yaml"
         source = replace(each.compiled.source, path=name)
         views[each] = ReferenceView(replace(each.compiled, source=source), snippets)
-    return Shelf(versions, views, f"reference/{views[versions.newest].folder}/")
+    return ReferenceEditions(versions, views, f"reference/{views[versions.newest].folder}/")
 
 
-def kept_page(shelf: Shelf) -> Iterator[Page]:
+def same_as_newest_page(editions: ReferenceEditions) -> Iterator[Page]:
     """Yield the page at the address of the last release, if the newest edition says the same.
 
     Its pages would be those of the newest edition again. Who has its address, as the pages of
     other editions do, is led there; later editions make it a reference of its own.
     """
-    kept = shelf.versions.kept
-    if kept is not None:
-        reference = shelf.views[shelf.versions.newest]
-        start = f"{shelf.folder}index.html"
-        title = f"{reference.protocol.title} {kept.version}"
+    unchanged = editions.versions.unchanged
+    if unchanged is not None:
+        reference = editions.views[editions.versions.newest]
+        start = f"{editions.folder}index.html"
+        title = f"{reference.protocol.title} {unchanged.version}"
         yield Page(
-            path=f"{shelf.folder}{kept.version}/index.html",
-            template="kept",
+            path=f"{editions.folder}{unchanged.version}/index.html",
+            template="same_as_newest",
             title=title,
             label=title,
-            about=f"Version {kept.version} is the newest one.",
-            context={"start": start, "version": kept.version, "title": title},
+            about=f"Version {unchanged.version} is the newest one.",
+            context={"start": start, "version": unchanged.version, "title": title},
             canonical=start,
         )
