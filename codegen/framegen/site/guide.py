@@ -9,11 +9,12 @@ from functools import cached_property
 from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
+from urllib.parse import quote, unquote
 
 from markupsafe import Markup, escape
 
 from framegen.site.highlight import code_block
-from framegen.site.markdown import parser, plain_text, slug
+from framegen.site.markdown import parser, plain_text, slugs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -49,9 +50,11 @@ class Guide:
     def tokens(self) -> list[Token]:
         """All of it, with anchors on the headings, and links that lead to pages."""
         tokens = parser().parse(self.text)
-        for before, token in pairwise(tokens):
-            if before.type == "heading_open":
-                before.attrSet("id", slug(token.content))
+        headings = [pair for pair in pairwise(tokens) if pair[0].type == "heading_open"]
+        anchors = slugs(inside.content for _, inside in headings)
+        for (heading, _), anchor in zip(headings, anchors, strict=True):
+            heading.attrSet("id", anchor)
+        for token in tokens:
             self._lead(token.children or [])
             _align(token)
         return tokens
@@ -77,16 +80,30 @@ class Guide:
                 yield before.tag, plain_text(token)
 
     def _lead(self, tokens: Sequence[Token]) -> None:
-        plain = False
+        plain = in_link = False
         for token in tokens:
             if token.type == "image":
-                token.attrSet("src", self._address(str(token.attrGet("src"))) or "")
+                self._show(token, in_link=in_link)
             if token.type == "link_open":
                 address = self._address(str(token.attrGet("href")))
                 plain = address is None
                 token.attrs = {} if address is None else {"href": address}
+            if token.type in ("link_open", "link_close"):
+                in_link = token.type == "link_open"
             if plain and token.type in ("link_open", "link_close"):
                 token.tag = "span"
+
+    def _show(self, image: Token, *, in_link: bool) -> None:
+        """Show a picture of the site. One from elsewhere becomes a link: pages load nothing."""
+        source = str(image.attrGet("src"))
+        address = self._address(source)
+        is_outside = re.match(r"https?:|//", source, re.IGNORECASE) is not None
+        if address is not None and not is_outside:
+            image.attrSet("src", address)
+            return
+        image.type = "html_inline"
+        words = Markup("{}") if in_link or not is_outside else Markup('<a href="{1}">{0}</a>')
+        image.content = str(words.format(plain_text(image) or source, source))
 
     def _address(self, link: str) -> str | None:
         path, mark, anchor = link.partition("#")
@@ -101,6 +118,8 @@ class Guide:
         if section is not None:
             return f"{'../' * self.page.count('/')}{section}"
         page = self.published.get(name)
+        if page is None and unquote(name) in self.published:
+            page = quote(self.published[unquote(name)])
         return None if page is None else f"{'../' * self.page.count('/')}{page}{mark}{anchor}"
 
 

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
+from urllib.parse import unquote
 
 from framegen.site.markdown import parse, plain_text
 
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from markdown_it.token import Token
 
 README = "README.md"
+# What a list above all headings is called.
+_FIRST = "Guides"
 _REFERENCE = re.compile(r"reference/([^/]+)/README\.md")
 
 
@@ -67,19 +70,21 @@ class Plan:
     def sections(self) -> list[Section]:
         """The sections that have a list of links."""
         found: list[Section] = []
-        title, about, entries = "", "", list[Entry]()
+        title, about, entries = _FIRST, "", list[Entry]()
+        named = False
         in_item = False
         for before, token in zip([None, *self._tokens], self._tokens, strict=False):
             if before is not None and before.type == "heading_open" and before.tag == "h2":
                 found += [Section(title, about, tuple(entries))] if entries else []
                 title, about, entries = plain_text(token), "", []
+                named = True
             in_item = token.type != "list_item_close" and (
                 in_item or token.type == "list_item_open"
             )
             if token.type == "inline" and before is not None and before.type == "paragraph_open":
                 if in_item:
                     entries += _entry(token)
-                elif title and not entries:
+                elif named and not entries:
                     about = f"{about} {plain_text(token)}".strip()
         return [*found, Section(title, about, tuple(entries))] if entries else found
 
@@ -108,7 +113,7 @@ def _entry(item: Token) -> Iterator[Entry]:
         rest = "".join(
             " " if "break" in each.type else each.content for each in children[end + 1 :]
         )
-        yield Entry(str(children[0].attrGet("href")), label, _sentence(rest, children[end + 1 :]))
+        yield Entry(unquote(str(children[0].attrGet("href"))), label, _sentence(rest, children[end + 1 :]))
 
 
 def _sentence(text: str, tokens: Sequence[Token]) -> str:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from framegen.comparison.edition import Edition
     from framegen.compile import Compiled
 
+# Where the references lie among the guides, as Markdown.
+_REFERENCES = "reference"
 _VERSION = re.compile(r'^version *= *"([^"]+)"', re.MULTILINE)
 
 
@@ -48,10 +50,11 @@ def read_project(
     they link to. Raises Unusable, with the name of the file.
     """
     names = {file: compiled.spec.protocol.name for file, compiled in specs.items()}
+    _refuse_twins(names)
     editions = {name: read_released(file, name) for file, name in names.items()}
     if docs is None:
         return Project([*specs.values()], base=base, released=editions)
-    guides = {file.name: _text(file) for file in sorted(docs.glob("*.md"))}
+    guides = {path: _text(docs / path) for path in _guides(docs)}
     guides |= _listed(docs, Plan(guides[README]))
     files = {
         file.relative_to(docs).as_posix(): file.read_bytes()
@@ -59,6 +62,33 @@ def read_project(
     }
     files |= linked_files(guides, docs)
     return Project([*specs.values()], guides, files, base, _version(docs.parent), editions)
+
+
+def _refuse_twins(names: Mapping[Path, str]) -> None:
+    """Refuse two specs of one name: the pages of one would replace those of the other."""
+    first: dict[str, Path] = {}
+    for file, name in names.items():
+        if first.setdefault(name, file) is not file:
+            raise Unusable(
+                f"{visible(first[name].name)} and {visible(file.name)} are both of the protocol "
+                f"{visible(name)}",
+                hint="give one of them another `protocol: name:`, or name the one to be shown",
+            )
+
+
+def _guides(docs: Path) -> Iterator[str]:
+    """Yield the paths of all guides below a folder, but for the references that are made there."""
+    for file in sorted(docs.rglob("*.md")):
+        steps = file.relative_to(docs).parts
+        if steps[0] == _REFERENCES or any(step.startswith(".") for step in steps):
+            continue
+        path = "/".join(steps)
+        if re.search(r"[#?%\\]", path):
+            raise Unusable(
+                f"{visible(file.as_posix())} has a character in its name that no link can lead to",
+                hint="name it without #, ?, % and \\",
+            )
+        yield path
 
 
 def _listed(docs: Path, plan: Plan) -> Iterator[tuple[str, str]]:
@@ -81,7 +111,7 @@ def _version(root: Path) -> str:
 
 def _text(file: Path) -> str:
     try:
-        return file.read_text(encoding="utf-8")
+        return file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
         raise Unusable(
             f"{visible(file.as_posix())} is not UTF-8 text: byte {error.start}",

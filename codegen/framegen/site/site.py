@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from framegen import __version__
+from framegen.console import visible
+from framegen.reading.yamltree import Unusable
 from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
 from framegen.site.guide import Guide, page_of
@@ -40,6 +43,7 @@ _PREVIEW = "images/preview.png"
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, and the texts to download, by path below its root."""
     site = Site(project, snippets)
+    _refuse_twins(site)
     files = {page.path: render_page(site, page) for page in site.pages} | site.collection.files
     if project.base:
         # Where a page stands for another, or for none at all, it is not for search engines.
@@ -49,6 +53,18 @@ def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
         files["sitemap.xml"] = sitemap(project.base, listed)
         files["robots.txt"] = robots(project.base)
     return files
+
+
+def _refuse_twins(site: Site) -> None:
+    """Refuse a guide that would replace another page, or be replaced by it."""
+    guides = {guide.page: guide.path for guide in site.guides}
+    counts = Counter(page.path for page in site.pages)
+    for path, guide in guides.items():
+        if counts[path] > 1:
+            raise Unusable(
+                f"docs/{visible(guide)} would become {visible(path)}, which is another page",
+                hint="give it another name",
+            )
 
 
 @dataclass(frozen=True)

@@ -40,10 +40,7 @@ def client_snippet(library: Model, message: MessageLayout) -> str:
         [message.name],
         [
             *(_call(method) for method in islice(causes, 1)),
-            (
-                "# NoReportError tells of none in 30 s. "
-                "Or controller.on_report(print), for all of them."
-            ),
+            "# Or controller.on_report(print): every report. NoReportError: none came in time.",
             f"print(controller.wait_for({message.name}, timeout=30))",
         ],
     )
