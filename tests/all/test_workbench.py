@@ -538,14 +538,17 @@ def test_what_a_busy_line_says_is_drawn_together(bench: Tab) -> None:
         """async (frame) => {
           let drawn = 0;
           const status = document.getElementById("decoded");
-          new MutationObserver((records) => { drawn += records.length; }).observe(status, { childList: true });
+          const watch = new MutationObserver((records) => { drawn += records.length; });
+          watch.observe(status, { childList: true });
           for (let round = 0; round < 500; round++) {
             const bytes = Uint8Array.from(frame);
             const event = { type: "message", bytes, size: bytes.length };
             workbench.append([{ time: round / 1000, sender: "host", event }]);
             if (round % 100 === 0) await new Promise((resolve) => setTimeout(resolve));
           }
-          while (!status.textContent.startsWith("5,000")) await new Promise(requestAnimationFrame);
+          while (!status.textContent.startsWith("5,000")) {
+            await new Promise(requestAnimationFrame);
+          }
           return [drawn < 50, status.textContent];
         }""",
         list(bytes.fromhex(MOVE)),
