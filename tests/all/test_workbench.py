@@ -503,3 +503,26 @@ def test_paper_holds_the_list_and_the_event(bench: Tab) -> None:
     bench.evaluate("dispatchEvent(new Event('afterprint'))")
     bench.emulate_media(media="screen")
     assert rows(bench).count() < 60
+
+
+def test_what_a_busy_line_says_is_drawn_together(bench: Tab) -> None:
+    said = bench.evaluate(
+        """async (frame) => {
+          let drawn = 0;
+          const status = document.getElementById("decoded");
+          const watch = new MutationObserver((records) => { drawn += records.length; });
+          watch.observe(status, { childList: true });
+          for (let round = 0; round < 500; round++) {
+            const bytes = Uint8Array.from(frame);
+            const event = { type: "message", bytes, size: bytes.length };
+            workbench.append([{ time: round / 1000, sender: "host", event }]);
+            if (round % 100 === 0) await new Promise((resolve) => setTimeout(resolve));
+          }
+          while (!status.textContent.startsWith("5,000")) {
+            await new Promise(requestAnimationFrame);
+          }
+          return [drawn < 50, status.textContent];
+        }""",
+        list(bytes.fromhex(MOVE)),
+    )
+    assert said == [True, "5,000 bytes: 500 messages, 0 bytes of noise."]

@@ -5,8 +5,13 @@ const LOG_ROWS = 300;
 // So many bytes of an entry are shown; the recording has all of them.
 const LOG_BYTES = 48;
 
+// After so long, rows are drawn together with those that come until then.
+const LOG_WAITS_MS = 100;
+
+const drawSoon = (redraw) => setTimeout(requestAnimationFrame, LOG_WAITS_MS, redraw);
+
 // `element` scrolls, and holds a list. `draw` is called when the page has time to draw, once for many rows.
-function makeLineLog(element, draw = requestAnimationFrame) {
+function makeLineLog(element, draw = drawSoon) {
   const list = element.querySelector("ol");
   // The rows to be drawn, and whether that is under way.
   let rows = [], fresh = 0, isDue = false, isHeld = false;

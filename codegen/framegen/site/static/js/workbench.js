@@ -3,6 +3,8 @@
 
 // A longer text is kept like a file, out of the field.
 const WORKBENCH_FIELD = 1_000_000;
+// What a line says is drawn after so long, together with what comes until then.
+const WORKBENCH_FOLLOWS_MS = 100;
 
 const protocol = JSON.parse(byId("protocol").textContent);
 const codec = makeCodec(protocol);
@@ -15,7 +17,7 @@ window.workbench = (() => {
   const exports = makeExport(codec, protocol);
   // What is decoded: a file, a pasted text that is too long for the field, or what the field holds.
   let file = null, capture = null, seen = null, isLive = false, isReading = false;
-  let addressTimer = 0, drawn = 0;
+  let addressTimer = 0, drawn = 0, isFollowing = false;
 
   const detail = makeDetail(byId("event"), { codec, protocol, take: takeFrame, edit: editEvent });
   const list = makeEventList({ codec, protocol, detail });
@@ -205,7 +207,8 @@ window.workbench = (() => {
     source.hidden = false;
   }
 
-  // Take events of a line: {time, sender, event}, as the codec's stream gives them.
+  // Take events of a line: {time, sender, event}, as the codec's stream gives them. A busy line says more
+  // than can be drawn each time.
   function append(entries) {
     if (!isLive) begin("From the line");
     for (const { time, sender, event } of entries) {
@@ -213,6 +216,14 @@ window.workbench = (() => {
       const noise = event.type === "noise" ? event.reason : null;
       capture.add(event.bytes, { whole: true, time, direction: way, noise });
     }
+    if (isFollowing) return;
+    isFollowing = true;
+    setTimeout(requestAnimationFrame, WORKBENCH_FOLLOWS_MS, follow);
+  }
+
+  function follow() {
+    isFollowing = false;
+    if (!isLive) return;
     list.show(capture, { grew: "follow" });
     showStatus();
   }
