@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.render import snippets
-from framegen.site.javascript_module import javascript_module
 from framegen.site.project import Project
+from framegen.site.scripts.javascript_module import javascript_module
 from framegen.site.site import render_site
 
 from tests.conformance.harness import run

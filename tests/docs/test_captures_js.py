@@ -14,8 +14,8 @@ from busservo import Reason, recordings
 from busservo._cli.entries import EntryLines
 from busservo._cli.events import bytes_of
 from framegen.hextext import HexError, read_hex
-from framegen.site.codec_scripts import codec_scripts
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.docs.peers import noisy_lines
 from tests.docs.reference import NODE, ROOT, reference

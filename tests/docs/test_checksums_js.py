@@ -7,7 +7,7 @@ from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import NumberField
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
 from framegen.model.slots import Number
-from framegen.site.slot_data import checksum_method
+from framegen.site.scripts.slot_data import checksum_method
 
 from tests.docs.reference import NODE
 from tests.docs.scripts import run_script

@@ -6,7 +6,7 @@ import html
 import re
 
 import pytest
-from framegen.site.highlight import code_block
+from framegen.site.guides.highlight import code_block
 
 from tests.docs.lamps import lamps
 from tests.docs.reference import Page

@@ -23,7 +23,7 @@ from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.layout import MessageLayout
 from framegen.model.model import Model, derive
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.conformance.answerers import page_command
 from tests.conformance.harness import run

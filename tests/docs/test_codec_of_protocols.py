@@ -11,8 +11,8 @@ from framegen.model.codec import NotAFrame, decode, encode, values_of
 from framegen.model.layout import MessageLayout
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
-from framegen.site.codec_scripts import codec_scripts
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.docs.peers import Event, joined, noisy_lines
 from tests.docs.reference import NODE

@@ -11,7 +11,7 @@ from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable
 from framegen.render import render, render_shared
 from framegen.site.downloads import size_in_words
-from framegen.site.linked_files import linked_files
+from framegen.site.guides.linked_files import linked_files
 from framegen.site.project import read_project
 from framegen.site.recordings import recordings_of
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.explain import explain
-from framegen.site.codec_scripts import codec_scripts
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import protocol_data
 from hypothesis import settings
 
 from tests.docs.peers import noisy_lines

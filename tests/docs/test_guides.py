@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.site.guide import Guide, page_of
+from framegen.site.guides.guide import Guide, page_of
 from framegen.site.project import read_project
 
 from tests.docs.lamps import lamps, links, rendered_lamps

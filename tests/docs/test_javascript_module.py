@@ -8,7 +8,7 @@ import subprocess
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from framegen.site.javascript_module import javascript_module
+from framegen.site.scripts.javascript_module import javascript_module
 
 from tests.docs.reference import NODE, NODE_MODULES, ROOT, reference
 from tests.docs.test_hostile_pages import PAYLOADS, hostile

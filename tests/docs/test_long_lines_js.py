@@ -7,8 +7,8 @@ from importlib import import_module
 from typing import Any
 
 import pytest
-from framegen.site.codec_scripts import codec_scripts
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.docs.peers import joined, noisy_lines
 from tests.docs.reference import NODE, ROOT

@@ -8,8 +8,8 @@ from html import unescape
 import pytest
 from framegen.model.slots import Items
 from framegen.render import snippets
-from framegen.site.guide import Guide
-from framegen.site.mentions import Mentions
+from framegen.site.guides.guide import Guide
+from framegen.site.guides.mentions import Mentions
 from framegen.site.project import Project
 from framegen.site.site import Site
 from framegen.targets.docs.field import field_views

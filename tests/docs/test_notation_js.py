@@ -8,8 +8,8 @@ import pytest
 from busservo import ActionGroupRun, ActionGroupSpeed, ServoMove, ServoUnload
 from busservo._cli.usage_error import UsageError
 from busservo._cli.values import message_from_text
-from framegen.site.codec_scripts import codec_scripts
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.docs.reference import NODE, reference
 from tests.docs.scripts import run_script

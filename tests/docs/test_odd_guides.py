@@ -11,7 +11,7 @@ from framegen.compile import compile_spec
 from framegen.language.load import read_source
 from framegen.reading.yamltree import Unusable
 from framegen.render import snippets
-from framegen.site.markdown import slugs
+from framegen.site.guides.markdown import slugs
 from framegen.site.project import Project, read_project
 from framegen.site.site import render_site
 

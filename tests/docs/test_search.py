@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 from framegen.render import snippets
-from framegen.site.codec_scripts import codec_scripts
 from framegen.site.project import Project, read_project
+from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.search.entry import KINDS, Entry, spellings
 from framegen.site.search.words import with_words
 from framegen.site.site import Site, render_site

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.slots import Items
-from framegen.site.codec_scripts import codec_scripts
+from framegen.site.scripts.codec_scripts import codec_scripts
 
 from tests.docs.reference import NODE
 from tests.docs.scripts import run_script

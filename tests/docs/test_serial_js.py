@@ -21,9 +21,9 @@ from busservo._client.local_echo import LocalEcho
 from busservo._codec.careful_decoder import GAP
 from busservo._codec.decoder import StreamDecoder
 from busservo._frame.direction import RECEIVED
-from framegen.site.codec_scripts import codec_scripts
-from framegen.site.line_data import LINE_SCRIPT, line_data
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.line_data import LINE_SCRIPT, line_data
+from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.docs.reference import NODE, reference
 from tests.docs.scripts import STATIC

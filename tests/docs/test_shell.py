@@ -7,7 +7,7 @@ import re
 
 import pytest
 from framegen.render import snippets
-from framegen.site.headings import headings, with_permalinks
+from framegen.site.guides.headings import headings, with_permalinks
 from framegen.site.project import Project
 from framegen.site.site import render_site
 

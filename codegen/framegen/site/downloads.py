@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from framegen.output import banner
 from framegen.pluralize import pluralize
 from framegen.render import render_target
-from framegen.site.javascript_module import javascript_module
 from framegen.site.recordings import recordings_of
+from framegen.site.scripts.javascript_module import javascript_module
 from framegen.targets import docs, schema, vectors
 from framegen.targets.docs.markdown_pages import markdown_files
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.explain import explain
-from framegen.site.guide import Guide, rendered
+from framegen.site.guides.guide import Guide, rendered
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
     from framegen.explanation.explanation import Row
-    from framegen.site.plan import Plan
+    from framegen.site.guides.plan import Plan
     from framegen.site.reference_pages import ReferencePages
     from framegen.targets.docs.examples import ExampleView
     from framegen.targets.docs.message import MessagePage

@@ -12,9 +12,9 @@ from framegen.site.sidebar import Group, Link, Messages, SidebarSection
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
+    from framegen.site.guides.plan import Entry, Section
     from framegen.site.page import Page
-    from framegen.site.plan import Entry, Section
     from framegen.site.reference_pages import ReferencePages
     from framegen.site.references import References
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
-from framegen.site.linked_files import linked_files
-from framegen.site.plan import README, Plan
-from framegen.site.released import read_released
+from framegen.site.editions.released import read_released
+from framegen.site.guides.linked_files import linked_files
+from framegen.site.guides.plan import README, Plan
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

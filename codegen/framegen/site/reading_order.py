@@ -11,7 +11,7 @@ from framegen.reading.yamltree import Unusable
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
     from framegen.site.page import Page
     from framegen.site.sidebar import Link
 

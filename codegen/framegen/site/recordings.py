@@ -11,7 +11,7 @@ from framegen.audit.audit import audit
 from framegen.audit.recording import read_recording
 from framegen.audit.report import summary
 from framegen.reading.yamltree import Unusable
-from framegen.site.linked_files import is_linked
+from framegen.site.guides.linked_files import is_linked
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,14 +5,14 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.site.codec_scripts import codec_scripts
 from framegen.site.downloads import Downloads
+from framegen.site.editions.what_changed import what_changed
 from framegen.site.escape import script_json
-from framegen.site.line_data import LINE_SCRIPT, line_data
 from framegen.site.page import Page
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.line_data import LINE_SCRIPT, line_data
+from framegen.site.scripts.protocol_data import protocol_data
 from framegen.site.spec_listing import listing
-from framegen.site.what_changed import what_changed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
     from framegen.comparison.edition import Edition
+    from framegen.site.editions.reference_editions import ReferenceEditions
     from framegen.site.project import Project
-    from framegen.site.reference_editions import ReferenceEditions
     from framegen.targets.docs.reference import PageView
 
 # The files of the workbench, in the order in which they are joined.

@@ -6,9 +6,13 @@ from contextlib import contextmanager, nullcontext
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.site.reference_editions import ReferenceEditions, editions_of, same_as_newest_page
+from framegen.site.editions.reference_editions import (
+    ReferenceEditions,
+    editions_of,
+    same_as_newest_page,
+)
+from framegen.site.editions.versions import blaming
 from framegen.site.reference_pages import ReferencePages
-from framegen.site.versions import blaming
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from framegen.output import banner
 from framegen.site.downloads import size_in_words
 from framegen.site.escape import anchor, linked, said
-from framegen.site.headings import headings, with_permalinks
-from framegen.site.highlight import code_block
+from framegen.site.guides.headings import headings, with_permalinks
+from framegen.site.guides.highlight import code_block
 from framegen.site.policy import assets
 from framegen.targets.templates import environment
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.site.markdown import slug
+from framegen.site.guides.markdown import slug
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from framegen import __version__
-from framegen.site.codec_scripts import codec_scripts
 from framegen.site.escape import script_json
-from framegen.site.guide import Guide, page_of
+from framegen.site.guides.guide import Guide, page_of
+from framegen.site.guides.linked_files import is_linked, link_to
+from framegen.site.guides.mentions import Mention, Mentions
+from framegen.site.guides.plan import README, Entry, Plan, Section
+from framegen.site.guides.rule_pages import rule_pages
 from framegen.site.home import Introduction, specimen
-from framegen.site.linked_files import is_linked, link_to
 from framegen.site.logo import icon, logo
-from framegen.site.mentions import Mention, Mentions
 from framegen.site.navigation import Navigation
 from framegen.site.page import Page
-from framegen.site.plan import README, Entry, Plan, Section
 from framegen.site.publication import NOT_FOUND, robots, sitemap
 from framegen.site.reading_order import refuse_twins
 from framegen.site.references import References
 from framegen.site.rendering import render_page
-from framegen.site.rule_pages import rule_pages
+from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.search.index import SearchIndex
 
 if TYPE_CHECKING:

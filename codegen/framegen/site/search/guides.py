@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from framegen.site.markdown import plain_text
+from framegen.site.guides.markdown import plain_text
 from framegen.site.search.entry import Entry
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from markdown_it.token import Token
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
 
 GLOSSARY = "Glossary"
 # The guide to words that lead to other places, and are found there.

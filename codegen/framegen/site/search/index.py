@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from framegen.site.protocol_data import protocol_data
+from framegen.site.scripts.protocol_data import protocol_data
 from framegen.site.search.entry import KINDS, Entry
 from framegen.site.search.guides import WORDS, guide_entries
 from framegen.site.search.reference import reference_entries
@@ -16,7 +16,7 @@ from framegen.site.search.words import with_words
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
     from framegen.site.reference_pages import ReferencePages
 
 # What no page that lists all needs to list.

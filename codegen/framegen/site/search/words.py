@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.site.markdown import plain_text
+from framegen.site.guides.markdown import plain_text
 from framegen.site.search.entry import Entry
 from framegen.site.search.guides import sections
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
 
 
 def with_words(entries: Iterable[Entry], guide: Guide) -> Iterator[Entry]:

@@ -13,8 +13,8 @@ from urllib.parse import quote, unquote
 
 from markupsafe import Markup, escape
 
-from framegen.site.highlight import code_block
-from framegen.site.markdown import parser, plain_text, slugs
+from framegen.site.guides.highlight import code_block
+from framegen.site.guides.markdown import parser, plain_text, slugs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

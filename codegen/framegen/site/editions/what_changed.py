@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from framegen.comparison.report.verdict import Verdict
     from framegen.comparison.report.view import Section, View
     from framegen.language.spec import Release
-    from framegen.site.reference_editions import ReferenceEditions
+    from framegen.site.editions.reference_editions import ReferenceEditions
 
 # As many lines of one list; `framegen diff` shows all.
 _MOST = 100

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from framegen.site.editions.versions import Versions, newest_edition
 from framegen.site.page import Page
-from framegen.site.versions import Versions, newest_edition
 from framegen.targets.docs.reference import PageView, ReferenceView
 
 if TYPE_CHECKING:

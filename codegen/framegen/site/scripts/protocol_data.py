@@ -11,7 +11,7 @@ from framegen.explanation import refusals
 from framegen.explanation.explanation import example_in_words, facts, named
 from framegen.language.formula import Sizes
 from framegen.pluralize import describe_range
-from framegen.site.slot_data import exact, lowest, slot_data
+from framegen.site.scripts.slot_data import exact, lowest, slot_data
 from framegen.targets.docs.address import message_page
 
 if TYPE_CHECKING:

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.model.slots import Items, Number, Packed, Text
 from framegen.output import banner
-from framegen.site.codec_scripts import codec_scripts
 from framegen.site.policy import script
-from framegen.site.protocol_data import REASONS, protocol_data
-from framegen.site.slot_data import is_wide
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import REASONS, protocol_data
+from framegen.site.scripts.slot_data import is_wide
 from framegen.targets.filenames import file_stem
 from framegen.targets.templates import environment
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
     from framegen.model.slots import Field
 
-_HERE = Path(__file__).parent
+_HERE = Path(__file__).parent.parent
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 

@@ -10,7 +10,7 @@ from urllib.parse import quote, unquote
 from framegen.console import visible
 from framegen.project import FOLDER as SPECS
 from framegen.reading.yamltree import Unusable
-from framegen.site.markdown import parse
+from framegen.site.guides.markdown import parse
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

@@ -6,12 +6,12 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from framegen.site.markdown import plain_text
+from framegen.site.guides.markdown import plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
     from framegen.targets.docs.message import MessagePage
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
-from framegen.site.markdown import parse, plain_text
+from framegen.site.guides.markdown import parse, plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

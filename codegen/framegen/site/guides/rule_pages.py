@@ -10,7 +10,7 @@ from framegen.comparison.changes import CHANGE_RULES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from framegen.site.guide import Guide
+    from framegen.site.guides.guide import Guide
 
 _RULES = frozenset(rule.id for rule in CHANGE_RULES)
 

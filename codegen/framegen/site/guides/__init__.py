@@ -1,0 +1,1 @@
+"""The guides: their plan, their Markdown as HTML, and what they link to."""
