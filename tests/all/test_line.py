@@ -167,6 +167,7 @@ def test_both_ends_are_told_apart_where_they_can_be(browser: Browser, site: Path
             made.host.said.append({"hex": message.encode().hex()})
             live.tab.wait_for_timeout(100)
         live.count("frames", 2)
+        live.drawn()
         ways = live.tab.locator("#line-log .way-of").all_inner_texts()
         assert ways == ["host → controller", "either"]
         assert live.rows()[1] == "ActionGroupRun or ActionGroupStarted group=3 times=1"

@@ -181,12 +181,18 @@ class LiveTab:
     def advice(self) -> str:
         return self.tab.locator("#line-advice").inner_text()
 
+    def drawn(self) -> None:
+        """Wait until the list shows all that has come: it draws many rows together."""
+        self.tab.locator("#line-log:not([aria-busy])").wait_for()
+
     def rows(self) -> list[str]:
         """Return what the last entries say, received and sent."""
+        self.drawn()
         return self.tab.locator("#line-log .says").all_inner_texts()
 
     def comments(self) -> list[str]:
         """Return what has happened to the line, without the time."""
+        self.drawn()
         texts = self.tab.locator("#line-log .comment").all_inner_texts()
         return [text.partition(" s: ")[2] for text in texts]
 

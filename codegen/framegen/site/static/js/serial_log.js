@@ -29,6 +29,7 @@ function makeLineLog(element, draw = drawSoon) {
 
   function redraw() {
     isDue = false;
+    element.ariaBusy = null;
     if (isHeld || !fresh) return;
     const isAtEnd = element.scrollHeight - element.scrollTop - element.clientHeight < 40;
     list.append(...rows.slice(rows.length - Math.min(fresh, rows.length)).map(item));
@@ -40,6 +41,7 @@ function makeLineLog(element, draw = drawSoon) {
   function soon() {
     if (!isDue) draw(redraw);
     isDue = true;
+    element.ariaBusy = "true";
   }
 
   return {
