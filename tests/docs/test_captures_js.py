@@ -279,7 +279,10 @@ def noise_in(line: str, form: str) -> list[str]:
         found = [said.get("time"), said["from"], said["reason"], said["noise"]] if is_noise else []
         return [str(each) for each in found]
     _, time, sender, _, message, _, _, data, reason = next(csv.reader([line]))
-    return [] if message or reason == "unknown command" else [time, sender, reason, data]
+    # A frame of an unknown command has the size that it says.
+    found = bytes.fromhex(data) if reason == "unknown command" else b""
+    is_frame = len(found) > 3 and found[2] + 2 == len(found)
+    return [] if message or is_frame else [time, sender, reason, data]
 
 
 def noisy_recording(seed: int) -> str:

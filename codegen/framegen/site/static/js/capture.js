@@ -47,7 +47,8 @@ function makeCapture(codec, protocol, direction = null) {
     if (!wire.stream) wire.stream = codec.makeStream({ direction: way });
     if (typeof said.noise === "string") {
       quiet(wire);
-      if (bytes.length) put(wire, codeOfNoise(bytes, way, said.noise), bytes.length);
+      if (bytes.length) put(wire, codeOfNoise(wire, bytes, way, said.noise), bytes.length);
+      wire.last = null;
       return;
     }
     if (said.whole) {
@@ -72,10 +73,11 @@ function makeCapture(codec, protocol, direction = null) {
 
   // The code of what was recorded as noise: it stays that, even if it would be a message by itself; save
   // for a frame whose command was not known.
-  function codeOfNoise(bytes, way, reason) {
+  function codeOfNoise(wire, bytes, way, reason) {
     const events = codec.makeStream({ direction: way }).flush(bytes);
-    if (reason === protocol.reasons.unknown && events.length === 1 && events[0].type === "unknown") {
-      return CAPTURE_UNKNOWN + reasons.indexOf(reason);
+    if (reason === protocol.reasons.unknown && events.length === 1 && events[0].type !== "noise") {
+      const isKnown = events[0].type === "message";
+      return isKnown ? codeOf(wire, events[0], bytes.length) : CAPTURE_UNKNOWN + reasons.indexOf(reason);
     }
     const found = events.find(({ type }) => type !== "message");
     return CAPTURE_NOISE + reasons.indexOf(reason || (found ? found.reason : protocol.reasons.header));
