@@ -280,8 +280,8 @@ def noise_in(line: str, form: str) -> list[str]:
         return [str(each) for each in found]
     _, time, sender, _, message, _, _, data, reason = next(csv.reader([line]))
     # A frame of an unknown command has the size that it says.
-    found = bytes.fromhex(data) if reason == "unknown command" else b""
-    is_frame = len(found) > 3 and found[2] + 2 == len(found)
+    frame = bytes.fromhex(data) if reason == "unknown command" else b""
+    is_frame = len(frame) > 3 and frame[2] + 2 == len(frame)
     return [] if message or is_frame else [time, sender, reason, data]
 
 
