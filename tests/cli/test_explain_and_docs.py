@@ -45,7 +45,8 @@ SERVO, HOUSE = (layout_of(data_of(spec)) for spec in (BUSSERVO, DEMO))
 
 def carried_by(package: str) -> Explain:
     """Return what explains bytes by the library of that name, and by nothing of framegen."""
-    verb, data = (import_module(f"{package}._cli.{name}") for name in ("explain", "carried_model"))
+    verb = import_module(f"{package}._cli.explain")
+    data = import_module(f"{package}._explanation.carried_model")
     text, model = import_module(f"{package}._explanation.text"), data.protocol()
 
     def explained(frame: bytes) -> tuple[str, dict[str, Any]]:

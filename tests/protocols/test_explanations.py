@@ -113,7 +113,7 @@ def test_a_library_explains_as_the_reference_does(name: str, tmp_path: Path) -> 
     model = model_of(name)
     with library(library_files(compiled_file(FILES[name])), tmp_path) as made:
         explained = import_module(f"{made.__name__}._cli.explain").explained
-        carried = import_module(f"{made.__name__}._cli.carried_model").protocol()
+        carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
         examples = (each.message.examples for each in messages_of(name).values())
         frames = [example.hex for each in examples for example in each]
         for data in [*frames, *damaged(name)]:
@@ -314,5 +314,5 @@ def test_what_nothing_tells_apart_is_explained_as_each_of_them(
     assert [(each.reason, each.expected) for each in here.refusals] == [(reason, due)]
     with library(library_files(compiled), tmp_path) as made:
         explained = import_module(f"{made.__name__}._cli.explain").explained
-        carried = import_module(f"{made.__name__}._cli.carried_model").protocol()
+        carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
         assert repr(explained(carried, frame)) == repr(here)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import sys
 
-from .carried_model import protocol
+from .._explanation.carried_model import protocol
 from .examples import PROGRAM
 from .exit_codes import DONE
 from .reference_page import message_list, message_page

@@ -11,9 +11,9 @@ from .._codec.codec import decode
 from .._codec.decoder import StreamDecoder
 from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise, UnknownFrame
+from .._explanation.carried_model import classes, protocol
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError, EncodeError
-from .carried_model import classes, protocol
 from .console import visible
 from .encode import message_named
 from .exit_codes import DONE, UNUSABLE

@@ -6,11 +6,11 @@ import json
 
 from .._codec.codec import decode
 from .._codec.hextext import HexError, read_hex
+from .._explanation.carried_model import classes, protocol
 from .._explanation.explanation import Judgement, explain
 from .._explanation.text import as_json, as_text
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError
-from .carried_model import classes, protocol
 from .exit_codes import DONE, NOT_ALL
 from .usage_error import UsageError
 

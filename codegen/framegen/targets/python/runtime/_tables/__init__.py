@@ -1,0 +1,5 @@
+"""Captures as tables: what `tables` is made of. Only here are NumPy and PyArrow imported."""
+
+from .extra import need
+
+need("numpy", "pyarrow")

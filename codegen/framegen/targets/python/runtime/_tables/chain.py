@@ -1,0 +1,61 @@
+"""Frames behind each other: of all that would be legal, those that a decoder reads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .legal import NO_KIND
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .found import Numbers
+    from .legal import Judged
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """Frames in order, of which none begins before the one in front of it has ended.
+
+    `kind` and `direction` are those of Judged.
+    """
+
+    start: Numbers
+    size: Numbers
+    kind: Numbers
+    direction: Numbers
+
+    @property
+    def end(self) -> Numbers:
+        """Where each ends."""
+        return self.start + self.size
+
+    def chosen(self, which: Numbers | NDArray[np.bool_]) -> Chain:
+        """Return some of them."""
+        return Chain(self.start[which], self.size[which], self.kind[which], self.direction[which])
+
+
+def no_chain() -> Chain:
+    """Return a chain of no frames."""
+    nothing = np.empty(0, np.int64)
+    return Chain(nothing, nothing, nothing, nothing)
+
+
+def chained(places: Numbers, judged: Judged) -> Chain:
+    """Return the frames that are read, of those that are legal at some places."""
+    legal = np.flatnonzero(judged.kind != NO_KIND)
+    found = Chain(places[legal], judged.size[legal], judged.kind[legal], judged.direction[legal])
+    start, end = found.start, found.end
+    if not (start[1:] < end[:-1]).any():
+        return found
+    # No frame in front of such a one reaches into it, so that it is read whatever they are.
+    is_read = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
+    read_so_far = 0
+    for number in np.flatnonzero(~is_read).tolist():
+        if is_read[number - 1]:
+            read_so_far = end[number - 1]
+        is_read[number] = start[number] >= read_so_far
+    return found.chosen(is_read)

@@ -1,0 +1,148 @@
+"""Frames as columns: every field of a message by name, read for all of its frames at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pyarrow as pa
+
+from .found import UNKNOWN_SENDER
+from .places import read_blocks, read_numbers
+from .schema import CLOCK, DIRECTION, arrow_type, schema_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .._explanation.protocol import Slot
+    from .found import Frames, Numbers, Seconds, Stray
+    from .layout import Column, Layout
+
+
+def batch_of(layout: Layout, frames: Frames) -> pa.RecordBatch:
+    """Return the frames of one message as a record batch."""
+    fields = [_Column(layout, frames, column).array for column in layout.columns]
+    columns = [*event_columns(frames), *fields]
+    return pa.RecordBatch.from_arrays(columns, schema=schema_of(layout))
+
+
+def event_columns(found: Frames | Stray) -> list[pa.Array]:
+    """Return what is known of each event, whatever it is."""
+    return [
+        pa.array(found.offset),
+        pa.array(found.size.astype(np.uint32)),
+        _directions(found.direction),
+        pa.array(found.time, from_pandas=True),
+        _clock(found.clock),
+    ]
+
+
+def _directions(numbers: Numbers) -> pa.Array:
+    known = pa.array(numbers.astype(np.int8), mask=numbers == UNKNOWN_SENDER)
+    return pa.DictionaryArray.from_arrays(known, DIRECTION.names)
+
+
+def _clock(seconds: Seconds) -> pa.Array:
+    there = ~np.isnan(seconds)
+    whole = np.where(there, seconds * 1e6, 0).round().astype(np.int64)
+    return pa.array(whole, mask=~there).cast(CLOCK)
+
+
+@dataclass(frozen=True, slots=True)
+class _Column:
+    """One field of many frames of one message."""
+
+    layout: Layout
+    frames: Frames
+    column: Column
+
+    @property
+    def slot(self) -> Slot:
+        """What the model says of it."""
+        return self.column.slot
+
+    @property
+    def array(self) -> pa.Array:
+        """Its values."""
+        slot = self.slot
+        if slot.role == "list":
+            return self._text() if "text" in slot.said else self._list()
+        if slot.role == "text":
+            return _texts(read_blocks(self.frames.data, self._at(slot.at), slot.size))
+        if slot.role == "packed":
+            return self._packed()
+        if slot.said.get("optional"):
+            return self._optional()
+        return pa.array(read_numbers(self.frames.data, self._at(slot.at), slot))
+
+    def _at(self, at: int) -> Numbers:
+        """Return where a slot begins in `data`, of each frame."""
+        return self.frames.start + at if at >= 0 else self.frames.start + self.frames.size + at
+
+    def _optional(self) -> pa.Array:
+        end = self.frames.size - self.layout.tail_size
+        there = self.slot.at + self.slot.size <= end
+        # What is absent is read from the beginning of its frame, and not shown.
+        places = self._at(0) + np.where(there, self.slot.at, 0)
+        places = np.minimum(places, len(self.frames.data) - self.slot.size)
+        return pa.array(read_numbers(self.frames.data, places, self.slot), mask=~there)
+
+    @property
+    def _counts(self) -> Numbers:
+        """How many elements the list has, in each frame."""
+        slot, described = self.slot, self.layout.described
+        if slot.is_fixed:
+            return np.full(len(self.frames.start), slot.low)
+        least = described.lengths[0] + described.frame.uncounted
+        return slot.low + (self.frames.size - least) // slot.size
+
+    def _elements(self) -> tuple[Numbers, Numbers]:
+        """Return where the elements of each frame begin among all, and where each is in `data`."""
+        counts = self._counts
+        ends = np.concatenate(([0], np.cumsum(counts)))
+        numbers = np.arange(ends[-1]) - np.repeat(ends[:-1], counts)
+        return ends, np.repeat(self._at(self.slot.at), counts) + self.slot.size * numbers
+
+    def _list(self) -> pa.Array:
+        ends, places = self._elements()
+        fields = self.column.fields
+        values = [_values(self.frames.data, places + field.at, field) for field in fields]
+        kind = arrow_type(self.layout, self.column)
+        if pa.types.is_struct(kind.value_type):
+            listed: Any = pa.StructArray.from_arrays(values, fields=[*kind.value_type])
+        else:
+            (listed,) = values
+        return pa.ListArray.from_arrays(pa.array(ends.astype(np.int32)), listed, type=kind)
+
+    def _text(self) -> pa.Array:
+        ends, places = self._elements()
+        parts = pa.py_buffer(ends.astype(np.int32)), pa.py_buffer(self.frames.data[places])
+        return pa.Array.from_buffers(pa.string(), len(ends) - 1, [None, *parts])
+
+    def _packed(self) -> pa.Array:
+        slot = self.slot
+        bits, count = int(slot.said["packed"][1:]), int(slot.said["count"])
+        rows = read_blocks(self.frames.data, self._at(slot.at), slot.size)
+        little = slot.order == "little"
+        unpacked = np.unpackbits(rows, axis=1, bitorder="little" if little else "big")
+        weights = 1 << np.arange(bits, dtype=np.int64)
+        numbers = unpacked.reshape(len(rows), count, bits) @ (weights if little else weights[::-1])
+        kind = arrow_type(self.layout, self.column)
+        values = pa.array(numbers.reshape(-1)).cast(kind.value_type)
+        ends = pa.array(np.arange(len(rows) + 1, dtype=np.int32) * count)
+        return pa.ListArray.from_arrays(ends, values, type=kind)
+
+
+def _values(data: NDArray[np.uint8], places: Numbers, slot: Slot) -> pa.Array:
+    """Return the values that begin at some places of `data`."""
+    if slot.role == "text":
+        return _texts(read_blocks(data, places, slot.size))
+    return pa.array(read_numbers(data, places, slot))
+
+
+def _texts(rows: NDArray[np.uint8]) -> pa.Array:
+    """Return the texts in rows of bytes; zeros at their end are no part of them."""
+    # NumPy leaves those zeros out by itself.
+    texts = np.ascontiguousarray(rows).view(f"S{rows.shape[1]}").reshape(-1)
+    return pa.array(texts).cast(pa.string())

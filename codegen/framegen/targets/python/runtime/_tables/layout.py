@@ -1,0 +1,101 @@
+"""The messages of the protocol as tables need them: what stands where, and under which name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import TYPE_CHECKING
+
+from .._explanation.carried_model import classes, protocol
+from .._frame.direction import Direction
+from ..messages import MESSAGES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .._explanation.protocol import Message as Described
+    from .._explanation.protocol import Protocol, Slot
+    from .._frame.message import Message
+
+DIRECTIONS = tuple(Direction)
+
+# What every table says of an event; a field of such a name has a `_` behind it.
+EVENT_COLUMNS = ("offset", "size", "direction", "time", "clock")
+# What a user gives, rather than what follows from it.
+_GIVEN = ("field", "text", "packed", "list", "address", "counter")
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """One message: its class, which is so many in MESSAGES, and its slots as the model has them."""
+
+    number: int
+    kind: type[Message]
+    described: Described
+
+    @property
+    def name(self) -> str:
+        """The name of its class, and of its table."""
+        return self.kind.__name__
+
+    @property
+    def direction(self) -> int:
+        """Its direction, an index into DIRECTIONS."""
+        return DIRECTIONS.index(self.kind.DIRECTION)
+
+    @property
+    def tail_size(self) -> int:
+        """The number of bytes behind its fields."""
+        return sum(slot.size for slot in self.described.slots if slot.at < 0)
+
+    @cached_property
+    def columns(self) -> tuple[Column, ...]:
+        """A column for each field that a user gives."""
+        slots = [slot for slot in self.described.slots if slot.role in _GIVEN]
+        return tuple(Column(*self._named(slot), slot) for slot in slots)
+
+    def _named(self, slot: Slot) -> tuple[str, str]:
+        """Return the attribute of a field, and the name of its column."""
+        attribute = _attribute(slot.name, self.kind.__match_args__)
+        return attribute, f"{attribute}_" if attribute in EVENT_COLUMNS else attribute
+
+    def element_names(self, column: Column) -> tuple[str, ...]:
+        """Return the names of the fields in an element of a list; none if it has bare numbers."""
+        element = getattr(self.kind, column.attribute).element
+        return () if element is None else element.__match_args__
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """One field of a message: the attribute of its class, the name of the column, and its slot."""
+
+    attribute: str
+    name: str
+    slot: Slot
+
+    @property
+    def fields(self) -> list[Slot]:
+        """What an element of a list holds, without what never changes."""
+        return [slot for slot in self.slot.fields if slot.role in ("field", "text")]
+
+
+def _attribute(name: str, given: Sequence[str]) -> str:
+    """Return the attribute of a field: its name, or another where Python has taken that."""
+    return name if name in given else f"{name}_"
+
+
+@cache
+def described() -> Protocol:
+    """Return the model of the protocol; read once."""
+    return protocol()
+
+
+@cache
+def layouts() -> tuple[Layout, ...]:
+    """Return all messages, in the order of MESSAGES."""
+    model = described()
+    names = {there: name for name, there in classes(model).items()}
+    return tuple(
+        Layout(number, kind, model.messages[names[kind.__name__]])
+        for number, kind in enumerate(MESSAGES)
+    )

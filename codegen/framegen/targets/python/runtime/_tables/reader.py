@@ -1,0 +1,67 @@
+"""Read a capture as record batches: one for each table and stretch, whatever its size."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from ..recordings import read
+from .by_entry import found_by_entry
+from .columns import batch_of
+from .layout import layouts
+from .schema import NOISE
+from .search import search, sent
+from .searchable import is_searchable
+from .source import opened
+from .stray_rows import StrayRows
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import pyarrow as pa
+
+    from .._frame.direction import Direction
+    from .found import Found, Frames
+    from .source import Capture, Source
+
+BLOCK = 1 << 22
+"""How many bytes of a capture are held at once, and the columns that are made of them."""
+
+# As many entries of a recording: their objects take more than their bytes.
+_ENTRIES = 1 << 15
+
+Batches: TypeAlias = "dict[str, pa.RecordBatch]"
+
+
+def batches(
+    source: Source, form: str, direction: Direction | None, block: int = BLOCK
+) -> Iterator[Batches]:
+    """Yield the tables of each stretch of a capture, by name, without those that are empty."""
+    rows = StrayRows()
+    with opened(source, form) as capture:
+        for found in _found(capture, direction, block):
+            made = _messages(found.frames)
+            noise = rows.add(found.stray, found.end)
+            if noise is not None:
+                made[NOISE] = noise
+            if made:
+                yield made
+    noise = rows.end()
+    if noise is not None:
+        yield {NOISE: noise}
+
+
+def _found(capture: Capture, direction: Direction | None, block: int) -> Iterator[Found]:
+    if not capture.is_text and is_searchable(sent(direction)):
+        return search(capture.blocks(block), direction)
+    form = "hex" if capture.is_text else "raw"
+    return found_by_entry(read(capture, form=form, direction=direction), _ENTRIES)
+
+
+def _messages(frames: Frames) -> Batches:
+    if not len(frames.start):
+        return {}
+    every = layouts()
+    kinds = np.flatnonzero(np.bincount(frames.kind, minlength=len(every)))
+    return {every[kind].name: batch_of(every[kind], frames.of(kind)) for kind in kinds.tolist()}

@@ -1,0 +1,143 @@
+"""The Arrow schemas of the tables: a column for each field, with its unit and its named values."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final
+
+import pyarrow as pa
+
+from .._frame.errors import Reason
+from .layout import DIRECTIONS, described, layouts
+from .places import dtype_of
+
+if TYPE_CHECKING:
+    from .._explanation.protocol import Slot
+    from .layout import Column, Layout
+
+NOISE = "noise"
+"""The name of the table of what is no message."""
+
+
+class _Names:
+    """A column of few names, each held once."""
+
+    def __init__(self, names: list[str]) -> None:
+        self.names: Final = pa.array(names, pa.string())
+        self.type: Final = pa.dictionary(pa.int8(), pa.string())
+
+
+DIRECTION = _Names([each.value for each in DIRECTIONS])
+REASON = _Names([each.value for each in Reason])
+CLOCK = pa.timestamp("us", tz="UTC")
+
+_EVENT: tuple[tuple[str, pa.DataType, dict[str, str]], ...] = (
+    (
+        "offset",
+        pa.int64(),
+        {"about": "The byte of the capture at which it begins.", "unit": "byte"},
+    ),
+    ("size", pa.uint32(), {"about": "How many bytes it has.", "unit": "byte"}),
+    ("direction", DIRECTION.type, {"about": "Who sent it to whom, where that is known."}),
+    ("time", pa.float64(), {"about": "When it came, since the recording began.", "unit": "s"}),
+    ("clock", CLOCK, {"about": "The time of day at which it came."}),
+)
+
+
+def schemas() -> dict[str, pa.Schema]:
+    """Return the schema of each table, by name: one a message, and `noise`."""
+    return {each.name: schema_of(each) for each in layouts()} | {NOISE: noise_schema()}
+
+
+@cache
+def schema_of(layout: Layout) -> pa.Schema:
+    """Return the schema of the table of one message."""
+    fields = [
+        _field(each.name, arrow_type(layout, each), _said(each.slot)) for each in layout.columns
+    ]
+    said = layout.described.said
+    about = {
+        "message": layout.name,
+        "summary": str(said["summary"]),
+        "direction": layout.kind.DIRECTION.value,
+        "protocol": described().title,
+    }
+    return pa.schema([*_event_fields(), *fields], metadata=about)
+
+
+@cache
+def noise_schema() -> pa.Schema:
+    """Return the schema of the table of noise and unknown frames."""
+    numbers = [
+        _field(name, pa.int64(), {"about": "Of an unknown frame."}) for name in unknown_numbers()
+    ]
+    return pa.schema(
+        [
+            *_event_fields(),
+            _field("reason", REASON.type, {"about": "Why it is no message."}),
+            _field("unknown", pa.bool_(), {"about": "Whether it is a frame that is not known."}),
+            *numbers,
+            _field("parameters", pa.binary(), {"about": "The fields of an unknown frame."}),
+        ],
+        metadata={"summary": "Noise and unknown frames.", "protocol": described().title},
+    )
+
+
+@cache
+def unknown_numbers() -> tuple[str, ...]:
+    """Return the names of the numbers by which unknown frames are told apart."""
+    parts = (
+        slot.name
+        for envelope in described().envelopes.values()
+        for slot in envelope.slots
+        if slot.role in ("address", "id")
+    )
+    return tuple(dict.fromkeys(parts))
+
+
+def arrow_type(layout: Layout, column: Column) -> Any:
+    """Return the type of the values of a field."""
+    slot = column.slot
+    if slot.role == "packed":
+        return pa.list_(pa.uint16() if int(slot.said["packed"][1:]) <= 16 else pa.uint32())
+    if slot.role != "list" or "text" in slot.said:
+        return _plain_type(slot)
+    names = layout.element_names(column)
+    if not names:
+        (number,) = column.fields
+        return pa.list_(_field("item", _plain_type(number), _said(number)))
+    pairs = zip(names, column.fields, strict=True)
+    return pa.list_(
+        pa.struct([_field(name, _plain_type(each), _said(each)) for name, each in pairs])
+    )
+
+
+def _plain_type(slot: Slot) -> pa.DataType:
+    """Return the type of a number or a text."""
+    is_text = slot.role == "text" or "text" in slot.said
+    return pa.string() if is_text else pa.from_numpy_dtype(dtype_of(slot))
+
+
+def _event_fields() -> list[pa.Field]:
+    return [_field(name, kind, said) for name, kind, said in _EVENT]
+
+
+def _field(name: str, kind: pa.DataType, said: dict[str, str]) -> pa.Field:
+    return pa.field(name, kind, metadata=said)
+
+
+def _said(slot: Slot) -> dict[str, str]:
+    """Return what is known of a field, as metadata: text, or JSON."""
+    said = slot.said
+    found = {key: str(said[key]) for key in ("about", "unit", "signed_as") if said.get(key)}
+    if "scale" in said:
+        step, unit, *offset = said["scale"]
+        found["scale"] = json.dumps({"step": step, "unit": unit, "offset": (*offset, "0")[0]})
+    if "values" in said:
+        values = {name: each["value"] for name, each in said["values"].items()}
+        found["values"] = json.dumps(values)
+    if "bits" in said:
+        bits = {name: [low, high] for name, (low, high, _) in said["bits"].items()}
+        found["bits"] = json.dumps(bits)
+    return found

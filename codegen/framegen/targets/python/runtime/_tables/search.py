@@ -1,0 +1,154 @@
+"""Find all frames and all noise of a stream, many at once: exactly what its stream decoder finds.
+
+The stream is examined in windows. Each header with enough bytes behind it is judged by itself; of
+the frames that are legal, each begins behind the one before. What lies between them is noise.
+"""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._codec.codec import table_for
+from .._frame.errors import Reason
+from ..recordings import read
+from .by_entry import found_by_entry
+from .chain import Chain, chained, no_chain
+from .found import UNKNOWN_SENDER, Found, Frames, Stray, unknown_times
+from .layout import DIRECTIONS, layouts
+from .legal import NO_KIND, UNKNOWN_COMMAND, UNKNOWN_KIND, LegalFrames
+from .noise_pieces import noise_pieces
+from .unknown import with_unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from .._frame.direction import Direction
+    from .found import Bytes, Numbers
+    from .layout import Layout
+
+_BAD_HEADER = [*Reason].index(Reason.BAD_HEADER)
+_NOTHING = np.empty(0, np.int64)
+# What the end of a stream holds is one stretch.
+_ALL = 1 << 31
+
+
+def sent(direction: Direction | None) -> list[Layout]:
+    """Return the messages on a line, in the order in which decoders prefer them."""
+    by_kind = {each.kind: each for each in layouts()}
+    return [by_kind[kind] for kind in table_for(direction).messages]
+
+
+def search(blocks: Iterable[Bytes], direction: Direction | None) -> Iterator[Found]:
+    """Yield what a stream holds, which comes in blocks; after the last, the line is quiet."""
+    window = _Window(direction)
+    for block in blocks:
+        yield window.add(block)
+    yield from window.end()
+
+
+class _Window:
+    """The bytes of a stream that are not decided yet, and what was in front of them."""
+
+    def __init__(self, direction: Direction | None) -> None:
+        self._direction = direction
+        self._sender = UNKNOWN_SENDER if direction is None else DIRECTIONS.index(direction)
+        self._legal = LegalFrames(sent(direction))
+        self._header = self._legal.envelope.header
+        self._data: Bytes = np.empty(0, np.uint8)
+        # Where they begin in the capture; and why noise is noise that goes on there.
+        self._offset = 0
+        self._reason = _BAD_HEADER
+
+    def add(self, block: Bytes) -> Found:
+        """Take in bytes, and return the events that are certain now."""
+        data = self._data = np.concatenate((self._data, block))
+        # The largest frame may begin there, and another in its last byte.
+        until = len(data) - 2 * self._legal.largest
+        if until <= 0:
+            return self._found(no_chain(), _NOTHING, _NOTHING, 0)
+        places = _places(data[: until + self._legal.largest], self._header)
+        judged = self._legal.judge(data, places)
+        chain = chained(places, judged)
+        if not self._legal.proves_unknown:
+            chain = with_unknown(chain, data, places, judged, self._direction)
+        chain = chain.chosen(chain.start < until)
+        is_refused = judged.kind == NO_KIND
+        return self._found(chain, places[is_refused], judged.reason[is_refused], until)
+
+    def end(self) -> Iterator[Found]:
+        """Return the events of the rest, behind which nothing comes."""
+        data = self._data
+        headers = _places(data, self._header)
+        rest = int(headers[0]) if len(headers) else len(data)
+        yield self._found(no_chain(), _NOTHING, _NOTHING, rest)
+        entries = read(io.BytesIO(self._data.tobytes()), form="raw", direction=self._direction)
+        for found in found_by_entry(entries, _ALL):
+            yield found.moved(self._offset)
+
+    def _found(self, chain: Chain, refused: Numbers, reasons: Numbers, until: int) -> Found:
+        """Return the events in front of data[until], and forget their bytes."""
+        data = self._data
+        done = max(until, int(chain.end[-1]) if len(chain.start) else 0)
+        begins, ends, reason = noise_pieces(
+            chain, done, refused, reasons, first=self._reason, usual=_BAD_HEADER
+        )
+        goes_on = len(ends) and ends[-1] == done
+        if done:
+            self._reason = int(reason[-1]) if goes_on else _BAD_HEADER
+        is_unknown = chain.kind == UNKNOWN_KIND
+        found = Found(
+            self._frames(chain.chosen(~is_unknown)),
+            self._stray(chain.chosen(is_unknown), begins, ends, reason),
+            self._offset + done,
+        )
+        self._data = data[done:]
+        self._offset += done
+        return found
+
+    def _frames(self, chain: Chain) -> Frames:
+        count = len(chain.start)
+        known = self._direction is not None
+        return Frames(
+            data=self._data,
+            start=chain.start,
+            offset=chain.start + self._offset,
+            size=chain.size,
+            kind=chain.kind,
+            direction=np.full(count, self._sender) if known else chain.direction,
+            time=unknown_times(count),
+            clock=unknown_times(count),
+        )
+
+    def _stray(self, unknown: Chain, begins: Numbers, ends: Numbers, reason: Numbers) -> Stray:
+        """Return noise and unknown frames, in order."""
+        count = len(begins) + len(unknown.start)
+        claims = zip(unknown.start.tolist(), unknown.end.tolist(), strict=True)
+        data: list[bytes | None] = [None] * len(begins)
+        data += [self._data[start:end].tobytes() for start, end in claims]
+        start = np.concatenate((begins, unknown.start))
+        size = np.concatenate((ends - begins, unknown.size))
+        reasons = np.concatenate((reason, np.full(len(unknown.start), UNKNOWN_COMMAND)))
+        order = np.argsort(start, kind="stable")
+        return Stray(
+            offset=start[order] + self._offset,
+            size=size[order],
+            reason=reasons[order],
+            direction=np.full(count, self._sender),
+            time=unknown_times(count),
+            clock=unknown_times(count),
+            frame=[data[at] for at in order.tolist()],
+        )
+
+
+def _places(data: Bytes, header: bytes) -> Numbers:
+    """Return where a header begins."""
+    count = len(data) - len(header) + 1
+    if count <= 0:
+        return _NOTHING
+    there = data[:count] == header[0]
+    for at, byte in enumerate(header[1:], 1):
+        there &= data[at : at + count] == byte
+    return np.flatnonzero(there)

@@ -1,0 +1,94 @@
+"""The bytes of a capture, whatever holds them: a file, a stream, bytes or a memory map."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+import numpy as np
+
+from .._recording.form import is_text
+from ..recordings import FORMS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .found import Bytes
+
+
+class Readable(Protocol):
+    """A stream of bytes."""
+
+    def read(self, size: int, /) -> bytes:
+        """Return at most so many bytes; none at the end."""
+        raise NotImplementedError
+
+
+Source: TypeAlias = "str | os.PathLike[str] | bytes | bytearray | memoryview | Bytes | Readable"
+"""What holds a capture: the name of a file; bytes, a memory map or an array; or a stream."""
+
+_LOOKED_AT = 65536
+
+
+class Capture:
+    """A capture that is open: its bytes in order, and whether they are text."""
+
+    def __init__(self, stream: Readable, form: str) -> None:
+        self._read = getattr(stream, "read1", stream.read)
+        self._begun = b""
+        text = {"hex": True, "raw": False}.get(form)
+        while text is None:
+            more = self._read(_LOOKED_AT)
+            self._begun += more
+            text = is_text(self._begun, ended=not more)
+        self.is_text = text
+
+    def read(self, size: int, /) -> bytes:
+        """Return at most so many bytes; none at the end."""
+        if self._begun:
+            begun, self._begun = self._begun[:size], self._begun[size:]
+            return begun
+        data: bytes = self._read(size)
+        return data
+
+    def blocks(self, size: int) -> Iterator[Bytes]:
+        """Yield the bytes, so many at once; the last are fewer, or none."""
+        while True:
+            pieces = bytearray()
+            while len(pieces) < size and (more := self.read(size - len(pieces))):
+                pieces += more
+            yield np.frombuffer(bytes(pieces), np.uint8)
+            if len(pieces) < size:
+                return
+
+
+class _Held:
+    """Bytes that are held already, read as a stream; never copied as a whole."""
+
+    def __init__(self, held: memoryview) -> None:
+        self._left = held
+
+    def read(self, size: int, /) -> bytes:
+        """Return at most so many bytes; none at the end."""
+        some, self._left = self._left[:size], self._left[size:]
+        return bytes(some)
+
+
+@contextmanager
+def opened(source: Source, form: str) -> Iterator[Capture]:
+    """Open a capture. Raises ValueError for another form, and OSError for a file."""
+    if form not in FORMS:
+        raise ValueError(f"{form!r} is none of the forms {', '.join(FORMS)}")
+    if isinstance(source, (str, os.PathLike)):
+        with Path(source).open("rb", buffering=0) as stream:
+            yield Capture(stream, form)
+        return
+    held: Any = source
+    try:
+        whole = memoryview(held)
+    except TypeError:
+        yield Capture(held, form)
+    else:
+        yield Capture(_Held(whole.cast("B")), form)

@@ -1,0 +1,87 @@
+"""Noise as rows: neighbouring noise of one reason joined, however the capture was cut."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pyarrow as pa
+
+from .._codec.noise import UnknownFrame
+from .._frame.errors import Reason
+from .columns import event_columns
+from .found import Numbers, Stray
+from .schema import REASON, noise_schema, unknown_numbers
+
+
+class StrayRows:
+    """The rows of the table of noise, of one capture; noise that may go on is held back."""
+
+    def __init__(self) -> None:
+        self._held: Stray | None = None
+
+    def add(self, stray: Stray, end: int) -> pa.RecordBatch | None:
+        """Take in what came next, up to the byte `end`; return the rows that are certain now."""
+        joined = _joined(stray if self._held is None else _both(self._held, stray))
+        count = len(joined.frame)
+        certain = count
+        if count and joined.offset[-1] + joined.size[-1] == end:
+            certain -= 1
+        self._held = _chosen(joined, np.arange(certain, count)) if certain < count else None
+        return _batch(_chosen(joined, np.arange(certain))) if certain else None
+
+    def end(self) -> pa.RecordBatch | None:
+        """Return the last row."""
+        held, self._held = self._held, None
+        return None if held is None else _batch(held)
+
+
+def _joined(stray: Stray) -> Stray:
+    """Join noise of one reason that follows each other without anything between."""
+    if len(stray.frame) < 2:
+        return stray
+    ends = stray.offset + stray.size
+    noise = np.array([frame is None for frame in stray.frame])
+    goes_on = (stray.offset[1:] == ends[:-1]) & (stray.reason[1:] == stray.reason[:-1])
+    goes_on &= noise[1:] & noise[:-1] & (stray.direction[1:] == stray.direction[:-1])
+    # Bytes of two lines of a recording are not joined.
+    goes_on &= np.isnan(stray.time[1:]) & np.isnan(stray.time[:-1])
+    first = np.flatnonzero(np.concatenate(([True], ~goes_on)))
+    return replace(_chosen(stray, first), size=np.add.reduceat(stray.size, first))
+
+
+def _both(before: Stray, after: Stray) -> Stray:
+    pairs = {
+        each.name: (getattr(before, each.name), getattr(after, each.name))
+        for each in fields(before)
+    }
+    frame = [*before.frame, *after.frame]
+    arrays = {name: np.concatenate(pair) for name, pair in pairs.items() if name != "frame"}
+    return Stray(**arrays, frame=frame)
+
+
+def _chosen(stray: Stray, which: Numbers) -> Stray:
+    """Return those at some places of the arrays."""
+    names = [each.name for each in fields(stray) if each.name != "frame"]
+    arrays = {name: getattr(stray, name)[which] for name in names}
+    return Stray(**arrays, frame=[stray.frame[at] for at in which.tolist()])
+
+
+def _batch(stray: Stray) -> pa.RecordBatch:
+    frames = [
+        None if frame is None else UnknownFrame(frame, Reason.UNKNOWN_COMMAND)
+        for frame in stray.frame
+    ]
+    numbers = [None if frame is None else frame.numbers for frame in frames]
+    reasons = pa.DictionaryArray.from_arrays(pa.array(stray.reason.astype(np.int8)), REASON.names)
+    columns: list[pa.Array] = [
+        *event_columns(stray),
+        reasons,
+        pa.array([frame is not None for frame in frames]),
+    ]
+    for name in unknown_numbers():
+        values = [None if each is None else each.get(name) for each in numbers]
+        columns.append(pa.array(values, pa.int64()))
+    parameters = [None if frame is None else frame.parameters for frame in frames]
+    columns.append(pa.array(parameters, pa.binary()))
+    return pa.RecordBatch.from_arrays(columns, schema=noise_schema())
