@@ -44,28 +44,24 @@ def hostile_lines(
 @st.composite
 def _spoilt(draw: st.DrawFn, made: ModuleType, frames: st.SearchStrategy[bytes]) -> bytes:
     frame, other = draw(frames), draw(frames)
-    at = draw(st.integers(1, len(frame)))
+    at, shared = draw(st.integers(1, len(frame))), draw(st.integers(1, min(len(frame), len(other))))
     seal = draw(st.sampled_from([sealing(made), bytes]))
-    match draw(st.integers(0, 6)):
-        case 0:
-            return frame[:at]
-        case 1:
-            # The same beginning, over and over: each claims what the next ones are made of.
-            return frame[:at] * draw(st.integers(2, 6)) + frame
-        case 2:
-            return frame[:at] + other + frame[at:]
-        case 3:
-            # A frame in the place of some of its bytes, as a field may hold it.
-            return seal((frame[:at] + other + frame[at + len(other) :])[: len(frame)])
-        case 4:
-            # The first bytes of the other are the last ones of this.
-            shared = draw(st.integers(1, min(len(frame), len(other))))
-            return frame[:-shared] + other
-        case 5:
-            return seal(_of_other_id(draw, made, frame))
-        case _:
-            inside = _of_other_id(draw, made, frame)
-            return _of_other_id(draw, made, seal((inside[:at] + other)[: len(frame)]))
+    unknown = _of_other_id(draw, made, frame)
+    spoilt = [
+        frame[:at],
+        # The same beginning, over and over: each claims what the next ones are made of.
+        frame[:at] * draw(st.integers(2, 6)) + frame,
+        frame[:at] + other + frame[at:],
+        # A frame in the place of some of its bytes, as a field may hold it.
+        seal((frame[:at] + other + frame[at + len(other) :])[: len(frame)]),
+        # The last bytes of one are, or replace, the first ones of the other.
+        seal(frame[:-shared] + other[:shared]) + other[shared:],
+        frame[:-shared] + other,
+        seal(unknown),
+        seal(unknown[:at] + other),
+        _of_other_id(draw, made, seal((unknown[:at] + other)[: len(frame)])),
+    ]
+    return draw(st.sampled_from(spoilt))
 
 
 def _of_other_id(draw: st.DrawFn, made: ModuleType, frame: bytes) -> bytes:

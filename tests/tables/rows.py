@@ -73,7 +73,7 @@ def rows_of_decoder(
     """Return what a stream decoder finds on a line that is quiet then."""
     decoder = made.StreamDecoder(direction)
     events = [event for chunk in [*chunks] or [line] for event in decoder.feed(chunk)]
-    return [*joined(_told(made, [*events, *decoder.flush()], direction))]
+    return joined(_told(made, [*events, *decoder.flush()], direction))
 
 
 def _told(made: ModuleType, events: Iterable[Any], direction: Any) -> Iterator[Row]:
@@ -133,19 +133,16 @@ def _is_legal(made: ModuleType, frame: bytes, way: Any) -> bool:
     return True
 
 
-def joined(rows: Iterable[Row]) -> Iterator[Row]:
-    """Yield rows with neighbouring noise of one reason joined."""
-    before: Row | None = None
+def joined(rows: Iterable[Row]) -> list[Row]:
+    """Return rows with neighbouring noise of one reason joined."""
+    whole: list[Row] = []
     for row in rows:
-        if before is not None and before.table == row.table == "noise":
-            if before.reason == row.reason and before.offset + before.size == row.offset:
-                before = before._replace(size=before.size + row.size)
-                continue
-        if before is not None:
-            yield before
-        before = row
-    if before is not None:
-        yield before
+        last = whole[-1] if whole else None
+        if last and row.table == "noise" and last._replace(offset=row.offset, size=row.size) == row:
+            whole[-1] = last._replace(size=last.size + row.size)
+        else:
+            whole.append(row)
+    return whole
 
 
 def places_of_reference(events: Iterable[ReferenceEvent]) -> list[tuple[str, int, int, str | None]]:
