@@ -151,3 +151,13 @@ def test_tables_hold_what_the_decoder_and_the_reference_find(
     assert found == rows_of_decoder(made, line, direction)
     reference = ReferenceDecoder(model, model.directions if way is None else [way])
     assert [row.place for row in found] == places_of_reference(reference.decode(line))
+
+
+def test_an_unknown_frame_that_ends_otherwise_is_one_row(libraries: Libraries) -> None:
+    made = libraries["everything"]
+    # Its length fits, and nothing proves more: the byte 0A at its end is missing.
+    frame = bytes.fromhex("C0 DE 07 2C 01 07 02 00 09 02 AA BB 00 00 00")
+    (row,) = rows_in_tables(made, frame, made.Direction.ASKER_TO_TELLER)
+    assert (row.table, row.size) == ("unknown", len(frame))
+    assert (row.fields["station"], row.fields["class"], row.fields["kind"]) == (300, 9, 2)
+    assert row.fields["parameters"] == b"\xaa\xbb"
