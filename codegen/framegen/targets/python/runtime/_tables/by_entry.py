@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..recordings import Entry
+    from .found import Seconds
 
 _KINDS: dict[type[object], int] = {kind: number for number, kind in enumerate(MESSAGES)}
 _REASONS = {reason: number for number, reason in enumerate(Reason)}
@@ -41,11 +42,11 @@ def _frames(entries: list[Entry]) -> Frames:
         data=np.frombuffer(b"".join(data), np.uint8),
         start=np.cumsum(sizes) - sizes,
         offset=np.array([entry.offset for entry in entries], np.int64),
-        size=sizes,
-        kind=np.array([_KINDS[type(entry.event)] for entry in entries], np.int64),
-        direction=np.array([_direction(entry) for entry in entries], np.int64),
-        time=np.array([_time(entry) for entry in entries], np.float64),
-        clock=np.array([_clock(entry) for entry in entries], np.float64),
+        size=sizes.astype(np.uint32),
+        kind=np.array([_KINDS[type(entry.event)] for entry in entries], np.int16),
+        direction=np.array([_direction(entry) for entry in entries], np.int8),
+        time=_times(entries),
+        clock=_clocks(entries),
     )
 
 
@@ -55,10 +56,10 @@ def _stray(entries: list[Entry]) -> Stray:
     return Stray(
         offset=np.array([entry.offset for entry, _ in found], np.int64),
         size=np.array([len(each.data) for _, each in found], np.int64),
-        reason=np.array([_REASONS[each.reason] for _, each in found], np.int64),
-        direction=np.array([_direction(entry) for entry, _ in found], np.int64),
-        time=np.array([_time(entry) for entry, _ in found], np.float64),
-        clock=np.array([_clock(entry) for entry, _ in found], np.float64),
+        reason=np.array([_REASONS[each.reason] for _, each in found], np.int8),
+        direction=np.array([_direction(entry) for entry, _ in found], np.int8),
+        time=_times([entry for entry, _ in found]),
+        clock=_clocks([entry for entry, _ in found]),
         frame=frames,
     )
 
@@ -72,9 +73,18 @@ def _direction(entry: Entry) -> int:
     return UNKNOWN_SENDER if entry.direction is None else _DIRECTIONS[entry.direction]
 
 
-def _time(entry: Entry) -> float:
-    return np.nan if entry.time is None else entry.time
+def _times(entries: list[Entry]) -> Seconds | None:
+    times = [np.nan if entry.time is None else entry.time for entry in entries]
+    return _unless_unknown(np.array(times, np.float64))
 
 
-def _clock(entry: Entry) -> float:
-    return np.nan if entry.time is None or entry.began is None else entry.began + entry.time
+def _clocks(entries: list[Entry]) -> Seconds | None:
+    times = [
+        np.nan if entry.time is None or entry.began is None else entry.began + entry.time
+        for entry in entries
+    ]
+    return _unless_unknown(np.array(times, np.float64))
+
+
+def _unless_unknown(times: Seconds) -> Seconds | None:
+    return None if np.isnan(times).all() else times
