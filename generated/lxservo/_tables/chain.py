@@ -46,14 +46,26 @@ def chained(places: Numbers, judged: Judged) -> Chain:
     is_legal = judged.kind != NO_KIND
     if not is_legal.all():
         found = found.chosen(is_legal)
-    start, end = found.start, found.end
+    is_read = first_come(found.start, found.end)
+    return found if is_read.all() else found.chosen(is_read)
+
+
+def first_come(start: Numbers, end: Numbers) -> NDArray[np.bool_]:
+    """Tell which stretches, in their order, do not reach into one that is told before them."""
     if not (start[1:] < end[:-1]).any():
-        return found
-    # No frame in front of such a one reaches into it, so that it is read whatever they are.
-    is_read = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
-    read_so_far = 0
-    for number in np.flatnonzero(~is_read).tolist():
-        if is_read[number - 1]:
-            read_so_far = end[number - 1]
-        is_read[number] = start[number] >= read_so_far
-    return found.chosen(is_read)
+        return np.ones(len(start), np.bool_)
+    # None in front of such a one reaches into it, so that it is told whatever they are.
+    is_told = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
+    doubtful = np.flatnonzero(~is_told)
+    after_told = is_told[doubtful - 1].tolist()
+    bounds = end[doubtful - 1].tolist(), start[doubtful].tolist(), end[doubtful].tolist()
+    told: list[bool] = []
+    free_from = 0
+    for is_after_told, before, begin, stop in zip(after_told, *bounds, strict=True):
+        if is_after_told:
+            free_from = before
+        told.append(begin >= free_from)
+        if told[-1]:
+            free_from = stop
+    is_told[doubtful] = told
+    return is_told

@@ -79,7 +79,8 @@ class _Window:
         judged = self._legal.judge(data, places)
         chain = chained(places, judged)
         if not self._legal.proves_unknown:
-            chain = with_unknown(chain, data, places, judged, self._direction)
+            envelope = self._legal.envelope
+            chain = with_unknown(chain, data, places, judged, envelope, self._direction)
         chain = chain.chosen(slice(np.searchsorted(chain.start, until)))
         refused = np.flatnonzero(judged.kind == NO_KIND)
         return self._found(chain, places[refused], judged.reason[refused], until)
