@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .found import Found, Frames
     from .source import Capture, Source
 
-BLOCK = 1 << 22
+BLOCK = 1 << 20
 """How many bytes of a capture are held at once, and the columns that are made of them."""
 
 # How many entries of a recording.
