@@ -69,7 +69,7 @@ class _Window:
         until = len(data) - 2 * self._legal.largest
         if until <= 0:
             return self._found(no_chain(), _NOTHING, _NOTHING, 0)
-        places = _places(data[: until + self._legal.largest], self._header)
+        places = places_of(data[: until + self._legal.largest], self._header)
         judged = self._legal.judge(data, places)
         chain = chained(places, judged)
         if not self._legal.proves_unknown:
@@ -81,7 +81,7 @@ class _Window:
     def end(self) -> Iterator[Found]:
         """Return the events of the rest, behind which nothing comes."""
         data = self._data
-        headers = _places(data, self._header)
+        headers = places_of(data, self._header)
         rest = int(headers[0]) if len(headers) else len(data)
         yield self._found(no_chain(), _NOTHING, _NOTHING, rest)
         entries = read(io.BytesIO(self._data.tobytes()), form="raw", direction=self._direction)
@@ -143,7 +143,7 @@ class _Window:
         )
 
 
-def _places(data: Bytes, header: bytes) -> Numbers:
+def places_of(data: Bytes, header: bytes) -> Numbers:
     """Return where a header begins."""
     count = len(data) - len(header) + 1
     if count <= 0:
