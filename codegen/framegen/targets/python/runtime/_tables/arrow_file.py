@@ -55,8 +55,9 @@ class EventRows:
         if self._has_noise:
             of_unknown = pa.struct([noise.field(name) for name in _of_unknown()])
             columns.append(pa.field(UNKNOWN, of_unknown))
-        about = {b"protocol": noise.metadata[b"protocol"], b"summary": b"The events of a capture."}
-        return pa.schema(columns, metadata=about)
+        protocol = noise.metadata[b"protocol"]
+        said = {b"protocol": protocol, b"summary": b"The events of a capture."}
+        return pa.schema(columns, metadata=said)
 
     def of(self, made: Batches) -> pa.RecordBatch:
         """Return the events of one stretch, in the order of the capture."""
@@ -180,9 +181,7 @@ def arrow_written(
     return rows
 
 
-def _write(
-    batches: Iterable[Batches], path: Path, events: EventRows, rows: dict[str, int]
-) -> None:
+def _write(batches: Iterable[Batches], path: Path, events: EventRows, rows: dict[str, int]) -> None:
     options = pa.ipc.IpcWriteOptions(compression="zstd")
     with (
         pa.OSFile(str(path), "wb") as stream,
