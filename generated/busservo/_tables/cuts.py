@@ -23,7 +23,8 @@ import numpy as np
 from .._codec.decoder import StreamDecoder
 from .._codec.noise import Noise
 from .legal import LegalFrames
-from .search import places_of, sent
+from .places import find_all
+from .search import sent
 from .searchable import is_searchable
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class _Proven:
     def ends(self, data: bytes, first: int, about: int) -> Iterator[int]:
         """Yield safe places from `about` on, of frames that begin at `first` or behind it."""
         window: Bytes = np.frombuffer(data + bytes(self._legal.largest), np.uint8)
-        places = places_of(window[: len(data)], self._legal.envelope.header)
+        places = find_all(window[: len(data)], self._legal.envelope.header)
         judged = self._legal.judge(window, places)
         ends = places + judged.size
         # How far the headers in front of each claim bytes.

@@ -40,7 +40,7 @@ class _Root:
 
 
 def _files(path: Path, *, is_given: bool = False) -> Iterator[Path]:
-    """Yield a file, or those in a folder; and what cannot be looked at, so that somebody is told."""
+    """Yield a file, or those in a folder; what cannot be looked at, too, so that it is reported."""
     try:
         if not path.is_dir():
             # Of what is found, neither pipes nor devices are read.

@@ -33,8 +33,8 @@ class Piece:
     """A stretch of a capture, from its byte `start` to `end`, which holds whole events.
 
     `path` is absolute; `capture` is the name below the folder that was scanned. `form` is "raw" or
-    "hex", "auto" if the file could not be read. `stamp` is the size of the file and the time, in nanoseconds, at
-    which it was written last; a file that has another when it is read has changed.
+    "hex", "auto" if the file could not be read. `stamp` is the size of the file and the time, in
+    nanoseconds, at which it was written last: a file that has another when it is read has changed.
     """
 
     path: str
