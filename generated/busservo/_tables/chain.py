@@ -46,26 +46,28 @@ def chained(places: Numbers, judged: Judged) -> Chain:
     is_legal = judged.kind != NO_KIND
     if not is_legal.all():
         found = found.chosen(is_legal)
-    is_read = first_come(found.start, found.end)
-    return found if is_read.all() else found.chosen(is_read)
+    return found.chosen(first_come(found.start, found.end))
 
 
-def first_come(start: Numbers, end: Numbers) -> NDArray[np.bool_]:
-    """Tell which stretches, in their order, do not reach into one that is told before them."""
+def first_come(start: Numbers, end: Numbers) -> NDArray[np.bool_] | slice:
+    """Return which stretches are left if each gives way to those in front that reach into it.
+
+    They are sorted by where they begin.
+    """
     if not (start[1:] < end[:-1]).any():
-        return np.ones(len(start), np.bool_)
-    # None in front of such a one reaches into it, so that it is told whatever they are.
-    is_told = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
-    doubtful = np.flatnonzero(~is_told)
-    after_told = is_told[doubtful - 1].tolist()
+        return slice(None)
+    # Into these nothing reaches, whatever else gives way.
+    is_left = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
+    doubtful = np.flatnonzero(~is_left)
+    after_left = is_left[doubtful - 1].tolist()
     bounds = end[doubtful - 1].tolist(), start[doubtful].tolist(), end[doubtful].tolist()
-    told: list[bool] = []
-    free_from = 0
-    for is_after_told, before, begin, stop in zip(after_told, *bounds, strict=True):
-        if is_after_told:
-            free_from = before
-        told.append(begin >= free_from)
-        if told[-1]:
-            free_from = stop
-    is_told[doubtful] = told
-    return is_told
+    found: list[bool] = []
+    reached = 0
+    for is_after_left, before, begin, until in zip(after_left, *bounds, strict=True):
+        if is_after_left:
+            reached = before
+        found.append(begin >= reached)
+        if found[-1]:
+            reached = until
+    is_left[doubtful] = found
+    return is_left
