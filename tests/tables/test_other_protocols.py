@@ -30,7 +30,6 @@ NO_HEADER = "nothing constant begins a frame"
 NO_ID = "no frame says which message it is"
 NO_LENGTH = "no frame says how long it is"
 SEVERAL = "frames differ in their parts"
-OPTIONAL = "fields may be absent"
 UNSENT = "the checksum covers what is not sent"
 END = "a constant ends each frame"
 VECTORISED: dict[tuple[str, str], str | None] = {
@@ -66,8 +65,8 @@ VECTORISED: dict[tuple[str, str], str | None] = {
     ("tfmini", "sensor"): NO_ID,
     ("tfmini", "any"): NO_ID,
     ("ubx", "host"): None,
-    ("ubx", "receiver"): OPTIONAL,
-    ("ubx", "any"): OPTIONAL,
+    ("ubx", "receiver"): None,
+    ("ubx", "any"): None,
     ("visca", "controller"): SEVERAL,
     ("visca", "camera"): END,
     ("visca", "any"): SEVERAL,
@@ -75,7 +74,7 @@ VECTORISED: dict[tuple[str, str], str | None] = {
     ("lxservo", "servo"): None,
     ("lxservo", "any"): None,
     ("everything", "asker"): UNSENT,
-    ("everything", "teller"): OPTIONAL,
+    ("everything", "teller"): None,
     ("everything", "any"): SEVERAL,
 }
 

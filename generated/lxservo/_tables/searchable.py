@@ -30,7 +30,6 @@ def is_searchable(messages: Sequence[Layout]) -> bool:
     return (
         len(envelopes) == 1
         and all(map(_is_regular, envelopes.values()))
-        and all(not each.described.optional for each in messages)
         and all(is_testable(slot) for each in messages for slot in each.described.fields)
     )
 
