@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-
 from ..recordings import read
 from .by_entry import found_by_entry
 from .columns import batch_of
@@ -26,7 +24,7 @@ if TYPE_CHECKING:
     from .found import Found, Frames
     from .source import Capture, Source
 
-BLOCK = 1 << 22
+BLOCK = 1 << 20
 """How many bytes of a capture are held at once, and the columns that are made of them."""
 
 # How many entries of a recording.
@@ -65,8 +63,5 @@ def found(capture: Capture, direction: Direction | None, block: int) -> Iterator
 
 
 def _messages(frames: Frames) -> Batches:
-    if not len(frames.start):
-        return {}
     every = layouts()
-    kinds = np.flatnonzero(np.bincount(frames.kind, minlength=len(every)))
-    return {every[kind].name: batch_of(every[kind], frames.of(kind)) for kind in kinds.tolist()}
+    return {every[kind].name: batch_of(every[kind], found) for kind, found in frames.by_kind()}
