@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -221,35 +222,34 @@ class Killed(BaseException):
     """Stands for the end of a process: nothing is tidied up behind it."""
 
 
-@pytest.fixture
-def deaths(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    """Return a function that stops the work before the file is touched for the n-th time."""
-    real = {name: getattr(Path, name) for name in ("replace", "unlink", "mkdir", "write_text")}
+TOUCHING = {name: getattr(Path, name) for name in ("replace", "unlink", "mkdir", "write_text")}
 
-    def dies_at(number: int) -> None:
-        touched = count()
 
-        def touching(name: str) -> Any:
-            def touch(path: Path, *given: Any, **named: Any) -> Any:
-                if next(touched) == number:
-                    raise Killed
-                return real[name](path, *given, **named)
+@contextmanager
+def killed_at(number: int) -> Iterator[None]:
+    """Stop the work when a file is touched for the n-th time."""
+    touched = count()
 
-            return touch
+    def touching(name: str) -> Any:
+        def touch(path: Path, *given: Any, **named: Any) -> Any:
+            if next(touched) == number:
+                raise Killed
+            return TOUCHING[name](path, *given, **named)
 
-        for name in real:
-            monkeypatch.setattr(Path, name, touching(name))
-        monkeypatch.setattr(ParquetFiles, "discard", lambda _files: None)
-        monkeypatch.setattr(shutil, "rmtree", lambda *_, **__: None)
+        return touch
 
-    dies_at.undo = monkeypatch.undo  # type: ignore[attr-defined]
-    return dies_at
+    with pytest.MonkeyPatch.context() as patch:
+        for name in TOUCHING:
+            patch.setattr(Path, name, touching(name))
+        patch.setattr(ParquetFiles, "discard", lambda _files: None)
+        patch.setattr(shutil, "rmtree", lambda *_, **__: None)
+        yield
 
 
 @pytest.mark.parametrize("step", [8, pytest.param(1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("is_second", [False, True])
 def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
-    captures: Path, tmp_path: Path, deaths: Any, step: int, *, is_second: bool
+    captures: Path, tmp_path: Path, step: int, *, is_second: bool
 ) -> None:
     shutil.rmtree(captures)
     captures.mkdir()
@@ -260,13 +260,12 @@ def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
         if is_second:
             archived(captures, folder, 200)
             (captures / "line.bin").write_bytes(conversation(8)[number + 1 :])
-        deaths(number)
         try:
-            archived(captures, folder, 250)
+            with killed_at(number):
+                archived(captures, folder, 250)
         except Killed:
-            deaths.undo()
+            pass
         else:
-            deaths.undo()
             break
         # Whatever is there under its final name is whole.
         for path in folder.glob("*/capture=*/*.parquet"):

@@ -114,7 +114,7 @@ def _broken_text() -> Any:
 
 def _interrupted() -> Any:
     class Stream(io.BytesIO):
-        def read1(self, size: int = -1, /) -> bytes:
+        def read1(self, size: int | None = -1, /) -> bytes:
             if self.tell() > len(CAPTURE):
                 raise KeyboardInterrupt
             return super().read1(size)
