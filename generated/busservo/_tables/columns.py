@@ -32,22 +32,29 @@ def event_columns(found: Frames | Stray) -> list[pa.Array]:
     """Return what is known of each event, whatever it is."""
     return [
         pa.array(found.offset),
-        pa.array(found.size.astype(np.uint32)),
+        pa.array(found.size.astype(np.uint32, copy=False)),
         _directions(found.direction),
-        pa.array(found.time, from_pandas=True),
-        _clock(found.clock),
+        _time(found.time, len(found.offset)),
+        _clock(found.clock, len(found.offset)),
     ]
 
 
-def _directions(numbers: Numbers) -> pa.Array:
-    known = pa.array(numbers.astype(np.int8), mask=numbers == UNKNOWN_SENDER)
+def _directions(numbers: NDArray[np.int8]) -> pa.Array:
+    is_unknown = numbers == UNKNOWN_SENDER
+    known = pa.array(numbers, mask=is_unknown if is_unknown.any() else None)
     return pa.DictionaryArray.from_arrays(known, DIRECTION.names)
 
 
-def _clock(seconds: Seconds) -> pa.Array:
-    there = ~np.isnan(seconds)
-    whole = np.where(there, seconds * 1e6, 0).round().astype(np.int64)
-    return pa.array(whole, mask=~there).cast(CLOCK)
+def _time(seconds: Seconds | None, count: int) -> pa.Array:
+    return pa.nulls(count, pa.float64()) if seconds is None else pa.array(seconds, from_pandas=True)
+
+
+def _clock(seconds: Seconds | None, count: int) -> pa.Array:
+    if seconds is None:
+        return pa.nulls(count, CLOCK)
+    is_known = ~np.isnan(seconds)
+    microseconds = np.where(is_known, seconds * 1e6, 0).round().astype(np.int64)
+    return pa.array(microseconds, mask=~is_known).cast(CLOCK)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,10 +86,11 @@ class _Column:
 
     def _at(self, at: int) -> Numbers:
         """Return where a slot begins in `data`, of each frame."""
-        return self.frames.start + at if at >= 0 else self.frames.start + self.frames.size + at
+        start = self.frames.start
+        return start + at if at >= 0 else start + self.frames.size.astype(np.int64) + at
 
     def _optional(self) -> pa.Array:
-        end = self.frames.size - self.layout.tail_size
+        end = self.frames.size.astype(np.int64) - self.layout.tail_size
         there = self.slot.at + self.slot.size <= end
         # What is absent is read from the beginning of its frame, and not shown.
         places = self._at(0) + np.where(there, self.slot.at, 0)
@@ -96,14 +104,16 @@ class _Column:
         if slot.is_fixed:
             return np.full(len(self.frames.start), slot.low)
         least = described.lengths[0] + described.frame.uncounted
-        return slot.low + (self.frames.size - least) // slot.size
+        sizes = self.frames.size.astype(np.int64)
+        return slot.low + (sizes - least) // slot.size
 
     def _elements(self) -> tuple[Numbers, Numbers]:
         """Return where the elements of each frame begin among all, and where each is in `data`."""
         counts = self._counts
         ends = np.concatenate(([0], np.cumsum(counts)))
-        numbers = np.arange(ends[-1]) - np.repeat(ends[:-1], counts)
-        return ends, np.repeat(self._at(self.slot.at), counts) + self.slot.size * numbers
+        size = self.slot.size
+        before = self._at(self.slot.at) - size * ends[:-1]
+        return ends, np.repeat(before, counts) + np.arange(0, size * ends[-1], size)
 
     def _list(self) -> pa.Array:
         ends, places = self._elements()

@@ -23,18 +23,18 @@ class Frames:
 
     `start` is where each begins in `data`, `offset` where it begins in the capture, and `kind` its
     class, an index into MESSAGES. `direction` is an index into the directions; UNKNOWN_SENDER where
-    it may be of either. `time` is in seconds since the beginning of a recording, `clock` in seconds
-    since 1970, and NaN where the capture does not say.
+    it may be of either. `time` is in seconds since the beginning of a recording, and `clock` in
+    seconds since 1970, NaN where it does not say; None for a capture without times.
     """
 
     data: Bytes
     start: Numbers
     offset: Numbers
-    size: Numbers
-    kind: Numbers
-    direction: Numbers
-    time: Seconds
-    clock: Seconds
+    size: NDArray[np.uint32]
+    kind: NDArray[np.int16]
+    direction: NDArray[np.int8]
+    time: Seconds | None
+    clock: Seconds | None
 
     def of(self, kind: int) -> Frames:
         """Return those of one class."""
@@ -49,8 +49,8 @@ class Frames:
             size=self.size[which],
             kind=self.kind[which],
             direction=self.direction[which],
-            time=self.time[which],
-            clock=self.clock[which],
+            time=None if self.time is None else self.time[which],
+            clock=None if self.clock is None else self.clock[which],
         )
 
 
@@ -64,11 +64,35 @@ class Stray:
 
     offset: Numbers
     size: Numbers
-    reason: Numbers
-    direction: Numbers
-    time: Seconds
-    clock: Seconds
+    reason: NDArray[np.int8]
+    direction: NDArray[np.int8]
+    time: Seconds | None
+    clock: Seconds | None
     frame: list[bytes | None]
+
+    def chosen(self, which: Numbers) -> Stray:
+        """Return those at some places of the arrays."""
+        return Stray(
+            self.offset[which],
+            self.size[which],
+            self.reason[which],
+            self.direction[which],
+            None if self.time is None else self.time[which],
+            None if self.clock is None else self.clock[which],
+            [self.frame[at] for at in which.tolist()],
+        )
+
+    def then(self, other: Stray) -> Stray:
+        """Return these, and what comes behind them."""
+        return Stray(
+            np.concatenate((self.offset, other.offset)),
+            np.concatenate((self.size, other.size)),
+            np.concatenate((self.reason, other.reason)),
+            np.concatenate((self.direction, other.direction)),
+            _one_after_other(self.time, len(self.frame), other.time, len(other.frame)),
+            _one_after_other(self.clock, len(self.frame), other.clock, len(other.frame)),
+            [*self.frame, *other.frame],
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +109,11 @@ class Found:
         return Found(frames, replace(self.stray, offset=self.stray.offset + by), self.end + by)
 
 
-def unknown_times(count: int) -> Seconds:
-    """Return the times of events of which the capture says none."""
-    return np.full(count, np.nan)
+def _one_after_other(
+    first: Seconds | None, count: int, second: Seconds | None, other_count: int
+) -> Seconds | None:
+    if first is None and second is None:
+        return None
+    one: Seconds = np.full(count, np.nan) if first is None else first
+    other: Seconds = np.full(other_count, np.nan) if second is None else second
+    return np.concatenate((one, other))

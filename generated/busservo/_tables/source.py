@@ -57,11 +57,12 @@ class Capture:
     def blocks(self, size: int) -> Iterator[Bytes]:
         """Yield the bytes, so many at once; the last are fewer, or none."""
         while True:
-            pieces = bytearray()
-            while len(pieces) < size and (more := self.read(size - len(pieces))):
-                pieces += more
-            yield np.frombuffer(bytes(pieces), np.uint8)
-            if len(pieces) < size:
+            pieces, left = [], size
+            while left and (more := self.read(left)):
+                pieces.append(more)
+                left -= len(more)
+            yield np.frombuffer(pieces[0] if len(pieces) == 1 else b"".join(pieces), np.uint8)
+            if left:
                 return
 
 

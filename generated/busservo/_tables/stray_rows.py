@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
@@ -11,8 +12,10 @@ import pyarrow as pa
 from .._codec.noise import UnknownFrame
 from .._frame.errors import Reason
 from .columns import event_columns
-from .found import Numbers, Stray
 from .schema import REASON, noise_schema, unknown_numbers
+
+if TYPE_CHECKING:
+    from .found import Stray
 
 
 class StrayRows:
@@ -23,13 +26,13 @@ class StrayRows:
 
     def add(self, stray: Stray, end: int) -> pa.RecordBatch | None:
         """Take in what came next, up to the byte `end`; return the rows that are certain now."""
-        joined = _joined(stray if self._held is None else _both(self._held, stray))
+        joined = _joined(stray if self._held is None else self._held.then(stray))
         count = len(joined.frame)
         certain = count
         if count and joined.offset[-1] + joined.size[-1] == end:
             certain -= 1
-        self._held = _chosen(joined, np.arange(certain, count)) if certain < count else None
-        return _batch(_chosen(joined, np.arange(certain))) if certain else None
+        self._held = joined.chosen(np.arange(certain, count)) if certain < count else None
+        return _batch(joined.chosen(np.arange(certain))) if certain else None
 
     def end(self) -> pa.RecordBatch | None:
         """Return the last row."""
@@ -46,26 +49,10 @@ def _joined(stray: Stray) -> Stray:
     goes_on = (stray.offset[1:] == ends[:-1]) & (stray.reason[1:] == stray.reason[:-1])
     goes_on &= noise[1:] & noise[:-1] & (stray.direction[1:] == stray.direction[:-1])
     # Bytes of two lines of a recording are not joined.
-    goes_on &= np.isnan(stray.time[1:]) & np.isnan(stray.time[:-1])
+    if stray.time is not None:
+        goes_on &= np.isnan(stray.time[1:]) & np.isnan(stray.time[:-1])
     first = np.flatnonzero(np.concatenate(([True], ~goes_on)))
-    return replace(_chosen(stray, first), size=np.add.reduceat(stray.size, first))
-
-
-def _both(before: Stray, after: Stray) -> Stray:
-    pairs = {
-        each.name: (getattr(before, each.name), getattr(after, each.name))
-        for each in fields(before)
-    }
-    frame = [*before.frame, *after.frame]
-    arrays = {name: np.concatenate(pair) for name, pair in pairs.items() if name != "frame"}
-    return Stray(**arrays, frame=frame)
-
-
-def _chosen(stray: Stray, which: Numbers) -> Stray:
-    """Return those at some places of the arrays."""
-    names = [each.name for each in fields(stray) if each.name != "frame"]
-    arrays = {name: getattr(stray, name)[which] for name in names}
-    return Stray(**arrays, frame=[stray.frame[at] for at in which.tolist()])
+    return replace(stray.chosen(first), size=np.add.reduceat(stray.size, first))
 
 
 def _batch(stray: Stray) -> pa.RecordBatch:

@@ -60,14 +60,16 @@ class Sums:
         self.data = data
 
     def are_right(
-        self, envelope: Envelope, part: Slot, places: Numbers, sizes: Numbers
+        self, envelope: Envelope, part: Slot, places: Numbers, sizes: NDArray[np.int32]
     ) -> NDArray[np.bool_]:
         """Tell which frames have the checksum that they should have."""
         found = read_numbers(self.data, places + sizes + part.at, part)
         right: NDArray[np.bool_] = found == self._right(envelope, part, places, sizes)
         return right
 
-    def _right(self, envelope: Envelope, part: Slot, places: Numbers, sizes: Numbers) -> Numbers:
+    def _right(
+        self, envelope: Envelope, part: Slot, places: Numbers, sizes: NDArray[np.int32]
+    ) -> Numbers:
         """Return what a checksum should be, in frames at some places."""
         begin, end = _covered(envelope, part) or (0, 0)
         begins, ends = places + begin, places + sizes + end

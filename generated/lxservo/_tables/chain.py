@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .legal import NO_KIND
+from .fields import NO_KIND
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,34 +21,31 @@ if TYPE_CHECKING:
 class Chain:
     """Frames in order, of which none begins before the one in front of it has ended.
 
-    `kind` and `direction` are those of Judged.
+    `kind` and `either` are those of Judged.
     """
 
     start: Numbers
-    size: Numbers
-    kind: Numbers
-    direction: Numbers
+    end: Numbers
+    kind: NDArray[np.int16]
+    either: NDArray[np.bool_]
 
-    @property
-    def end(self) -> Numbers:
-        """Where each ends."""
-        return self.start + self.size
-
-    def chosen(self, which: Numbers | NDArray[np.bool_]) -> Chain:
+    def chosen(self, which: Numbers | NDArray[np.bool_] | slice) -> Chain:
         """Return some of them."""
-        return Chain(self.start[which], self.size[which], self.kind[which], self.direction[which])
+        return Chain(self.start[which], self.end[which], self.kind[which], self.either[which])
 
 
 def no_chain() -> Chain:
     """Return a chain of no frames."""
     nothing = np.empty(0, np.int64)
-    return Chain(nothing, nothing, nothing, nothing)
+    return Chain(nothing, nothing, np.empty(0, np.int16), np.empty(0, np.bool_))
 
 
 def chained(places: Numbers, judged: Judged) -> Chain:
     """Return the frames that are read, of those that are legal at some places."""
-    legal = np.flatnonzero(judged.kind != NO_KIND)
-    found = Chain(places[legal], judged.size[legal], judged.kind[legal], judged.direction[legal])
+    found = Chain(places, places + judged.size, judged.kind, judged.either)
+    is_legal = judged.kind != NO_KIND
+    if not is_legal.all():
+        found = found.chosen(is_legal)
     start, end = found.start, found.end
     if not (start[1:] < end[:-1]).any():
         return found

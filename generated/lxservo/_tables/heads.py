@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -26,28 +27,39 @@ _NONE = -1
 _REASONS = {reason.name: number for number, reason in enumerate(Reason)}
 
 
+@dataclass(frozen=True, slots=True)
+class Read:
+    """The heads at some places: the size that each gives its frame, 0 for a size that none has.
+
+    `reason` says why no frame begins there, or FINE. `order` has those first that nothing is wrong
+    with, sorted by their ids; `bounds` says where those of each begin and end in it.
+    """
+
+    size: NDArray[np.int32]
+    reason: NDArray[np.int8]
+    order: Numbers
+    bounds: list[tuple[int, int]]
+
+
 class Heads:
     """The heads of the frames of one envelope, whose messages have some ids."""
 
     def __init__(self, envelope: Envelope, ids: Sequence[tuple[int, ...]], largest: int) -> None:
         self._envelope = envelope
         self._largest = largest
-        self._groups = len(ids)
+        self._ids = len(ids)
         self._steps = _steps(envelope.ids, ids)
 
-    def read(self, data: Bytes, places: Numbers) -> tuple[Numbers, Numbers, list[Numbers]]:
-        """Read the heads at some places.
-
-        Returns the size that each gives its frame, 0 for a size that none has; why none begins
-        there, or FINE; and which places have each of the ids, and nothing wrong so far.
-        """
-        reason = np.full(len(places), FINE, np.int64)
-        size: Numbers = np.zeros(len(places), np.int64)
-        group: Numbers = np.zeros(len(places), np.int64)
+    def read(self, data: Bytes, places: Numbers) -> Read:
+        """Read the heads at some places."""
+        reason = np.full(len(places), FINE, np.int8)
+        size: NDArray[np.int32] = np.zeros(len(places), np.int32)
+        group: NDArray[np.int16] = np.zeros(len(places), np.int16)
         steps = iter(self._steps)
 
         def refuse(wrong: NDArray[np.bool_], why: str) -> None:
-            reason[wrong & (reason == FINE)] = _REASONS[why]
+            if wrong.any():
+                reason[wrong & (reason == FINE)] = _REASONS[why]
 
         for placed in self._envelope.head:
             slot = placed.slot
@@ -55,7 +67,7 @@ class Heads:
                 continue
             numbers = read_numbers(data, places + slot.at, slot)
             if slot.role == "length":
-                size = numbers.astype(np.int64) + self._envelope.uncounted
+                size = numbers.astype(np.int32) + np.int32(self._envelope.uncounted)
                 impossible = (size < self._envelope.least) | (size > self._largest)
                 size[impossible] = 0
                 refuse(impossible, "LENGTH_MISMATCH")
@@ -64,40 +76,42 @@ class Heads:
             else:
                 group = next(steps).follow(group, numbers)
                 refuse(group == _NONE, "UNKNOWN_COMMAND")
-        return size, reason, self._grouped(np.where(reason == FINE, group, _NONE))
-
-    def _grouped(self, group: Numbers) -> list[Numbers]:
-        # So narrow that they are sorted by their bytes, not by comparing them.
-        narrow = group.astype(np.int16)
-        order = np.argsort(narrow, kind="stable")
-        bounds = np.searchsorted(narrow[order], np.arange(self._groups + 1))
-        return [order[start:end] for start, end in pairwise(bounds.tolist())]
+        # So narrow that they are sorted by their bytes, not by comparing them; what is wrong last.
+        group[reason != FINE] = self._ids
+        order = np.argsort(group, kind="stable")
+        ends = np.cumsum(np.bincount(group, minlength=self._ids))[: self._ids]
+        return Read(size, reason, order, [*pairwise([0, *ends.tolist()])])
 
 
 class _Step:
     """One id part: from the number of the ids before it to that of the ids with it."""
 
-    def __init__(self, slot: Slot, after: dict[tuple[int, int], int], groups: int) -> None:
+    def __init__(self, slot: Slot, after: dict[tuple[int, int], int], before: int) -> None:
         self._values = np.array(sorted({value for _, value in after}), np.int64)
-        places = {int(value): at for at, value in enumerate(self._values)}
+        width = len(self._values) + 1
         # The last row and the last column are for what is not known.
-        self._table = np.full((groups + 1, len(self._values) + 1), _NONE, np.int64)
+        table = np.full((before + 1, width), _NONE, np.int16)
+        columns = {int(value): at for at, value in enumerate(self._values)}
         for (group, value), there in after.items():
-            self._table[group, places[value]] = there
-        self._column: Numbers | None = None
+            table[group, columns[value]] = there
+        self._table = table.reshape(-1)
+        self._rows, self._width = table.shape
+        self._column: NDArray[np.int16] | None = None
         if slot.size == 1:
-            self._column = np.full(256, len(self._values), np.int64)
+            self._column = np.full(256, len(self._values), np.int16)
             self._column[self._values] = np.arange(len(self._values))
 
-    def follow(self, group: Numbers, numbers: NDArray[Any]) -> Numbers:
+    def follow(self, group: NDArray[np.int16], numbers: NDArray[Any]) -> NDArray[np.int16]:
         """Return the number of the ids, with one more; _NONE for those that no message has."""
-        found: Numbers = self._table[group, self._columns(numbers)]
-        return found
+        columns = self._columns(numbers)
+        if self._rows > 2:
+            row = np.where(group == _NONE, self._rows - 1, group)
+            columns = columns + row.astype(np.int64) * self._width
+        return self._table.take(columns)
 
-    def _columns(self, numbers: NDArray[Any]) -> Numbers:
+    def _columns(self, numbers: NDArray[Any]) -> NDArray[Any]:
         if self._column is not None:
-            known: Numbers = self._column[numbers]
-            return known
+            return self._column.take(numbers)
         at = np.searchsorted(self._values, numbers.astype(np.int64))
         at[at == len(self._values)] = 0
         return np.where(self._values[at] == numbers, at, len(self._values))
@@ -118,6 +132,7 @@ def _steps(parts: Sequence[Slot], ids: Sequence[tuple[int, ...]]) -> list[_Step]
 
 def _holds(slot: Slot, numbers: NDArray[Any]) -> NDArray[np.bool_]:
     """Tell which addresses the protocol allows; those with a name may lie outside the range."""
-    named = [each["value"] for each in slot.said.get("values", {}).values()]
-    wide = numbers.astype(np.int64)
-    return (wide >= slot.low) & (wide <= slot.high) | np.isin(wide, named)
+    allowed: NDArray[np.bool_] = (numbers >= slot.low) & (numbers <= slot.high)
+    for each in slot.said.get("values", {}).values():
+        allowed |= numbers == each["value"]
+    return allowed

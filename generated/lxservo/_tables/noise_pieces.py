@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from .chain import Chain
     from .found import Numbers
 
 
 def noise_pieces(
-    chain: Chain, until: int, refused: Numbers, reasons: Numbers, first: int, usual: int
+    chain: Chain, until: int, refused: Numbers, reasons: NDArray[Any], first: int, usual: int
 ) -> tuple[Numbers, Numbers, Numbers]:
     """Return where each piece of noise begins and ends in front of `until`, and its reason.
 

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 BLOCK = 1 << 22
 """How many bytes of a capture are held at once, and the columns that are made of them."""
 
-# As many entries of a recording: their objects take more than their bytes.
-_ENTRIES = 1 << 15
+# How many entries of a recording.
+_ENTRIES = 1 << 16
 
 Batches: TypeAlias = "dict[str, pa.RecordBatch]"
 

@@ -8,7 +8,7 @@ the frames that are legal, each begins behind the one before. What lies between 
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,14 +17,18 @@ from .._frame.errors import Reason
 from ..recordings import read
 from .by_entry import found_by_entry
 from .chain import Chain, chained, no_chain
-from .found import UNKNOWN_SENDER, Found, Frames, Stray, unknown_times
+from .fields import NO_KIND
+from .found import UNKNOWN_SENDER, Found, Frames, Stray
 from .layout import DIRECTIONS, layouts
-from .legal import NO_KIND, UNKNOWN_COMMAND, UNKNOWN_KIND, LegalFrames
+from .legal import UNKNOWN_COMMAND, UNKNOWN_KIND, LegalFrames
 from .noise_pieces import noise_pieces
+from .places import find_all
 from .unknown import with_unknown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+
+    from numpy.typing import NDArray
 
     from .._frame.direction import Direction
     from .found import Bytes, Numbers
@@ -32,6 +36,8 @@ if TYPE_CHECKING:
 
 _BAD_HEADER = [*Reason].index(Reason.BAD_HEADER)
 _NOTHING = np.empty(0, np.int64)
+# Who sends each message.
+_SENDERS = np.array([each.direction for each in layouts()], np.int8)
 # What the end of a stream holds is one stretch.
 _ALL = 1 << 31
 
@@ -70,26 +76,26 @@ class _Window:
         until = len(data) - 2 * self._legal.largest
         if until <= 0:
             return self._found(no_chain(), _NOTHING, _NOTHING, 0)
-        places = _places(data[: until + self._legal.largest], self._header)
+        places = find_all(data[: until + self._legal.largest], self._header)
         judged = self._legal.judge(data, places)
         chain = chained(places, judged)
         if not self._legal.proves_unknown:
             chain = with_unknown(chain, data, places, judged, self._direction)
-        chain = chain.chosen(chain.start < until)
-        is_refused = judged.kind == NO_KIND
-        return self._found(chain, places[is_refused], judged.reason[is_refused], until)
+        chain = chain.chosen(slice(np.searchsorted(chain.start, until)))
+        refused = np.flatnonzero(judged.kind == NO_KIND)
+        return self._found(chain, places[refused], judged.reason[refused], until)
 
     def end(self) -> Iterator[Found]:
         """Return the events of the rest, behind which nothing comes."""
         data = self._data
-        headers = _places(data, self._header)
+        headers = find_all(data, self._header)
         rest = int(headers[0]) if len(headers) else len(data)
         yield self._found(no_chain(), _NOTHING, _NOTHING, rest)
         entries = read(io.BytesIO(self._data.tobytes()), form="raw", direction=self._direction)
         for found in found_by_entry(entries, _ALL):
             yield found.moved(self._offset)
 
-    def _found(self, chain: Chain, refused: Numbers, reasons: Numbers, until: int) -> Found:
+    def _found(self, chain: Chain, refused: Numbers, reasons: NDArray[Any], until: int) -> Found:
         """Return the events in front of data[until], and forget their bytes."""
         data = self._data
         done = max(until, int(chain.end[-1]) if len(chain.start) else 0)
@@ -100,27 +106,28 @@ class _Window:
         if done:
             self._reason = int(reason[-1]) if goes_on else _BAD_HEADER
         is_unknown = chain.kind == UNKNOWN_KIND
-        found = Found(
-            self._frames(chain.chosen(~is_unknown)),
-            self._stray(chain.chosen(is_unknown), begins, ends, reason),
-            self._offset + done,
-        )
+        unknown = chain.chosen(is_unknown)
+        if len(unknown.start):
+            chain = chain.chosen(~is_unknown)
+        stray = self._stray(unknown, begins, ends, reason)
+        found = Found(self._frames(chain), stray, self._offset + done)
         self._data = data[done:]
         self._offset += done
         return found
 
     def _frames(self, chain: Chain) -> Frames:
-        count = len(chain.start)
-        known = self._direction is not None
+        sender = _SENDERS.take(chain.kind)
+        if self._direction is None:
+            sender[chain.either] = UNKNOWN_SENDER
         return Frames(
             data=self._data,
             start=chain.start,
             offset=chain.start + self._offset,
-            size=chain.size,
+            size=(chain.end - chain.start).astype(np.uint32),
             kind=chain.kind,
-            direction=np.full(count, self._sender) if known else chain.direction,
-            time=unknown_times(count),
-            clock=unknown_times(count),
+            direction=sender,
+            time=None,
+            clock=None,
         )
 
     def _stray(self, unknown: Chain, begins: Numbers, ends: Numbers, reason: Numbers) -> Stray:
@@ -130,26 +137,15 @@ class _Window:
         data: list[bytes | None] = [None] * len(begins)
         data += [self._data[start:end].tobytes() for start, end in claims]
         start = np.concatenate((begins, unknown.start))
-        size = np.concatenate((ends - begins, unknown.size))
+        size = np.concatenate((ends - begins, unknown.end - unknown.start))
         reasons = np.concatenate((reason, np.full(len(unknown.start), UNKNOWN_COMMAND)))
         order = np.argsort(start, kind="stable")
         return Stray(
             offset=start[order] + self._offset,
             size=size[order],
             reason=reasons[order],
-            direction=np.full(count, self._sender),
-            time=unknown_times(count),
-            clock=unknown_times(count),
+            direction=np.full(count, self._sender, np.int8),
+            time=None,
+            clock=None,
             frame=[data[at] for at in order.tolist()],
         )
-
-
-def _places(data: Bytes, header: bytes) -> Numbers:
-    """Return where a header begins."""
-    count = len(data) - len(header) + 1
-    if count <= 0:
-        return _NOTHING
-    there = data[:count] == header[0]
-    for at, byte in enumerate(header[1:], 1):
-        there &= data[at : at + count] == byte
-    return np.flatnonzero(there)

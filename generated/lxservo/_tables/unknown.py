@@ -10,7 +10,6 @@ import numpy as np
 from .._codec.decoder import StreamDecoder
 from .._codec.noise import UnknownFrame
 from .chain import Chain
-from .found import UNKNOWN_SENDER
 from .legal import UNKNOWN_COMMAND, UNKNOWN_KIND
 
 if TYPE_CHECKING:
@@ -39,14 +38,12 @@ def with_unknown(
             free_from = end
     if not held:
         return chain
-    start, size = begins[held], (ends - begins)[held]
-    kind, sender = np.full(len(held), UNKNOWN_KIND), np.full(len(held), UNKNOWN_SENDER)
-    order = np.argsort(np.concatenate((chain.start, start)), kind="stable")
+    at = behind[held]
     return Chain(
-        np.concatenate((chain.start, start))[order],
-        np.concatenate((chain.size, size))[order],
-        np.concatenate((chain.kind, kind))[order],
-        np.concatenate((chain.direction, sender))[order],
+        np.insert(chain.start, at, begins[held]),
+        np.insert(chain.end, at, ends[held]),
+        np.insert(chain.kind, at, UNKNOWN_KIND),
+        np.insert(chain.either, at, values=False),
     )
 
 

@@ -8,19 +8,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._codec.noise import Noise, UnknownFrame
-from .._frame.direction import Direction
 from .._frame.errors import Reason
+from .._recording.entry import SENDERS
 from ..messages import MESSAGES
 from .found import UNKNOWN_SENDER, Found, Frames, Stray
+from .layout import DIRECTIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..recordings import Entry
+    from .found import Seconds
 
 _KINDS: dict[type[object], int] = {kind: number for number, kind in enumerate(MESSAGES)}
 _REASONS = {reason: number for number, reason in enumerate(Reason)}
-_DIRECTIONS = {direction: number for number, direction in enumerate(Direction)}
+_DIRECTIONS: dict[str | None, int] = {
+    sender: DIRECTIONS.index(direction) for sender, direction in SENDERS.items()
+}
+_DIRECTIONS[None] = UNKNOWN_SENDER
 
 
 def found_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Found]:
@@ -28,53 +33,75 @@ def found_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Found]:
 
     Noise at the end of one stretch may go on in the next.
     """
-    while some := [*islice(entries, many)]:
-        messages = [entry for entry in some if not isinstance(entry.event, Noise)]
-        last = some[-1]
-        yield Found(_frames(messages), _stray(some), last.offset + _size(last))
+    while True:
+        frames, stray = _Rows(), _Rows()
+        is_unknown: list[bool] = []
+        for entry in islice(entries, many):
+            event = entry.event
+            if isinstance(event, Noise):
+                stray.add(entry, event.data, _REASONS[event.reason])
+                is_unknown.append(isinstance(event, UnknownFrame))
+            else:
+                frames.add(entry, event.encode(), _KINDS[type(event)])
+        if not frames.data and not stray.data:
+            return
+        yield Found(_frames(frames), _stray(stray, is_unknown), max(frames.end, stray.end))
 
 
-def _frames(entries: list[Entry]) -> Frames:
-    data = [entry.event.encode() for entry in entries if not isinstance(entry.event, Noise)]
-    sizes = np.array([len(each) for each in data], np.int64)
+class _Rows:
+    """Columns that grow: objects that are not kept need not be collected either."""
+
+    def __init__(self) -> None:
+        self.data: list[bytes] = []
+        self.offset: list[int] = []
+        self.what: list[int] = []
+        self.direction: list[int] = []
+        self.time: list[float] = []
+        self.clock: list[float] = []
+
+    def add(self, entry: Entry, data: bytes, what: int) -> None:
+        """Add an entry with its bytes, and its class or its reason."""
+        time, began = entry.time, entry.began
+        self.data.append(data)
+        self.offset.append(entry.offset)
+        self.what.append(what)
+        self.direction.append(_DIRECTIONS[entry.sender])
+        self.time.append(np.nan if time is None else time)
+        self.clock.append(np.nan if time is None or began is None else began + time)
+
+    @property
+    def end(self) -> int:
+        """Where the last one ends."""
+        return self.offset[-1] + len(self.data[-1]) if self.data else 0
+
+
+def _frames(rows: _Rows) -> Frames:
+    sizes = np.array([len(each) for each in rows.data], np.int64)
     return Frames(
-        data=np.frombuffer(b"".join(data), np.uint8),
+        data=np.frombuffer(b"".join(rows.data), np.uint8),
         start=np.cumsum(sizes) - sizes,
-        offset=np.array([entry.offset for entry in entries], np.int64),
-        size=sizes,
-        kind=np.array([_KINDS[type(entry.event)] for entry in entries], np.int64),
-        direction=np.array([_direction(entry) for entry in entries], np.int64),
-        time=np.array([_time(entry) for entry in entries], np.float64),
-        clock=np.array([_clock(entry) for entry in entries], np.float64),
+        offset=np.array(rows.offset, np.int64),
+        size=sizes.astype(np.uint32),
+        kind=np.array(rows.what, np.int16),
+        direction=np.array(rows.direction, np.int8),
+        time=_unless_unknown(rows.time),
+        clock=_unless_unknown(rows.clock),
     )
 
 
-def _stray(entries: list[Entry]) -> Stray:
-    found = [(entry, entry.event) for entry in entries if isinstance(entry.event, Noise)]
-    frames = [each.data if isinstance(each, UnknownFrame) else None for _, each in found]
+def _stray(rows: _Rows, is_unknown: list[bool]) -> Stray:
+    pairs = zip(rows.data, is_unknown, strict=True)
     return Stray(
-        offset=np.array([entry.offset for entry, _ in found], np.int64),
-        size=np.array([len(each.data) for _, each in found], np.int64),
-        reason=np.array([_REASONS[each.reason] for _, each in found], np.int64),
-        direction=np.array([_direction(entry) for entry, _ in found], np.int64),
-        time=np.array([_time(entry) for entry, _ in found], np.float64),
-        clock=np.array([_clock(entry) for entry, _ in found], np.float64),
-        frame=frames,
+        offset=np.array(rows.offset, np.int64),
+        size=np.array([len(each) for each in rows.data], np.int64),
+        reason=np.array(rows.what, np.int8),
+        direction=np.array(rows.direction, np.int8),
+        time=_unless_unknown(rows.time),
+        clock=_unless_unknown(rows.clock),
+        frame=[data if unknown else None for data, unknown in pairs],
     )
 
 
-def _size(entry: Entry) -> int:
-    event = entry.event
-    return len(event.data if isinstance(event, Noise) else event.encode())
-
-
-def _direction(entry: Entry) -> int:
-    return UNKNOWN_SENDER if entry.direction is None else _DIRECTIONS[entry.direction]
-
-
-def _time(entry: Entry) -> float:
-    return np.nan if entry.time is None else entry.time
-
-
-def _clock(entry: Entry) -> float:
-    return np.nan if entry.time is None or entry.began is None else entry.began + entry.time
+def _unless_unknown(times: list[float]) -> Seconds | None:
+    seconds = np.array(times, np.float64)
+    return None if np.isnan(seconds).all() else seconds

@@ -25,31 +25,35 @@ def dtype_of(slot: Slot) -> np.dtype[Any]:
 
 def read_numbers(data: Bytes, places: Numbers, slot: Slot) -> NDArray[Any]:
     """Return the numbers that begin at some places of `data`."""
-    kind, size = dtype_of(slot), slot.size
-    if size == 1:
-        return data[places].view(kind)
-    if not len(places):
-        return np.empty(0, kind)
-    ordered = kind.newbyteorder("<" if slot.order == "little" else ">")
-    if size != kind.itemsize:
-        return _three_bytes(data, places, slot).astype(kind)
-    # Every place is read as if a number began there, wherever the machine likes them to begin.
-    count = len(data) - size + 1
-    everywhere: NDArray[Any] = np.ndarray((count,), ordered, data, 0, (1,))
-    return everywhere[places].astype(kind, copy=False)
-
-
-def _three_bytes(data: Bytes, places: Numbers, slot: Slot) -> NDArray[np.int64]:
-    first, second, third = (data[places + at].astype(np.int64) for at in range(3))
-    low, high = (first, third) if slot.order == "little" else (third, first)
-    whole = low | second << 8 | high << 16
-    if not slot.said.get("signed"):
-        return whole
-    return (whole ^ 0x800000) - 0x800000
+    kind = dtype_of(slot)
+    if slot.size == 1:
+        return data.take(places).view(kind)
+    # Byte by byte: a number may begin anywhere, which few machines like.
+    numbers = np.zeros(len(places), f"u{kind.itemsize}")
+    for at in range(slot.size):
+        byte = data.take(places + at).astype(numbers.dtype)
+        shift = at if slot.order == "little" else slot.size - 1 - at
+        numbers |= byte << numbers.dtype.type(8 * shift)
+    if slot.size == 3 and slot.said.get("signed"):
+        return (numbers << np.uint32(8)).view(kind) >> np.int32(8)
+    return numbers.view(kind)
 
 
 def read_blocks(data: Bytes, places: Numbers, size: int) -> Bytes:
     """Return the bytes that begin at some places, so many of each, a row for each place."""
-    if not len(places):
-        return np.empty((0, size), np.uint8)
-    return data[places[:, np.newaxis] + np.arange(size)]
+    return data.take(places[:, np.newaxis] + np.arange(size))
+
+
+def find_all(data: Bytes, header: bytes) -> Numbers:
+    """Return where these bytes begin in `data`, also where they overlap."""
+    count = len(data) - len(header) + 1
+    if count <= 0:
+        return np.empty(0, np.int64)
+    if len(header) == 1:
+        return np.flatnonzero(data[:count] == header[0])
+    # Two bytes at once, wherever they begin.
+    pairs: NDArray[np.uint16] = np.ndarray((count,), np.uint16, data, 0, (1,))
+    found = np.flatnonzero(pairs == np.frombuffer(header[:2], np.uint16)[0])
+    for at, byte in enumerate(header[2:], 2):
+        found = found[data.take(found + at) == byte]
+    return found
