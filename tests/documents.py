@@ -366,7 +366,7 @@ class _Player:
     def _evaluate(self, source: str) -> str:
         """Return the output of an interactive Python."""
         output = io.StringIO()
-        with contextlib.redirect_stdout(output):
+        with _at(self._folder), contextlib.redirect_stdout(output):
             try:
                 exec(compile(source, "<page>", "single"), self._names)  # noqa: S102 - our own pages
             except Exception as error:  # noqa: BLE001 - it is shown
