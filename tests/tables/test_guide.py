@@ -70,7 +70,7 @@ def test_pandas_counts_what_decode_prints(arm: list[dict[str, Any]]) -> None:
     }
 
 
-@pytest.mark.parametrize("program", ['replies.explode("positions").unnest', "CREATE TABLE servos"])
+@pytest.mark.parametrize("program", ['replies.explode("positions").unnest', "FROM rows GROUP BY"])
 def test_the_other_libraries_count_the_same(program: str, arm: list[dict[str, Any]]) -> None:
     shown = ast.literal_eval(printed(program))
     expected = [(name, len(found), max(found)) for name, found in sorted(positions(arm).items())]
