@@ -9,15 +9,39 @@ It needs NumPy and PyArrow, which the extra `tables` of this package brings.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 from ._frame.direction import Direction
+from ._tables.arrow_file import arrow_written, names_in
+from ._tables.cuts import safe_cuts
+from ._tables.dataset import Report, archive
+from ._tables.parquet import parquet_written
+from ._tables.pieces import PIECE, Piece, scan
 from ._tables.reader import BLOCK, Batches, batches
+from ._tables.rereading import rereadable
 from ._tables.schema import NOISE, schemas
 from ._tables.source import Source
 from ._tables.whole import Tables, gathered
 
-__all__ = ["BLOCK", "NOISE", "Batches", "Source", "Tables", "read", "read_batches", "schemas"]
+__all__ = [
+    "BLOCK",
+    "NOISE",
+    "PIECE",
+    "Batches",
+    "Piece",
+    "Report",
+    "Source",
+    "Tables",
+    "archive",
+    "read",
+    "read_batches",
+    "safe_cuts",
+    "scan",
+    "schemas",
+    "write_arrow",
+    "write_parquet",
+]
 
 
 def read(source: Source, *, form: str = "auto", direction: Direction | None = None) -> Tables:
@@ -46,3 +70,38 @@ def read_batches(
     empty. The batches of a table, one after the other, are the table that `read` returns.
     """
     return batches(source, form, direction, block)
+
+
+def write_parquet(
+    source: Source,
+    folder: str | os.PathLike[str],
+    *,
+    form: str = "auto",
+    direction: Direction | None = None,
+) -> dict[str, int]:
+    """Write the tables of a capture as FOLDER/<Table>.parquet, and return the rows of each.
+
+    A table without rows has no file. The folder is made; files of an earlier capture are replaced.
+    Raises FileExistsError if it holds anything else, RecordingError and OSError as `read`, and
+    leaves no file half-written.
+    """
+    return parquet_written(batches(source, form, direction), folder)
+
+
+def write_arrow(
+    source: Source,
+    file: str | os.PathLike[str],
+    *,
+    form: str = "auto",
+    direction: Direction | None = None,
+) -> dict[str, int]:
+    """Write a capture as one Arrow IPC file, and return the rows of each table.
+
+    It has all events in the order of the capture: `event` is the name of a message, `noise` or
+    `unknown`, and each message that occurs has a column of structs, null in the rows of others. The
+    capture is read twice; a stream is copied to disk for that. Raises RecordingError and OSError as
+    `read`, and leaves no file half-written.
+    """
+    with rereadable(source) as again:
+        names = names_in(again(), form, direction)
+        return arrow_written(batches(again(), form, direction), file, names)

@@ -128,8 +128,7 @@ class _Column:
 
     def _text(self) -> pa.Array:
         ends, places = self._elements()
-        parts = pa.py_buffer(ends.astype(np.int32)), pa.py_buffer(self.frames.data[places])
-        return pa.Array.from_buffers(pa.string(), len(ends) - 1, [None, *parts])
+        return _strings(ends, self.frames.data[places])
 
     def _packed(self) -> pa.Array:
         slot = self.slot
@@ -154,6 +153,13 @@ def _values(data: NDArray[np.uint8], places: Numbers, slot: Slot) -> pa.Array:
 
 def _texts(rows: NDArray[np.uint8]) -> pa.Array:
     """Return the texts in rows of bytes; zeros at their end are no part of them."""
-    # NumPy leaves those zeros out by itself.
-    texts = np.ascontiguousarray(rows).view(f"S{rows.shape[1]}").reshape(-1)
-    return pa.array(texts).cast(pa.string())
+    numbers = np.arange(1, rows.shape[1] + 1)
+    sizes = ((rows != 0) * numbers).max(axis=1)
+    ends = np.concatenate(([0], np.cumsum(sizes)))
+    return _strings(ends, rows[numbers <= sizes[:, np.newaxis]])
+
+
+def _strings(ends: Numbers, characters: NDArray[np.uint8]) -> pa.Array:
+    """Return texts that stand behind each other; each ends where the next begins."""
+    parts = pa.py_buffer(ends.astype(np.int32)), pa.py_buffer(characters)
+    return pa.Array.from_buffers(pa.string(), len(ends) - 1, [None, *parts])

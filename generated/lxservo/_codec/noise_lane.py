@@ -174,7 +174,7 @@ class NoiseLane:
                     self._emit_noise(events, data, base, at)
                     return
                 own = claim and end <= weighed
-                if own and self._stands_alone(data, at - base, end - base):
+                if own and self.stands_alone(data, at - base, end - base):
                     self._emit_noise(events, data, base, at)
                     self._emit_unknown(events, data, base, end)
                     at = end
@@ -188,7 +188,7 @@ class NoiseLane:
         self._refused.clear()
         self._emit_noise(events, data, base, until)
 
-    def _stands_alone(self, data: bytes, start: int, end: int) -> bool:
+    def stands_alone(self, data: bytes, start: int, end: int) -> bool:
         """Return whether data[start:end] proves by itself that no message begins in it.
 
         That none does is known; a header that only later bytes refused stands near the end.

@@ -46,14 +46,21 @@ def chained(places: Numbers, judged: Judged) -> Chain:
     is_legal = judged.kind != NO_KIND
     if not is_legal.all():
         found = found.chosen(is_legal)
-    start, end = found.start, found.end
+    return found.chosen(first_come(found.start, found.end))
+
+
+def first_come(start: Numbers, end: Numbers) -> NDArray[np.bool_] | slice:
+    """Return which stretches are left if each gives way to those in front that reach into it.
+
+    They are sorted by where they begin.
+    """
     if not (start[1:] < end[:-1]).any():
-        return found
-    # No frame in front of such a one reaches into it, so that it is read whatever they are.
-    is_read = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
-    read_so_far = 0
-    for number in np.flatnonzero(~is_read).tolist():
-        if is_read[number - 1]:
-            read_so_far = end[number - 1]
-        is_read[number] = start[number] >= read_so_far
-    return found.chosen(is_read)
+        return slice(None)
+    # Into these nothing reaches, whatever else gives way.
+    is_left = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
+    reached = 0
+    for number in np.flatnonzero(~is_left).tolist():
+        if is_left[number - 1]:
+            reached = end[number - 1]
+        is_left[number] = start[number] >= reached
+    return is_left

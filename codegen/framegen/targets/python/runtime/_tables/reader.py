@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .found import Found, Frames
     from .source import Capture, Source
 
-BLOCK = 1 << 22
+BLOCK = 1 << 20
 """How many bytes of a capture are held at once, and the columns that are made of them."""
 
 # How many entries of a recording.
@@ -35,14 +35,17 @@ Batches: TypeAlias = "dict[str, pa.RecordBatch]"
 
 
 def batches(
-    source: Source, form: str, direction: Direction | None, block: int = BLOCK
+    source: Source, form: str, direction: Direction | None, block: int = BLOCK, start: int = 0
 ) -> Iterator[Batches]:
-    """Yield the tables of each stretch of a capture, by name, without those that are empty."""
+    """Yield the tables of each stretch of a capture, by name, without those that are empty.
+
+    `start` is the byte of a larger capture at which this one begins.
+    """
     rows = StrayRows()
     with opened(source, form) as capture:
-        for found in _found(capture, direction, block):
-            made = _messages(found.frames)
-            noise = rows.add(found.stray, found.end)
+        for stretch in (each.moved(start) for each in found(capture, direction, block)):
+            made = _messages(stretch.frames)
+            noise = rows.add(stretch.stray, stretch.end)
             if noise is not None:
                 made[NOISE] = noise
             if made:
@@ -52,7 +55,8 @@ def batches(
         yield {NOISE: noise}
 
 
-def _found(capture: Capture, direction: Direction | None, block: int) -> Iterator[Found]:
+def found(capture: Capture, direction: Direction | None, block: int) -> Iterator[Found]:
+    """Yield what an open capture holds, stretch by stretch."""
     if not capture.is_text and is_searchable(sent(direction)):
         return search(capture.blocks(block), direction)
     form = "hex" if capture.is_text else "raw"

@@ -54,7 +54,7 @@ def schemas() -> dict[str, pa.Schema]:
 def schema_of(layout: Layout) -> pa.Schema:
     """Return the schema of the table of one message."""
     fields = [
-        _field(each.name, arrow_type(layout, each), _said(each.slot)) for each in layout.columns
+        _field(each.name, arrow_type(layout, each), _said_of(each)) for each in layout.columns
     ]
     said = layout.described.said
     about = {
@@ -125,6 +125,13 @@ def _event_fields() -> list[pa.Field]:
 
 def _field(name: str, kind: pa.DataType, said: dict[str, str]) -> pa.Field:
     return pa.field(name, kind, metadata=said)
+
+
+def _said_of(column: Column) -> dict[str, str]:
+    """Return what is known of a column; of bare numbers and characters, what each of them is."""
+    slot = column.slot
+    is_bare = slot.role == "list" and not slot.said.get("element")
+    return _said(column.fields[0]) | _said(slot) if is_bare else _said(slot)
 
 
 def _said(slot: Slot) -> dict[str, str]:

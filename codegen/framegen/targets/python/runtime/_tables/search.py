@@ -22,7 +22,7 @@ from .layout import DIRECTIONS, layouts
 from .legal import UNKNOWN_COMMAND, UNKNOWN_KIND, LegalFrames
 from .noise_pieces import noise_pieces
 from .places import find_all
-from .unknown import with_unknown
+from .unknown import Claims
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -63,6 +63,7 @@ class _Window:
         self._sender = UNKNOWN_SENDER if direction is None else DIRECTIONS.index(direction)
         self._legal = LegalFrames(sent(direction))
         self._header = self._legal.envelope.header
+        self._claims = Claims(direction, self._header)
         self._data: Bytes = np.empty(0, np.uint8)
         # Where they begin in the capture; and why noise is noise that goes on there.
         self._offset = 0
@@ -79,7 +80,7 @@ class _Window:
         judged = self._legal.judge(data, places)
         chain = chained(places, judged)
         if not self._legal.proves_unknown:
-            chain = with_unknown(chain, data, places, judged, self._direction)
+            chain = self._claims.put_between(chain, data, places, judged)
         chain = chain.chosen(slice(np.searchsorted(chain.start, until)))
         refused = np.flatnonzero(judged.kind == NO_KIND)
         return self._found(chain, places[refused], judged.reason[refused], until)

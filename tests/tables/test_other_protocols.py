@@ -1,0 +1,163 @@
+"""Tables of every protocol hold the events of its decoder, vectorised or not."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.model.stream import ReferenceDecoder
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.few_each import few_each
+from tests.protocols.libraries import Libraries, direction_of
+from tests.protocols.specs import FILES, model_of
+from tests.protocols.streams import frames, lines, sent
+from tests.tables.hostile import hostile_lines
+from tests.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from framegen.language.values import Direction
+
+# Which protocols are searched at many places at once, by the sender, `any` for all of them; and
+# why the others are not. What is searched in order is right as well, and slower.
+NO_HEADER = "nothing constant begins a frame"
+NO_ID = "no frame says which message it is"
+NO_LENGTH = "no frame says how long it is"
+SEVERAL = "frames differ in their parts"
+OPTIONAL = "fields may be absent"
+UNSENT = "the checksum covers what is not sent"
+END = "a constant ends each frame"
+VECTORISED: dict[tuple[str, str], str | None] = {
+    ("crsf", "controller"): None,
+    ("crsf", "receiver"): None,
+    ("crsf", "any"): None,
+    ("dynamixel1", "controller"): None,
+    ("dynamixel1", "actuator"): NO_ID,
+    ("dynamixel1", "any"): SEVERAL,
+    ("ibus", "changer"): NO_HEADER,
+    ("ibus", "radio"): NO_HEADER,
+    ("ibus", "any"): NO_HEADER,
+    ("learm", "host"): None,
+    ("learm", "controller"): None,
+    ("learm", "any"): None,
+    ("mavlink1", "ground"): UNSENT,
+    ("mavlink1", "vehicle"): UNSENT,
+    ("mavlink1", "any"): UNSENT,
+    ("mhz19", "host"): NO_LENGTH,
+    ("mhz19", "sensor"): NO_LENGTH,
+    ("mhz19", "any"): SEVERAL,
+    ("modbus", "client"): NO_HEADER,
+    ("modbus", "device"): NO_HEADER,
+    ("modbus", "any"): NO_HEADER,
+    ("msp", "host"): None,
+    ("msp", "controller"): SEVERAL,
+    ("msp", "any"): SEVERAL,
+    ("roboclaw", "host"): NO_LENGTH,
+    ("roboclaw", "controller"): NO_HEADER,
+    ("roboclaw", "any"): SEVERAL,
+    ("sbus", "receiver"): NO_ID,
+    ("sbus", "any"): NO_ID,
+    ("tfmini", "sensor"): NO_ID,
+    ("tfmini", "any"): NO_ID,
+    ("ubx", "host"): None,
+    ("ubx", "receiver"): OPTIONAL,
+    ("ubx", "any"): OPTIONAL,
+    ("visca", "controller"): SEVERAL,
+    ("visca", "camera"): END,
+    ("visca", "any"): SEVERAL,
+    ("lxservo", "host"): None,
+    ("lxservo", "servo"): None,
+    ("lxservo", "any"): None,
+    ("everything", "asker"): UNSENT,
+    ("everything", "teller"): OPTIONAL,
+    ("everything", "any"): SEVERAL,
+}
+# Those that are read in order share all of their way but the decoder, which has tests of its own.
+SHOWN = {"modbus", "sbus", "everything"}
+
+
+def ways_of(name: str) -> list[Direction | None]:
+    """Return the directions of a protocol in which something is sent, and None for all of them."""
+    return [*(way for way in model_of(name).directions if sent(name, way)), None]
+
+
+def sender(way: Direction | None) -> str:
+    """Return who sends, as the table above has it."""
+    return "any" if way is None else way.sender
+
+
+def _case(name: str, way: Direction | None) -> Any:
+    quick = VECTORISED[name, sender(way)] is None or name in SHOWN
+    marks = () if quick else (pytest.mark.slow,)
+    return pytest.param(name, way, id=f"{name}-{sender(way)}", marks=marks)
+
+
+CASES = [_case(name, way) for name in FILES for way in ways_of(name)]
+each_way = pytest.mark.parametrize(("name", "way"), CASES)
+
+
+@cache
+def lines_of(name: str, made: ModuleType) -> st.SearchStrategy[bytes]:
+    """Return a strategy for lines on which every end of a protocol sends."""
+    ways = [way for way in ways_of(name) if way is not None]
+    plain = st.one_of([lines(name, way) for way in ways])
+    every = st.one_of([frames(name, way) for way in ways])
+    return st.lists(plain | hostile_lines(made, every, most=5), max_size=3).map(b"".join)
+
+
+def filler(name: str) -> bytes:
+    """Return what no frame begins with, and enough of it to decide all that is in front of it."""
+    model = model_of(name)
+    byte = next(byte for byte in range(256) if byte not in model.first_bytes)
+    return bytes([byte]) * (2 * model.largest(model.directions) + 1)
+
+
+def is_vectorised(made: ModuleType, direction: Any) -> bool:
+    """Tell whether a library searches at many places at once."""
+    search: Any = import_module(f"{made.__name__}._tables.search")
+    searchable: Any = import_module(f"{made.__name__}._tables.searchable")
+    return bool(searchable.is_searchable(search.sent(direction)))
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_what_is_vectorised_stays_so(libraries: Libraries, name: str) -> None:
+    made = libraries[name]
+    found = {
+        (name, sender(way)): is_vectorised(made, None if way is None else direction_of(made, way))
+        for way in ways_of(name)
+    }
+    assert found == {key: why is None for key, why in VECTORISED.items() if key[0] == name}
+
+
+@each_way
+@few_each
+@given(data=st.data())
+def test_tables_hold_what_the_decoder_and_the_reference_find(
+    libraries: Libraries, name: str, way: Direction | None, data: st.DataObject
+) -> None:
+    made, model = libraries[name], model_of(name)
+    line = data.draw(lines_of(name, made))
+    if VECTORISED[name, sender(way)] is None:
+        line += data.draw(st.sampled_from([b"", filler(name)]))
+    direction = None if way is None else direction_of(made, way)
+    found = rows_in_tables(
+        made, line, direction, block=data.draw(st.sampled_from([1, 7, 64, 600, None]))
+    )
+    assert found == rows_of_decoder(made, line, direction)
+    reference = ReferenceDecoder(model, model.directions if way is None else [way])
+    assert [row.place for row in found] == places_of_reference(reference.decode(line))
+
+
+def test_an_unknown_frame_that_ends_otherwise_is_one_row(libraries: Libraries) -> None:
+    made = libraries["everything"]
+    # Its length fits, and nothing proves more: the byte 0A at its end is missing.
+    frame = bytes.fromhex("C0 DE 07 2C 01 07 02 00 09 02 AA BB 00 00 00")
+    (row,) = rows_in_tables(made, frame, made.Direction.ASKER_TO_TELLER)
+    assert (row.table, row.size) == ("unknown", len(frame))
+    assert (row.fields["station"], row.fields["class"], row.fields["kind"]) == (300, 9, 2)
+    assert row.fields["parameters"] == b"\xaa\xbb"
