@@ -7,6 +7,7 @@ import contextlib
 import io
 import json
 import re
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -79,9 +80,7 @@ def test_the_other_libraries_count_the_same(program: str, arm: list[dict[str, An
 
 def test_the_tables_have_as_many_rows_as_there_are_messages(arm: list[dict[str, Any]]) -> None:
     (shown,) = re.findall(r"^Tables\((.*)\)$", GUIDE, re.MULTILINE)
-    counts: dict[str, int] = {}
-    for event in arm:
-        counts[event["message"]] = counts.get(event["message"], 0) + 1
+    counts = Counter(event["message"] for event in arm)
     rows = dict(each.split(": ") for each in shown.split(", "))
     assert {name: int(number) for name, number in rows.items()} == counts
 
@@ -99,3 +98,18 @@ def test_noise_adds_up_to_what_decode_calls_noise() -> None:
     assert ast.literal_eval(reasons) == sizes
     assert head.split() == ["offset", "size", "command"]
     assert [[int(float(word)) for word in line.split()] for line in unknown] == frames
+
+
+def test_the_parts_of_an_archive_have_the_messages_of_its_captures(tmp_path: Path) -> None:
+    (made,) = [text for kind, text in BLOCKS if kind == "python" and "folder.mkdir()" in text]
+    page = f"```python\n{made}```\n"
+    played(page, copy_project(tmp_path, page))
+    rows: dict[str, Counter[str]] = {}
+    for line in printed('tables.archive(piece, "dataset")').splitlines():
+        piece, _, said = line.partition(" ")
+        if said != "is broken":
+            rows.setdefault(piece.partition("[")[0], Counter()).update(ast.literal_eval(said))
+    assert rows == {
+        capture.name: Counter(event["message"] for event in decoded(capture))
+        for capture in sorted((tmp_path / "captures").glob("*.bin"))
+    }
