@@ -116,8 +116,13 @@ TABLES = (
         (OURS,),
     ),
     Table(
-        "An archive as Parquet, milliseconds on the clock a megabyte",
-        {"columns-archive-1": "one process", "columns-archive-2": "two"},
+        "An archive as Parquet, milliseconds a megabyte",
+        {
+            "columns-archive-1": "CPU, one process",
+            "columns-archive-2": "two",
+            "columns-archive-1-clock": "clock, one process",
+            "columns-archive-2-clock": "two",
+        },
         (OURS,),
     ),
     Table("Generate, CPU seconds of a fresh process", {"generate": "s"}, (OURS, "Kaitai Struct")),
