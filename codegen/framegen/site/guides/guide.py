@@ -153,7 +153,7 @@ def rendered(tokens: Sequence[Token]) -> Markup:
 
 def _fence(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -> str:
     # What follows the language is for others, such as those who run it.
-    language, _, _ = tokens[index].info.strip().partition(" ")
+    language = tokens[index].info.strip().partition(" ")[0]
     return str(code_block(tokens[index].content, language))
 
 
