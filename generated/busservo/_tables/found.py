@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 Bytes: TypeAlias = NDArray[np.uint8]
 Numbers: TypeAlias = NDArray[np.int64]
@@ -36,9 +39,13 @@ class Frames:
     time: Seconds | None
     clock: Seconds | None
 
-    def of(self, kind: int) -> Frames:
-        """Return those of one class."""
-        return self.chosen(np.flatnonzero(self.kind == kind))
+    def by_kind(self) -> Iterator[tuple[int, Frames]]:
+        """Yield those of each class that there is, in the order of MESSAGES."""
+        order = np.argsort(self.kind, kind="stable")
+        counts = np.bincount(self.kind)
+        ends = np.cumsum(counts)
+        for kind in np.flatnonzero(counts).tolist():
+            yield kind, self.chosen(order[ends[kind] - counts[kind] : ends[kind]])
 
     def chosen(self, which: Numbers) -> Frames:
         """Return those at some places of the arrays."""

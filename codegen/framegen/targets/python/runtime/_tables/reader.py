@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-
 from ..recordings import read
 from .by_entry import found_by_entry
 from .columns import batch_of
@@ -64,8 +62,5 @@ def found(capture: Capture, direction: Direction | None, block: int) -> Iterator
 
 
 def _messages(frames: Frames) -> Batches:
-    if not len(frames.start):
-        return {}
     every = layouts()
-    kinds = np.flatnonzero(np.bincount(frames.kind, minlength=len(every)))
-    return {every[kind].name: batch_of(every[kind], frames.of(kind)) for kind in kinds.tolist()}
+    return {every[kind].name: batch_of(every[kind], found) for kind, found in frames.by_kind()}
