@@ -188,6 +188,19 @@ def test_a_frame_is_whole_wherever_a_block_ends() -> None:
         assert rows_in_tables(busservo, line, None, block=block) == expected
 
 
+@pytest.mark.parametrize("before", range(0, 700, 35))
+def test_a_claim_that_holds_a_frame_is_none_wherever_a_block_ends(before: int) -> None:
+    claim = bytes.fromhex("55 55 C6 63") + bytes(192) + STOP
+    line = bytes(before) + claim + FILLER
+    rows = rows_in_tables(busservo, line, HOST, block=900)
+    *head, stop, tail = [row[:3] for row in rows]
+    assert (stop, tail) == (
+        ("ActionGroupStop", before + 196, 4),
+        ("noise", before + 200, len(FILLER)),
+    )
+    assert {table for table, *_ in head} == {"noise"}
+
+
 @pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
 def test_long_noise_is_one_row_of_each_reason(direction: Direction | None) -> None:
     noise = b"\0" * 300_000 + b"\x55\x55\0" * 100_000
