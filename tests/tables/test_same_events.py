@@ -201,6 +201,16 @@ def test_a_claim_that_holds_a_frame_is_none_wherever_a_block_ends(before: int) -
     assert {table for table, *_ in head} == {"noise"}
 
 
+def test_noise_goes_on_behind_a_last_block_that_is_whole() -> None:
+    # The block behind it is empty.
+    line = STOP + b"\x55\x55\0" + bytes(1193)
+    rows = [row[:5] for row in rows_in_tables(busservo, line, HOST, block=600)]
+    assert rows == [
+        ("ActionGroupStop", 0, 4, SAID, None),
+        ("noise", 4, 1196, SAID, "length mismatch"),
+    ]
+
+
 @pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
 def test_long_noise_is_one_row_of_each_reason(direction: Direction | None) -> None:
     noise = b"\0" * 300_000 + b"\x55\x55\0" * 100_000
