@@ -135,6 +135,11 @@ HELD = holding(b"\0\0" + STOP + RUN + STOP)
 # The head of a move stands at the end of another one, and what it would hold behind that.
 REACHING = holding(b"\0\0\0" + bytes.fromhex("55 55 0B 03 02"))
 WORKED_OUT += [
+    # A header begins at the end of what is claimed, though nothing comes of it.
+    (
+        bytes.fromhex("55 55 03 63 55 00") + STOP,
+        [("noise", 0, 6, SAID, "unknown command"), ("ActionGroupStop", 6, 4, SAID, None)],
+    ),
     # What a frame holds is no event.
     (
         HELD + STOP,
