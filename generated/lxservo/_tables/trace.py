@@ -112,3 +112,9 @@ class Trace:
         same = (flat_at[1:] == flat_at[:-1]) & (flat[1:] == flat[:-1])
         kept = np.concatenate(([True], ~same))
         return flat_at[kept], flat[kept]
+
+
+def alone(values: _Values) -> Numbers:
+    """Return the places of the values that stand between two gaps: no line goes through them."""
+    gap = np.concatenate(([True], np.isnan(values), [True]))
+    return np.flatnonzero(~gap[1:-1] & gap[:-2] & gap[2:])

@@ -9,6 +9,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from .layout import described
+from .trace import alone
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -108,8 +109,9 @@ def _draw(axes: Axes, quantity: Quantity, lines: dict[int, Trace], divisor: floa
             value,
             color=_COLOURS[number % len(_COLOURS)],
             linestyle=_STYLES[number // len(_COLOURS) % len(_STYLES)],
-            marker="." if trace.count <= _FEW else "",
+            marker=".",
             markersize=5,
+            markevery=None if trace.count <= _FEW else alone(value).tolist(),
             label=str(key),
             gid=f"{quantity.name}.{key}",
         )
