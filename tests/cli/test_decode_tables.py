@@ -17,7 +17,7 @@ import pytest
 from busservo import BatteryVoltage
 from busservo._cli import main
 from busservo._cli import recording as reading
-from busservo._tables import parquet
+from busservo._tables.files import parquet
 
 Capture = pytest.CaptureFixture[str]
 
@@ -232,8 +232,8 @@ def test_without_the_extra_the_error_says_how_to_get_it(
 ) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     # As it is where nothing has imported them yet.
-    for name in ("busservo._tables", "busservo._tables.arrow_file", "busservo._cli.table_files"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
+    for name in ("_tables", "_tables.files.arrow_file", "_cli.table_files"):
+        monkeypatch.delitem(sys.modules, f"busservo.{name}", raising=False)
     assert main(["decode", "55", "--parquet", str(tmp_path / "tables")]) == 2
     output, errors = capsys.readouterr()
     assert output == ""

@@ -44,7 +44,7 @@ def test_statistics_are_those_of_the_decoder(
     made = libraries[name]
     line = data.draw(lines_of(name, made))
     direction = None if way is None else direction_of(made, way)
-    found = part(made, "_tables.statistics").statistics(line, form="raw", direction=direction)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", direction=direction)
     rows = joined(rows_of_decoder(made, line, direction))
     messages = [row for row in rows if row.table not in ("noise", "unknown")]
     assert {each.name: each.count for each in found.messages} == Counter(
@@ -79,7 +79,7 @@ def test_ranges_are_those_of_the_messages(
     made = libraries[name]
     line = data.draw(lines_of(name, made))
     direction = None if way is None else direction_of(made, way)
-    found = part(made, "_tables.statistics").statistics(line, form="raw", direction=direction)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", direction=direction)
     decoder = made.StreamDecoder(direction)
     values: dict[tuple[str, str], list[float]] = {}
     for event in [*decoder.feed(line), *decoder.flush()]:
@@ -128,8 +128,8 @@ def test_statistics_can_be_shown_and_drawn(
 ) -> None:
     made = libraries[name]
     line = data.draw(lines_of(name, made))
-    traces = part(made, "_tables.traces").Traces(9600)
-    found = part(made, "_tables.statistics").statistics(line, form="raw", traces=traces)
+    traces = part(made, "_tables.stats.traces").Traces(9600)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
     sheet = part(made, "_cli.statistics_sheet")
     assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600)
     sheet.show(found, "line.bin", 9600)
