@@ -116,10 +116,12 @@ def parquet_written(batches: Iterable[Batches], folder: str | os.PathLike[str]) 
         raise
     for name in schemas():
         path = target / f"{name}.parquet"
+        unfinished = path.with_name(f"{path.name}{_UNFINISHED}")
         if name in files.rows:
-            path.with_name(f"{path.name}{_UNFINISHED}").replace(path)
+            unfinished.replace(path)
         else:
             path.unlink(missing_ok=True)
+            unfinished.unlink(missing_ok=True)
     return files.rows
 
 

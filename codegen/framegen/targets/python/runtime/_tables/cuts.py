@@ -15,7 +15,7 @@ from __future__ import annotations
 import os
 from itertools import accumulate
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -72,33 +72,37 @@ def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> It
     if not messages:
         return
     largest = max(each.described.largest for each in messages)
-    proven: Any = None
+    proven: _Proven | _Tried
     if is_searchable(messages):
         proven = _Proven(LegalFrames(messages))
     elif largest <= _TRIED:
         proven = _Tried(direction, largest)
-    if proven is None:
+    else:
         return
     about = size
     while about < length:
-        place = _place_near(read, about, length, largest, proven)
+        place, searched = _place_near(read, about, length, largest, proven)
         if place is not None:
             yield place
-        about = (about if place is None else place) + size
+        about = max(about + size, searched + 1) if place is None else place + size
 
 
-def _place_near(read: Read, about: int, length: int, largest: int, proven: Any) -> int | None:
-    """Return the first safe place from `about` on, but not at the end of the capture."""
+def _place_near(
+    read: Read, about: int, length: int, largest: int, proven: _Proven | _Tried
+) -> tuple[int | None, int]:
+    """Return the first safe place from `about` on, and up to where there is no other."""
     start = max(0, about - 2 * largest)
+    # What began in front of the window may reach into its first bytes.
+    first = largest if start else 0
     reach = _FRAMES * largest
     while True:
-        data = read(start, min(start + reach, length))
-        # What began in front of the window, may reach into its first bytes.
-        first = largest if start else 0
-        for end in proven.ends(data, first, about - start):
-            return start + end if start + end < length else None
-        if reach >= proven.furthest or start + reach >= length:
-            return None
+        data = read(start, start + reach)
+        searched = start + len(data)
+        # The end of the capture is no place to cut it.
+        ends = (start + end for end in proven.ends(data, first, about - start))
+        place = next((end for end in ends if end < length), None)
+        if place is not None or reach >= proven.furthest or searched >= length:
+            return place, searched
         reach *= _FRAMES
 
 

@@ -1,0 +1,60 @@
+"""Large captures are read and written in little memory, whatever their size."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.tables.conversations import conversation
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+resource = pytest.importorskip("resource")
+
+SIZE = 200_000_000
+# Its tables as a whole would take more than twice as much.
+MOST = 350_000_000
+
+WORK = """
+import resource, sys
+from busservo.tables import archive, read_batches, scan, write_arrow, write_parquet
+capture, folder = sys.argv[1:]
+{work}
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+WAYS = {
+    "read": "for made in read_batches(capture): pass",
+    "parquet": "write_parquet(capture, folder)",
+    "arrow": "write_arrow(capture, folder)",
+    "archive": "assert not [r for p in scan(capture) if (r := archive(p, folder)).error]",
+}
+
+
+@pytest.fixture(scope="module")
+def capture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("large") / "line.bin"
+    data = conversation(20_000)
+    with path.open("wb") as file:
+        for _ in range(SIZE // len(data)):
+            file.write(data)
+        # Noise without end is held no more than anything else.
+        file.seek(SIZE)
+        file.write(data)
+    return path
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_large_capture_takes_little_memory(way: str, capture: Path, tmp_path: Path) -> None:
+    work = WORK.format(work=WAYS[way])
+    done = subprocess.run(
+        [sys.executable, "-c", work, capture, tmp_path / "out"],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    unit = 1 if sys.platform == "darwin" else 1024
+    assert int(done.stdout) * unit < MOST

@@ -1,0 +1,357 @@
+"""A dataset of archived captures: the tables of each, whatever stopped or disturbed the work."""
+
+from __future__ import annotations
+
+import errno
+import multiprocessing
+import os
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import duckdb
+import polars as pl
+import pyarrow.dataset as ds
+import pyarrow.parquet as pq
+import pytest
+from busservo._tables import dataset
+from busservo._tables.manifest import Manifest
+from busservo._tables.parquet import ParquetFiles
+from busservo.tables import Piece, Report, archive, read, scan
+
+from tests.tables.conversations import conversation, recorded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+SIZE = 1000
+
+
+@pytest.fixture
+def captures(tmp_path: Path) -> Path:
+    """Return a folder of captures, of which two have one name."""
+    folder = tmp_path / "captures"
+    (folder / "monday").mkdir(parents=True)
+    (folder / "line.bin").write_bytes(conversation(60))
+    (folder / "monday" / "line.bin").write_bytes(conversation(45))
+    (folder / "line 1.hex").write_text(recorded(20), encoding="utf-8")
+    (folder / "empty.bin").write_bytes(b"")
+    return folder
+
+
+def archived(captures: Path, folder: Path, size: int = SIZE) -> list[Report]:
+    return [archive(piece, folder) for piece in scan(captures, size=size)]
+
+
+def rows_in(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
+    """Return the rows of each table and capture, in the order of the capture."""
+    rows: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    for table in sorted(path.name for path in folder.iterdir() if path.name != "_pieces"):
+        found = ds.dataset(folder / table, partitioning="hive").to_table().to_pylist()
+        for row in sorted(found, key=lambda row: int(row["offset"])):
+            rows.setdefault((table, row.pop("capture")), []).append(row)
+    return rows
+
+
+def rows_of(captures: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
+    """Return the same of the captures themselves."""
+    return {
+        (name, path.relative_to(captures).as_posix()): table.to_pylist()
+        for path in captures.rglob("*")
+        if path.is_file()
+        for name, table in read(path).filled.items()
+    }
+
+
+def files_in(folder: Path) -> list[str]:
+    return sorted(
+        path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.is_file()
+    )
+
+
+def test_it_holds_the_tables_of_all_captures(captures: Path, tmp_path: Path) -> None:
+    reports = archived(captures, tmp_path / "dataset")
+    assert len(reports) > 5
+    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+    total = sum(len(rows) for rows in rows_of(captures).values())
+    assert sum(sum(report.rows.values()) for report in reports) == total
+    assert {(report.is_new, report.error) for report in reports} == {(True, None)}
+
+
+def test_two_processes_make_the_same_files_as_one(captures: Path, tmp_path: Path) -> None:
+    archived(captures, tmp_path / "by one")
+    pieces = scan(captures, size=SIZE)
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(2, mp_context=spawn) as pool:
+        reports = list(pool.map(archive, pieces, [tmp_path / "by two"] * len(pieces)))
+    assert [report.piece for report in reports] == pieces
+    by_one, by_two = tmp_path / "by one", tmp_path / "by two"
+    assert files_in(by_two) == files_in(by_one)
+    for name in files_in(by_one):
+        assert (by_two / name).read_bytes() == (by_one / name).read_bytes()
+
+
+def test_what_is_done_is_not_done_again(
+    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = archived(captures, tmp_path / "dataset")
+    before = files_in(tmp_path / "dataset")
+    monkeypatch.setattr(dataset, "_written", lambda *_: pytest.fail("it is written again"))
+    again = archived(captures, tmp_path / "dataset")
+    assert [report.rows for report in again] == [report.rows for report in first]
+    assert not any(report.is_new for report in again)
+    assert files_in(tmp_path / "dataset") == before
+
+
+def test_duckdb_and_polars_read_it(captures: Path, tmp_path: Path) -> None:
+    archived(captures, tmp_path / "dataset")
+    expected = {
+        capture: len(rows)
+        for (table, capture), rows in rows_of(captures).items()
+        if table == "BatteryVoltage"
+    }
+    files = f"{(tmp_path / 'dataset' / 'BatteryVoltage').as_posix()}/**/*.parquet"
+    table = duckdb.read_parquet(files, hive_partitioning=True)
+    assert dict(table.aggregate("capture, count(*)").fetchall()) == expected
+    counts = pl.scan_parquet(files, hive_partitioning=True).group_by("capture").len().collect()
+    assert dict(counts.iter_rows()) == expected
+
+
+# --- What changes --------------------------------------------------------------------------------
+
+
+def test_a_capture_that_has_changed_takes_the_place_of_what_it_was(
+    captures: Path, tmp_path: Path
+) -> None:
+    archived(captures, tmp_path / "dataset")
+    (captures / "line.bin").write_bytes(conversation(15)[100:])
+    reports = archived(captures, tmp_path / "dataset")
+    assert {report.piece.capture for report in reports if report.is_new} == {"line.bin"}
+    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+
+
+def test_pieces_of_another_size_take_the_place_of_those_that_they_overlap(
+    captures: Path, tmp_path: Path
+) -> None:
+    for size in (SIZE, 700, 4000):
+        archived(captures, tmp_path / "dataset", size)
+        assert rows_in(tmp_path / "dataset") == rows_of(captures)
+
+
+def test_a_piece_of_what_a_file_was_is_refused(captures: Path, tmp_path: Path) -> None:
+    pieces = scan(captures / "line.bin", size=SIZE)
+    (captures / "line.bin").write_bytes(b"")
+    errors = {archive(piece, tmp_path / "dataset").error for piece in pieces}
+    file = captures / "line.bin"
+    assert errors == {f"{file}: the file has changed since it was scanned: scan again"}
+
+
+def test_a_capture_that_is_removed_stays_in_the_dataset(captures: Path, tmp_path: Path) -> None:
+    archived(captures, tmp_path / "dataset")
+    expected = rows_of(captures)
+    (captures / "line.bin").unlink()
+    archived(captures, tmp_path / "dataset")
+    assert rows_in(tmp_path / "dataset") == expected
+
+
+# --- What is broken ------------------------------------------------------------------------------
+
+
+def test_a_broken_capture_is_reported_and_the_others_are_done(
+    captures: Path, tmp_path: Path
+) -> None:
+    expected = rows_of(captures)
+    (captures / "broken.hex").write_text("55 55 02 07\n55 5Z\n", encoding="utf-8")
+    (captures / "gone.bin").symlink_to(captures / "absent.bin")
+    reports = archived(captures, tmp_path / "dataset")
+    errors = {report.piece.capture: report.error for report in reports if report.error}
+    assert set(errors) == {"broken.hex", "gone.bin"}
+    assert str(errors["broken.hex"]).startswith(f"{captures / 'broken.hex'}: line 2: no hex")
+    assert errors["gone.bin"] == f"{captures / 'gone.bin'}: No such file or directory"
+    assert rows_in(tmp_path / "dataset") == expected
+
+
+def test_a_file_that_vanishes_is_reported(captures: Path, tmp_path: Path) -> None:
+    (piece,) = scan(captures / "line 1.hex")
+    (captures / "line 1.hex").unlink()
+    report = archive(piece, tmp_path / "dataset")
+    assert report.error == f"{captures / 'line 1.hex'}: No such file or directory"
+
+
+def test_a_full_disk_is_reported_with_the_place_and_leaves_nothing(
+    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(_writer: object, _table: object) -> None:
+        raise OSError(errno.ENOSPC, "Error writing bytes to file")
+
+    (piece, *_) = scan(captures / "line.bin", size=SIZE)
+    with monkeypatch.context() as patch:
+        patch.setattr(pq.ParquetWriter, "write_table", full)
+        report = archive(piece, tmp_path / "dataset")
+    assert str(report.error).startswith(str(tmp_path / "dataset" / "_pieces"))
+    assert str(report.error).endswith(".parquet: No space left on device")
+    assert not [*(tmp_path / "dataset").rglob("*.parquet")]
+    assert archive(piece, tmp_path / "dataset").is_new
+
+
+def test_a_dataset_that_cannot_be_written_is_reported(captures: Path, tmp_path: Path) -> None:
+    (tmp_path / "dataset").write_bytes(b"")
+    (piece, *_) = scan(captures / "line.bin", size=SIZE)
+    report = archive(piece, tmp_path / "dataset")
+    assert str(report.error).startswith(f"{tmp_path / 'dataset'}")
+    assert not report.rows
+
+
+def test_a_manifest_that_makes_no_sense_is_none(captures: Path, tmp_path: Path) -> None:
+    archived(captures, tmp_path / "dataset")
+    for path in (tmp_path / "dataset" / "_pieces").rglob("*.json"):
+        path.write_text("{", encoding="utf-8")
+    assert all(report.is_new for report in archived(captures, tmp_path / "dataset"))
+    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+
+
+# --- What is stopped -----------------------------------------------------------------------------
+
+
+class Killed(BaseException):
+    """Stands for the end of a process: nothing is tidied up behind it."""
+
+
+TOUCHING = {name: getattr(Path, name) for name in ("replace", "unlink", "mkdir", "write_text")}
+
+
+@contextmanager
+def killed_at(number: int) -> Iterator[None]:
+    """Stop the work when a file is touched for the n-th time."""
+    touched = count()
+
+    def touching(name: str) -> Any:
+        def touch(path: Path, *given: Any, **named: Any) -> Any:
+            if next(touched) == number:
+                raise Killed
+            return TOUCHING[name](path, *given, **named)
+
+        return touch
+
+    with pytest.MonkeyPatch.context() as patch:
+        for name in TOUCHING:
+            patch.setattr(Path, name, touching(name))
+        patch.setattr(ParquetFiles, "discard", lambda _files: None)
+        patch.setattr(shutil, "rmtree", lambda *_, **__: None)
+        yield
+
+
+@pytest.mark.parametrize("step", [8, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("is_second", [False, True])
+def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
+    captures: Path, tmp_path: Path, step: int, *, is_second: bool
+) -> None:
+    shutil.rmtree(captures)
+    captures.mkdir()
+    folder = tmp_path / "dataset"
+    for number in count(0, step):
+        shutil.rmtree(folder, ignore_errors=True)
+        (captures / "line.bin").write_bytes(conversation(8)[number:])
+        if is_second:
+            archived(captures, folder, 200)
+            (captures / "line.bin").write_bytes(conversation(8)[number + 1 :])
+        try:
+            with killed_at(number):
+                archived(captures, folder, 250)
+        except Killed:
+            pass
+        else:
+            break
+        # Whatever is there under its final name is whole.
+        for path in folder.glob("*/capture=*/*.parquet"):
+            if path.parent.parent.name != "_pieces":
+                assert pq.read_metadata(path).num_rows
+        archived(captures, folder, 250)
+        assert rows_in(folder) == rows_of(captures)
+    assert number > 20
+
+
+KILLED = """
+import os, sys
+from pathlib import Path
+from busservo.tables import archive, scan
+done = []
+replace = Path.replace
+def replaced(path, target):
+    done.append(path)
+    if len(done) == 12:
+        os._exit(9)
+    return replace(path, target)
+Path.replace = replaced
+for piece in scan(sys.argv[1], size=1000):
+    archive(piece, sys.argv[2])
+"""
+
+
+def test_a_process_that_was_killed_is_replaced_by_another(captures: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "dataset"
+    ended = subprocess.run([sys.executable, "-c", KILLED, captures, folder], check=False)
+    assert ended.returncode == 9
+    assert rows_in(folder) != rows_of(captures)
+    reports = archived(captures, folder)
+    assert {report.is_new for report in reports} == {True, False}
+    assert rows_in(folder) == rows_of(captures)
+    # Nor is anything left of the one that was killed.
+    assert not [path for path in (folder / "_pieces").glob("*/*") if path.is_dir()]
+
+
+def test_two_workers_at_one_piece_do_no_harm(
+    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "dataset"
+    (piece, *others) = scan(captures / "line.bin", size=SIZE)
+    begun = Manifest.begin
+    reports: list[Report] = []
+
+    def begin(manifest: Manifest) -> Path:
+        unfinished = begun(manifest)
+        # While this one works, another does the same from beginning to end.
+        monkeypatch.setattr(Manifest, "begin", begun)
+        reports.append(archive(piece, folder))
+        return unfinished
+
+    monkeypatch.setattr(Manifest, "begin", begin)
+    reports.append(archive(piece, folder))
+    assert [report.error for report in reports] == [None, None]
+    assert reports[0].rows == reports[1].rows
+    for other in others:
+        archive(other, folder)
+    expected = {key: rows for key, rows in rows_of(captures).items() if key[1] == "line.bin"}
+    assert rows_in(folder) == expected
+
+
+# --- What is said --------------------------------------------------------------------------------
+
+
+def test_a_report_says_what_became_of_a_piece() -> None:
+    piece = Piece("/c/line.bin", "line.bin", 0, 1_500_000, "raw", None, (1_500_000, 1))
+    rows = {"BatteryVoltage": 3, "noise": 1}
+    said = [
+        str(Report(piece, rows, 0.5, is_new=True)),
+        str(Report(piece, rows)),
+        str(Report(piece, error="/c/line.bin: No such file or directory")),
+    ]
+    assert said == [
+        "line.bin[0:1500000]: 4 rows, 1.5 MB in 0.5 s",
+        "line.bin[0:1500000]: 4 rows, done before",
+        "line.bin[0:1500000]: error: /c/line.bin: No such file or directory",
+    ]
+
+
+@pytest.mark.parametrize("name", ["ü ß.bin", "a=b&c%20.bin", "x" * 120 + "ö" * 60])
+def test_a_capture_may_have_any_name(name: str, tmp_path: Path) -> None:
+    (tmp_path / "captures").mkdir()
+    (tmp_path / "captures" / name).write_bytes(conversation(3))
+    archived(tmp_path / "captures", tmp_path / "dataset")
+    (capture,) = {capture for _, capture in rows_in(tmp_path / "dataset")}
+    assert capture == name or len(os.fsencode(name)) > 200
