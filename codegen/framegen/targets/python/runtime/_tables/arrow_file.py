@@ -173,11 +173,11 @@ def arrow_written(
     try:
         with naming(part):
             _write(batches, part, EventRows(names), rows)
+        part.replace(target)
     except BaseException:
         with suppress(OSError):
             part.unlink(missing_ok=True)
         raise
-    part.replace(target)
     return rows
 
 
