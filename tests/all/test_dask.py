@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo.tables import Piece, Report, archive, scan
-from dask.distributed import Client, LocalCluster
+from dask import distributed
 
 from tests.tables.conversations import conversation, recorded
 

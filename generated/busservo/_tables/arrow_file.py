@@ -124,7 +124,7 @@ class _Rows:
             return pa.nulls(len(self._order), kind)
         noise = self._made[NOISE]
         values = [noise.column(name) for name in _of_unknown()]
-        absent = pa.compute.invert(noise.column("unknown"))
+        absent = pa.array(~noise.column("unknown").to_numpy(zero_copy_only=False))
         frames = pa.StructArray.from_arrays(values, fields=[*kind], mask=absent)
         return self._spread(NOISE, frames)
 
