@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo.tables import Piece, Report, archive, scan
-from dask import distributed
+from dask import distributed as untyped
 
 from tests.tables.conversations import conversation, recorded
 
@@ -31,18 +31,21 @@ def captures(tmp_path: Path) -> Path:
     return folder
 
 
+distributed: Any = untyped
+
+
 @contextmanager
 def cluster(folder: Path) -> Iterator[Any]:
     """Start two workers, as processes of this machine."""
     with (
-        LocalCluster(
+        distributed.LocalCluster(
             n_workers=2,
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address=None,
             local_directory=str(folder / "workers"),
         ) as machine,
-        Client(machine) as client,
+        distributed.Client(machine) as client,
     ):
         yield client
 

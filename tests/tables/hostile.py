@@ -26,11 +26,11 @@ def sealing(made: ModuleType) -> Callable[[bytes], bytes]:
     return sealed
 
 
-def ids_at(made: ModuleType) -> list[int]:
-    """Return where the ids of frames stand."""
+def heads_at(made: ModuleType) -> list[int]:
+    """Return where the ids, addresses and lengths of frames stand."""
     model: Any = import_module(f"{made.__name__}._explanation.carried_model")
-    slots = [slot for each in model.protocol().envelopes.values() for slot in each.ids]
-    return sorted({slot.at for slot in slots if slot.at >= 0})
+    slots = [slot for each in model.protocol().envelopes.values() for slot in each.slots]
+    return sorted({slot.at for slot in slots if slot.role in ("id", "address", "length")})
 
 
 def hostile_lines(
@@ -46,7 +46,7 @@ def _spoilt(draw: st.DrawFn, made: ModuleType, frames: st.SearchStrategy[bytes])
     frame, other = draw(frames), draw(frames)
     at, shared = draw(st.integers(1, len(frame))), draw(st.integers(1, min(len(frame), len(other))))
     seal = draw(st.sampled_from([sealing(made), bytes]))
-    unknown = _of_other_id(draw, made, frame)
+    unknown = _of_other_head(draw, made, frame)
     spoilt = [
         frame[:at],
         # The same beginning, over and over: each claims what the next ones are made of.
@@ -59,12 +59,13 @@ def _spoilt(draw: st.DrawFn, made: ModuleType, frames: st.SearchStrategy[bytes])
         frame[:-shared] + other,
         seal(unknown),
         seal(unknown[:at] + other),
-        _of_other_id(draw, made, seal((unknown[:at] + other)[: len(frame)])),
+        _of_other_head(draw, made, seal((unknown[:at] + other)[: len(frame)])),
     ]
     return draw(st.sampled_from(spoilt))
 
 
-def _of_other_id(draw: st.DrawFn, made: ModuleType, frame: bytes) -> bytes:
-    """Return a frame of which an id is another one, which may be unknown."""
-    at = draw(st.sampled_from(ids_at(made) or [0]))
-    return frame[:at] + draw(st.binary(min_size=1, max_size=1)) + frame[at + 1 :]
+def _of_other_head(draw: st.DrawFn, made: ModuleType, frame: bytes) -> bytes:
+    """Return a frame with another byte in its head, which may be of no message."""
+    at = draw(st.sampled_from(heads_at(made) or [0]))
+    other = draw(st.sampled_from([b"\xff", b"\xfe", b"\0"]) | st.binary(min_size=1, max_size=1))
+    return frame[:at] + other + frame[at + 1 :]

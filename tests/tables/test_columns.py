@@ -110,6 +110,13 @@ def test_what_is_absent_is_null(libraries: Libraries) -> None:
     ]
 
 
+def test_every_character_of_ascii_is_text(libraries: Libraries) -> None:
+    made = libraries["everything"]
+    frame = made.Texts(name="\x01 ~\x7f", note="\x7f").encode()
+    row, *_ = rows_in_tables(made, frame + bytes(600), made.Direction.TELLER_TO_ASKER)
+    assert (row.table, row.fields) == ("Texts", {"name": "\x01 ~\x7f", "note": "\x7f"})
+
+
 def test_zeros_within_a_text_are_part_of_it(libraries: Libraries) -> None:
     made = libraries["everything"]
     frame = made.Texts(name="a\0b", note="\0c\0").encode()

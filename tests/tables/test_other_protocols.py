@@ -15,7 +15,7 @@ from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
-from tests.tables.hostile import hostile_lines
+from tests.tables.hostile import hostile_lines, sealing
 from tests.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
 from tests.tables.shown import shown
 
@@ -155,3 +155,20 @@ def test_an_unknown_frame_that_ends_otherwise_is_one_row(libraries: Libraries) -
     assert (row.table, row.size) == ("unknown", len(frame))
     assert (row.fields["station"], row.fields["class"], row.fields["kind"]) == (300, 9, 2)
     assert row.fields["parameters"] == b"\xaa\xbb"
+
+
+def test_a_character_that_is_none_and_an_address_that_is_none_are_refused(
+    libraries: Libraries,
+) -> None:
+    made = libraries["everything"]
+    frame = bytearray(made.Texts(name="a", note="b").encode())
+    frame[5] = 0x80
+    line = sealing(made)(bytes(frame)) + filler("everything")
+    first, *_ = rows_in_tables(made, line, made.Direction.TELLER_TO_ASKER)
+    assert (first.table, first.offset, first.reason) == ("noise", 0, "out of range")
+    servo = libraries["lxservo"]
+    frame = bytearray(servo.MoveRead(servo_id=1).encode())
+    frame[2] = 0xFF
+    line = sealing(servo)(bytes(frame)) + filler("lxservo")
+    first, *_ = rows_in_tables(servo, line, servo.Direction.HOST_TO_SERVO)
+    assert (first.table, first.offset, first.reason) == ("noise", 0, "out of range")

@@ -135,6 +135,11 @@ HELD = holding(b"\0\0" + STOP + RUN + STOP)
 # The head of a move stands at the end of another one, and what it would hold behind that.
 REACHING = holding(b"\0\0\0" + bytes.fromhex("55 55 0B 03 02"))
 WORKED_OUT += [
+    # A header begins at the end of what is claimed, though nothing comes of it.
+    (
+        bytes.fromhex("55 55 03 63 55 00") + STOP,
+        [("noise", 0, 6, SAID, "unknown command"), ("ActionGroupStop", 6, 4, SAID, None)],
+    ),
     # What a frame holds is no event.
     (
         HELD + STOP,
@@ -186,6 +191,29 @@ def test_a_frame_is_whole_wherever_a_block_ends() -> None:
     ]
     for block in (1, 2, 3, 5, 7, *range(60, 75), 119):
         assert rows_in_tables(busservo, line, None, block=block) == expected
+
+
+@pytest.mark.parametrize("before", range(0, 700, 35))
+def test_a_claim_that_holds_a_frame_is_none_wherever_a_block_ends(before: int) -> None:
+    claim = bytes.fromhex("55 55 C6 63") + bytes(192) + STOP
+    line = bytes(before) + claim + FILLER
+    rows = rows_in_tables(busservo, line, HOST, block=900)
+    *head, stop, tail = [row[:3] for row in rows]
+    assert (stop, tail) == (
+        ("ActionGroupStop", before + 196, 4),
+        ("noise", before + 200, len(FILLER)),
+    )
+    assert {table for table, *_ in head} == {"noise"}
+
+
+def test_noise_goes_on_behind_a_last_block_that_is_whole() -> None:
+    # The block behind it is empty.
+    line = STOP + b"\x55\x55\0" + bytes(1193)
+    rows = [row[:5] for row in rows_in_tables(busservo, line, HOST, block=600)]
+    assert rows == [
+        ("ActionGroupStop", 0, 4, SAID, None),
+        ("noise", 4, 1196, SAID, "length mismatch"),
+    ]
 
 
 @pytest.mark.parametrize("direction", DIRECTIONS, ids=str)

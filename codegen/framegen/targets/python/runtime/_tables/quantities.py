@@ -153,6 +153,9 @@ def _readings(quantity: Quantity, array: pa.Array, addresses: Numbers) -> Readin
     absent = np.isin(value, quantity.absent)
     if np.issubdtype(value.dtype, np.floating):
         absent |= ~np.isfinite(value)
+    if "signed_as" in quantity.slot.said:
+        # As people read it: a little below zero is no more than that.
+        value = value.view(f"i{value.itemsize}")
     return Readings(frame, key, value, absent)
 
 
