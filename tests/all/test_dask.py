@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo.tables import Piece, Report, archive, scan
-from dask.distributed import Client, LocalCluster
+from dask import distributed
 
 from tests.tables.conversations import conversation, recorded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+# Untyped, as far as it is used here.
+dask: Any = distributed
 
 BROKEN = {"broken.hex", "gone.bin"}
 
@@ -35,14 +38,14 @@ def captures(tmp_path: Path) -> Path:
 def cluster(folder: Path) -> Iterator[Any]:
     """Start two workers, as processes of this machine."""
     with (
-        LocalCluster(
+        dask.LocalCluster(
             n_workers=2,
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address=None,
             local_directory=str(folder / "workers"),
         ) as machine,
-        Client(machine) as client,
+        dask.Client(machine) as client,
     ):
         yield client
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 
 from .layout import EVENT_COLUMNS, layouts
 from .reader import BLOCK, found
@@ -123,7 +124,7 @@ class _Rows:
             return pa.nulls(len(self._order), kind)
         noise = self._made[NOISE]
         values = [noise.column(name) for name in _of_unknown()]
-        absent = pa.compute.invert(noise.column("unknown"))
+        absent = pc.invert(noise.column("unknown"))
         frames = pa.StructArray.from_arrays(values, fields=[*kind], mask=absent)
         return self._spread(NOISE, frames)
 

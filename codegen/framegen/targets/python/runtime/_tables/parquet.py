@@ -82,7 +82,7 @@ class ParquetFiles:
 
 def _writer(path: Path, schema: pa.Schema) -> Any:
     # Dictionaries pay for names alone: numbers are smaller, and quicker, as they are.
-    names = [each.name for each in schema if pa.types.is_dictionary(each.type)]
+    names: Any = [each.name for each in schema if pa.types.is_dictionary(each.type)]
     return pq.ParquetWriter(
         str(path),
         schema,
