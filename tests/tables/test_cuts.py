@@ -106,9 +106,9 @@ def test_no_place_is_behind_noise_or_what_waits() -> None:
 
 @pytest.mark.usefixtures("way")
 def test_a_decoder_that_begins_in_a_frame_may_wait_for_more() -> None:
-    # In the frame stands the beginning of the largest one.
-    around = bytes.fromhex("55 55 08 03 01 55 55 FB 03 52")
-    waits_until = 5 + 0xFB + 2
+    # In the frame stand a frame and the beginning of a large one.
+    around = bytes.fromhex("55 55 0E 03 03 00 00 55 55 02 07 55 55 FB 03 52")
+    waits_until = 11 + 0xFB + 2
     capture = around + STOP * 100
     assert len(StreamDecoder(None).feed(capture)) == 101
     (first, *_) = safe_cuts(capture, len(around) + 1)
