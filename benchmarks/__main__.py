@@ -10,11 +10,11 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks import captures, messages, peers, processes, report, streams
+from benchmarks import captures, column_rows, messages, peers, processes, report, streams
 from benchmarks.checksummed import measure as checksummed
 from benchmarks.checksummed import peers as checking_peers
 from benchmarks.checksummed.rows import ROWS as CHECKSUMMED_ROWS
-from benchmarks.results import FLOOR, OURS, Results
+from benchmarks.results import AS_TABLES, FLOOR, OURS, Results
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,6 +33,7 @@ ROWS = (
     *CHECKSUMMED_ROWS,
     "import",
     *COMMAND_ROWS,
+    *column_rows.ROWS,
     "generate",
 )
 
@@ -133,13 +134,31 @@ def measure(
         elif row in streams.NOISE_ROWS:
             cases = [streams.floor_case(), *(ours.stream_cases() if ours else [])]
             streams.measure_noise(row, cases, chosen.rounds, stretch, results)
+        elif row in column_rows.ROWS:
+            measure_columns(row, chosen, results)
         elif row == "import":
             measure_imports(ours, present, chosen.rounds, results)
-        elif row in COMMAND_ROWS:
-            measure_decoding(row, chosen.rounds, results)
         else:
-            measure_generators(present, chosen.rounds, results)
+            measure_commands(row, present, chosen.rounds, results)
     return results
+
+
+def measure_columns(row: str, chosen: argparse.Namespace, results: Results) -> None:
+    """Make columns of captures, which needs what only the extra `tables` brings."""
+    try:
+        columns = importlib.import_module("benchmarks.columns")
+    except ImportError as error:
+        results.refuse(row, AS_TABLES, error)
+    else:
+        columns.measure(row, chosen.rounds, results, quick=chosen.quick)
+
+
+def measure_commands(row: str, present: Sequence[Peer], rounds: int, results: Results) -> None:
+    """Run a command from start to end."""
+    if row in COMMAND_ROWS:
+        measure_decoding(row, rounds, results)
+    else:
+        measure_generators(present, rounds, results)
 
 
 def measure_imports(

@@ -96,6 +96,41 @@ def conversation() -> bytes:
     return bytes(data)
 
 
+@cache
+def disturbed(share: float) -> bytes:
+    """Return a conversation of which so much is noise, and half of that looks like frames.
+
+    A piece of noise is some random bytes, a false header with a length and a command that a message
+    has, a frame that is cut off, or a frame with one byte too many.
+    """
+    rng = random.Random(share)
+    frames = _frames(rng)
+    data = bytearray()
+    noise = 0
+    while len(data) < PIECE:
+        frame = rng.choice(frames)
+        data += _QUESTIONS.get(frame[3], b"") + frame
+        while noise < share * len(data):
+            piece = _hostile(rng, rng.choice(frames))
+            data += piece
+            noise += len(piece)
+    return bytes(data)
+
+
+def _hostile(rng: random.Random, frame: bytes) -> bytes:
+    """Return a piece of noise."""
+    match rng.randrange(4):
+        case 0:
+            return rng.randbytes(rng.randint(1, 16))
+        case 1:
+            return frame[:4]
+        case 2:
+            return frame[: rng.randrange(1, len(frame))]
+        case _:
+            at = rng.randrange(2, len(frame))
+            return frame[:at] + rng.randbytes(1) + frame[at:]
+
+
 @lru_cache(maxsize=2)
 def chunks(kind: str, number: int, size: int, chunk: int) -> list[bytes]:
     """Return the first `size` bytes of a piece in chunks, as a port or a file returns them."""

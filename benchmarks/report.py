@@ -12,7 +12,10 @@ from benchmarks.checksummed.rows import PROTOCOLS, ROWS, SPEAKERS
 from benchmarks.peers import MODULES, NOT_INSTALLED
 from benchmarks.results import (
     AS_COLUMNS,
+    AS_TABLES,
     CLIENT,
+    DECODED,
+    DICTS,
     EVERY_FIELD,
     FLOOR,
     GENERATED,
@@ -92,6 +95,36 @@ TABLES = (
         {"command-text": "text", "command-json": "JSON", "command-csv": "CSV"},
         (OURS,),
     ),
+    Table(
+        "A capture of both directions, CPU milliseconds a megabyte",
+        {
+            "columns-clean": "clean",
+            "columns-noise-1": "1 % noise",
+            "columns-noise-10": "10 % noise",
+            "columns-parquet": "to Parquet",
+            "columns-arrow": "to an Arrow file",
+        },
+        (OURS,),
+    ),
+    Table(
+        "`busservo.tables` against these, ratio of CPU time",
+        {
+            "columns-clean-share": "clean",
+            "columns-noise-1-share": "1 % noise",
+            "columns-noise-10-share": "10 % noise",
+        },
+        (OURS,),
+    ),
+    Table(
+        "An archive as Parquet, milliseconds a megabyte",
+        {
+            "columns-archive-1": "CPU, one process",
+            "columns-archive-2": "two",
+            "columns-archive-1-clock": "clock, one process",
+            "columns-archive-2-clock": "two",
+        },
+        (OURS,),
+    ),
     Table("Generate, CPU seconds of a fresh process", {"generate": "s"}, (OURS, "Kaitai Struct")),
 )
 
@@ -107,7 +140,7 @@ def everything(
     """Return the whole report."""
     titles = {FLOOR: "floor (struct by hand)"}
     titles |= {name: name for name in (OURS, EVERY_FIELD, AS_COLUMNS, IN_USE, CLIENT)}
-    titles |= {name: name for name in (GENERATED, GENERATED_READ)}
+    titles |= {name: name for name in (GENERATED, GENERATED_READ, DECODED, DICTS, AS_TABLES)}
     titles |= {peer.name: peer.title for peer in present}
     titles |= {peer.name: peer.title for peer in checking}
     missing = [*([] if with_ours else [OURS]), *(one.name for one in absent)]

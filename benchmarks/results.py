@@ -19,6 +19,11 @@ CLIENT = "busservo, its client in use"
 """The library in the plainest use of a row, and in other uses."""
 
 
+DECODED = "busservo, StreamDecoder"
+DICTS = "busservo, StreamDecoder and to_dict"
+AS_TABLES = "busservo.tables"
+"""A capture of both directions: as messages, as plain data, and as columns."""
+
 GENERATED = "the generated library"
 GENERATED_READ = "the generated library, every field read"
 """The libraries of protocols with checksums."""

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 from benchmarks.results import (
     AS_COLUMNS,
+    AS_TABLES,
     AT_HAND,
     BY_CLASS,
     CLIENT,
+    DICTS,
     EVERY_FIELD,
     GENERATED,
     IN_USE,
@@ -77,5 +79,8 @@ TARGETS = (
     Target("import", CLIENT, "import the client, ms over bare Python", goal=15),
     Target("command-text", OURS, "busservo decode, CPU seconds a megabyte", goal=0.5),
     Target("command-json", OURS, "busservo decode --json, CPU seconds a megabyte", goal=0.5),
+    Target("columns-clean", AS_TABLES, "a capture as columns, CPU ms a megabyte", 10.0),
+    Target("columns-clean-share", DICTS, "a capture as columns, against objects", round(1 / 30, 3)),
+    Target("columns-parquet", AS_TABLES, "a capture as Parquet, CPU ms a megabyte", goal=12.0),
     Target("generate", OURS, "framegen generate, CPU seconds", 0.5, 0.30),
 )

@@ -6,6 +6,8 @@ Fenced blocks are run from the top of a page to its end, in a copy of the projec
 Where a page uses git, the copy is a repository in which all is committed.
 Each program and each session begins with nothing, so that it runs wherever a reader pastes it. One
 that begins with `# NAME.py` is saved by that name, and `$ python NAME.py` runs it.
+A program with `if __name__ == "__main__":` starts processes, and is one of its own.
+A block whose language is followed by `slow` is run only where that is asked for.
 A command is a process of its own once a page has changed what it is made of, and runs in this one
 until then, as its entry point does: for most pages, starting it would be most of the work.
 Whatever port a command or a program opens, a virtual board is there: one for the whole page, which
@@ -103,25 +105,32 @@ _GIT = {
 # What each of them is made of, by the folder at the top.
 _GENERATED = {"spec", "codegen", "generated"}
 _MADE_OF = {"busservo": _GENERATED, "framegen": {"codegen"}, "lxservo": _GENERATED}
-_BLOCK = re.compile(r"^```(console|pycon|python|output|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_BLOCK = re.compile(
+    r"^```(console|pycon|python|output|diff)( slow)?\n(.*?)^```$", re.MULTILINE | re.DOTALL
+)
+_ITS_OWN = 'if __name__ == "__main__":'
 _SAVED = re.compile(r"# (\w+\.py)\n")
 _TIMED = re.compile(r"(?:^.*\((?:\d+\.\d+ s(?:, )?)+\)\n)+", re.MULTILINE)
 _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
 
-def played(page: str, folder: Path) -> str:
+def played(page: str, folder: Path, *, slow: bool = False) -> str:
     """Return the page with what its examples really print in `folder`, which they may change."""
     with _Bench() as bench:
         player = _Player(folder, bench)
-        return _BLOCK.sub(
-            lambda block: f"```{block[1]}\n{player.play(block[1], block[2])}```", page
-        )
+
+        def really(block: re.Match[str]) -> str:
+            kind, is_slow, text = block.groups(default="")
+            truth = text if is_slow and not slow else player.play(kind, text)
+            return f"```{kind}{is_slow}\n{truth}```"
+
+        return _BLOCK.sub(really, page)
 
 
 def copy_project(folder: Path, page: str) -> Path:
     """Copy all that the examples of a page work on, and return the copy."""
     litter = shutil.ignore_patterns("__pycache__")
-    kinds = {kind for kind, _ in _BLOCK.findall(page)}
+    kinds = {kind for kind, _, _ in _BLOCK.findall(page)}
     for name in (*(_READ if kinds else ()), *(_CHANGED if "diff" in kinds else ())):
         if (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, folder / name, ignore=litter)
@@ -223,6 +232,8 @@ class _Player:
 
     def _program(self, source: str) -> str:
         """Return the output of a program that opens any port: a virtual board is there."""
+        if _ITS_OWN in source:
+            return self._process(source)
         output = io.StringIO()
         opening = mock.patch.multiple(
             busservo,
@@ -239,10 +250,26 @@ class _Player:
             self._with_servos(),
             undoubted(),
             _at(self._folder),
+            # What draws does so into files, wherever there is a screen.
+            mock.patch.dict(os.environ, MPLBACKEND="Agg"),
             contextlib.redirect_stdout(output),
         ):
             exec(source, self._names)  # noqa: S102 - our own pages
         return output.getvalue()
+
+    def _process(self, source: str) -> str:
+        """Return the output of a program that is a process of its own."""
+        (self._folder / "program.py").write_text(source, encoding="utf-8")
+        return subprocess.run(
+            [sys.executable, "-W", "error", "program.py"],
+            cwd=self._folder,
+            env=os.environ | {"PYTHONUTF8": "1"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
+            timeout=5 * GENEROUS,
+            check=False,
+        ).stdout
 
     def _with_servos(self) -> contextlib.AbstractContextManager[object]:
         """Have programs open the port of the servos, whatever they name."""
@@ -339,7 +366,7 @@ class _Player:
     def _evaluate(self, source: str) -> str:
         """Return the output of an interactive Python."""
         output = io.StringIO()
-        with contextlib.redirect_stdout(output):
+        with _at(self._folder), contextlib.redirect_stdout(output):
             try:
                 exec(compile(source, "<page>", "single"), self._names)  # noqa: S102 - our own pages
             except Exception as error:  # noqa: BLE001 - it is shown
@@ -397,7 +424,7 @@ def refresh(pages: Sequence[Path]) -> int:
         text = page.read_text(encoding="utf-8")
         with tempfile.TemporaryDirectory() as folder:
             try:
-                new = played(text, copy_project(Path(folder), text))
+                new = played(text, copy_project(Path(folder), text), slow=True)
             except StaleDiffError as error:
                 stale += 1
                 print(f"mend the diff in {page.name} by hand: {error}", file=sys.stderr)

@@ -1,5 +1,6 @@
 """Our pages are true: their commands work, their output is right, their links lead somewhere."""
 
+import os
 import re
 from pathlib import Path
 
@@ -55,6 +56,19 @@ def test_a_session_that_lies_is_found_out(tmp_path: Path) -> None:
         "```pycon\n>>> for i in range(2):\n...     print(i)\n0\n1\n>>> 1 / 0\n"
         "Traceback (most recent call last):\n  ...\nZeroDivisionError: division by zero\n```\n"
     )
+
+
+def test_a_slow_program_is_run_only_where_that_is_asked_for(tmp_path: Path) -> None:
+    page = "```python slow\nprint(1)\n```\n\n```output slow\n2\n```\n"
+    assert played(page, tmp_path) == page
+    assert played(page, tmp_path, slow=True) == page.replace("2", "1")
+
+
+def test_a_program_that_starts_processes_is_one_of_its_own(tmp_path: Path) -> None:
+    program = 'import os\nhere = os.getpid()\nif __name__ == "__main__":\n    print(here)\n'
+    page = f"```python\n{program}```\n\n```output\nno number\n```\n"
+    _, _, shown = played(page, tmp_path).partition("```output\n")
+    assert int(shown.removesuffix("\n```\n")) != os.getpid()
 
 
 @pytest.mark.parametrize("kind", ["python", "pycon"])

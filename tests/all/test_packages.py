@@ -47,6 +47,32 @@ for name in ("framegen", "busservo_simulator", "yaml", "jinja2", "pydantic", "hy
 move = busservo.ServoMove(time_ms=1000, targets=[(1, 800)])
 assert busservo.decode(move.encode(), busservo.Direction.HOST_TO_CONTROLLER) == move
 """
+TABLES = """
+import importlib.util
+from NAME import tables
+
+for name in ("pandas", "matplotlib"):
+    assert importlib.util.find_spec(name) is None, name
+found = tables.read(bytes.fromhex("00 FRAME"))
+assert found.filled.keys() == {"MESSAGE", "noise"}, found
+assert found["MESSAGE"]["FIELD"].to_pylist() == [VALUE], found["MESSAGE"]
+assert found["noise"]["size"].to_pylist() == [1], found["noise"]
+"""
+# One message of each library, as a capture with a stray byte before it.
+CAPTURED = {
+    "busservo": {
+        "FRAME": "55 55 04 0F C9 1E",
+        "MESSAGE": "BatteryVoltage",
+        "FIELD": "voltage_mv",
+        "VALUE": "7881",
+    },
+    "lxservo": {
+        "FRAME": "55 55 01 05 1C F4 01 E8",
+        "MESSAGE": "Position",
+        "FIELD": "position",
+        "VALUE": "500",
+    },
+}
 BOARD = """
 from busservo import Controller
 from busservo_simulator import VirtualClock, VirtualController
@@ -108,6 +134,13 @@ def test_a_package_has_its_metadata_and_files(built: Path, name: str) -> None:
     assert f"# {name}\n" in str(metadata.get_payload())
     licensed = [each for each in inside if each.endswith("licenses/LICENSE")]
     assert bool(licensed) == (name not in GENERATED)
+    if name in CAPTURED:
+        assert {"tables", "plots"} <= {*metadata.get_all("Provides-Extra", [])}
+        needed = metadata.get_all("Requires-Dist", [])
+        for package in ("numpy", "pyarrow", "matplotlib"):
+            given = [line for line in needed if line.startswith(package)]
+            assert given, package
+            assert all("; extra ==" in line for line in given), given
     assert f"{name.replace('-', '_')}/py.typed" in inside or name == "framegen"
     with tarfile.open(source) as archive:
         inside = [each.partition("/")[2] for each in archive.getnames()]
@@ -133,6 +166,8 @@ def shelf(built: Path, python: str, tmp_path_factory: pytest.TempPathFactory) ->
     folder = tmp_path_factory.mktemp("shelf")
     pip("--python", python, "download", "-qq", "-d", folder, *built.glob("*.whl"), cwd=folder)
     pip("--python", python, "download", "-qq", "-d", folder, "hatchling<2", cwd=folder)
+    extra = [f"{wheel}[tables]" for wheel in files_of(built, "busservo", ".whl")]
+    pip("--python", python, "download", "-qq", "-d", folder, *extra, cwd=folder)
     for name in FOLDERS:
         for ours in files_of(folder, name, ".whl"):
             ours.unlink()
@@ -141,7 +176,7 @@ def shelf(built: Path, python: str, tmp_path_factory: pytest.TempPathFactory) ->
 
 @pytest.fixture
 def install(python: str, shelf: Path, tmp_path: Path) -> Callable[..., Path]:
-    def installed(*packages: Path) -> Path:
+    def installed(*packages: Path | str) -> Path:
         run(python, "-m", "venv", "--without-pip", "env", cwd=tmp_path)
         folder = tmp_path / "env" / ("Scripts" if os.name == "nt" else "bin")
         where = ["--no-index", "--find-links", shelf]
@@ -168,6 +203,37 @@ def test_the_library_runs_alone(
     assert shown.startswith("BatteryVoltage, controller -> host\n")
     shown = run(programs / "busservo", "docs", "BatteryVoltage", cwd=tmp_path)
     assert shown.startswith("BatteryVoltage\nThe voltage of the battery.\n")
+
+
+@pytest.mark.parametrize("name", CAPTURED)
+def test_tables_come_with_their_extra(
+    built: Path, install: Callable[..., Path], name: str, tmp_path: Path
+) -> None:
+    (wheel,) = files_of(built, name, ".whl")
+    python = install(f"{wheel}[tables]") / "python"
+    program = TABLES.replace("NAME", name)
+    for word, text in CAPTURED[name].items():
+        program = program.replace(word, text)
+    run(python, "-W", "error", "-c", program, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("name", CAPTURED)
+def test_without_the_extra_tables_say_how_to_get_it(
+    built: Path, install: Callable[..., Path], name: str, tmp_path: Path
+) -> None:
+    python = install(*files_of(built, name, ".whl")) / "python"
+    run(python, "-W", "error", "-c", f"import {name}.recordings", cwd=tmp_path)
+    done = subprocess.run(
+        [python, "-c", f"import {name}.tables"],
+        cwd=tmp_path,
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 1
+    message = done.stderr.splitlines()[-1]
+    assert message.startswith("ImportError: numpy is needed here, and cannot be imported (")
+    assert message.endswith(f"): pip install '{name}[tables]'")
 
 
 GUIDES = {

@@ -68,6 +68,8 @@ OFFERED = [
     ("busservo explain --direction c", ["controller"]),
     ("busservo monitor --only n", ["noise"]),
     ("busservo monitor --di", ["--direction"]),
+    ("busservo stats --pl", ["--plot"]),
+    ("busservo decode --parquet gen", ["generated"]),
     ("busservo monitor --port ", ["/dev/ttyUSB7", "COM7"]),
     ("busservo monitor --port C", ["COM7"]),
     ("busservo simulate --bat", ["--battery"]),

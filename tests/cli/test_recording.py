@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead
 from busservo._cli import main, recording
+from busservo._cli.progress_bar import progress_bar
 
 from tests.timeouts import GENEROUS
 
@@ -236,6 +237,45 @@ class Terminal(io.StringIO):
         return True
 
 
+@pytest.mark.parametrize(
+    ("done", "size", "seconds", "expected"),
+    [
+        (0, 80_000_000, 0.0, "[....................]   0%  0.0 of 80.0 MB read"),
+        (
+            20_000_000,
+            80_000_000,
+            2.0,
+            "[#####...............]  25%  20.0 of 80.0 MB read, 10.0 MB/s, 6 s left",
+        ),
+        (
+            1_000_000,
+            1_000_000_000,
+            8.0,
+            "[....................]   0%  1.0 of 1000.0 MB read, 0.1 MB/s, 2:13 h left",
+        ),
+        (
+            8_000_000,
+            80_000_000,
+            8.4,
+            "[##..................]  10%  8.0 of 80.0 MB read, 1.0 MB/s, 1:16 min left",
+        ),
+        (
+            80_000_000,
+            80_000_000,
+            8.0,
+            "[####################] 100%  80.0 of 80.0 MB read, 10.0 MB/s",
+        ),
+        # A file that grows while it is read.
+        (90, 80, 0.1, "[####################] 100%  0.0 of 0.0 MB read"),
+        (3_000_000, 0, 1.5, "3.0 MB read, 2.0 MB/s"),
+    ],
+)
+def test_the_bar_shows_share_rate_and_time_left(
+    done: int, size: int, seconds: float, expected: str
+) -> None:
+    assert progress_bar(done, size, seconds) == expected
+
+
 def test_a_long_file_says_how_far_it_has_been_read(
     log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -246,5 +286,5 @@ def test_a_long_file_says_how_far_it_has_been_read(
     log.write_text(CUT_OFF + 300_000 * "#\n")
     assert main(["decode", log.name]) == 0
     shown = terminal.getvalue()
-    assert f"\r{log.name}: 0.1 of 0.6 MB read" in shown
+    assert f"\r{log.name}: [##..................]  11%  0.1 of 0.6 MB read" in shown
     assert shown.endswith(f"\r{TOTALS}")

@@ -6,6 +6,7 @@ import html
 import re
 
 import pytest
+from framegen.site.guides.guide import Guide
 from framegen.site.guides.highlight import code_block
 
 from tests.docs.lamps import lamps
@@ -93,3 +94,10 @@ def test_every_class_of_code_has_a_colour_in_the_style_sheet() -> None:
     style = lamps()["index.html"].styles[0]
     for name in ("prompt", "printed", "comment", "keyword", "text", "number", "name"):
         assert f".code code .{name} {{" in style
+
+
+def test_what_follows_the_language_of_a_block_is_for_others() -> None:
+    plain = Guide("a.md", "```python\nimport x\n```\n").body
+    marked = Guide("a.md", "```python slow\nimport x\n```\n").body
+    assert marked == plain
+    assert "keyword" in plain

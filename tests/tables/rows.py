@@ -56,15 +56,16 @@ def rows_in_tables(
 
 
 def _row(name: str, values: dict[str, Any]) -> Row:
-    event = [values.pop(each) for each in ("offset", "size", "direction")]
-    time, clock = values.pop("time"), values.pop("clock")
+    offset, size, direction, time, clock = (
+        values.pop(each) for each in ("offset", "size", "direction", "time", "clock")
+    )
     if name != "noise":
-        return Row(name, *event, None, time, exact(values), clock)
+        return Row(name, offset, size, direction, None, time, exact(values), clock)
     reason = values.pop("reason")
     if values.pop("unknown"):
-        return Row("unknown", *event, reason, time, exact(values), clock)
+        return Row("unknown", offset, size, direction, reason, time, exact(values), clock)
     assert set(values.values()) <= {None}
-    return Row("noise", *event, reason, time, None, clock)
+    return Row("noise", offset, size, direction, reason, time, None, clock)
 
 
 def rows_of_decoder(

@@ -22,6 +22,7 @@ from tests.protocols.specs import FILES, messages_of
 from tests.protocols.streams import LARGE, all_ways
 from tests.tables.hostile import sealing
 from tests.tables.rows import Row, exact, fields_of, rows_in_tables
+from tests.tables.shown import shown
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
@@ -32,11 +33,10 @@ EVENT = ["offset", "size", "direction", "time", "clock"]
 # --- Values --------------------------------------------------------------------------------------
 
 each_way = pytest.mark.parametrize(
-    ("name", "way"), [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
+    ("name", "way"), [shown(name, way, called=f"{name}-{way.sender}") for name, way in all_ways()]
 )
 
 
-@pytest.mark.each_protocol
 @each_way
 @few_each
 @given(data=st.data())
@@ -211,8 +211,7 @@ def metadata(column: pa.Field) -> dict[str, Any]:
     }
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [shown(name) for name in FILES])
 def test_types_and_meanings_are_those_of_the_spec(libraries: Libraries, name: str) -> None:
     made = libraries[name]
     schemas = import_module(f"{made.__name__}.tables").schemas()

@@ -17,6 +17,7 @@ from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
 from tests.tables.hostile import hostile_lines
 from tests.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
+from tests.tables.shown import shown
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -29,7 +30,6 @@ NO_HEADER = "nothing constant begins a frame"
 NO_ID = "no frame says which message it is"
 NO_LENGTH = "no frame says how long it is"
 SEVERAL = "frames differ in their parts"
-OPTIONAL = "fields may be absent"
 UNSENT = "the checksum covers what is not sent"
 END = "a constant ends each frame"
 VECTORISED: dict[tuple[str, str], str | None] = {
@@ -65,8 +65,8 @@ VECTORISED: dict[tuple[str, str], str | None] = {
     ("tfmini", "sensor"): NO_ID,
     ("tfmini", "any"): NO_ID,
     ("ubx", "host"): None,
-    ("ubx", "receiver"): OPTIONAL,
-    ("ubx", "any"): OPTIONAL,
+    ("ubx", "receiver"): None,
+    ("ubx", "any"): None,
     ("visca", "controller"): SEVERAL,
     ("visca", "camera"): END,
     ("visca", "any"): SEVERAL,
@@ -74,11 +74,9 @@ VECTORISED: dict[tuple[str, str], str | None] = {
     ("lxservo", "servo"): None,
     ("lxservo", "any"): None,
     ("everything", "asker"): UNSENT,
-    ("everything", "teller"): OPTIONAL,
+    ("everything", "teller"): None,
     ("everything", "any"): SEVERAL,
 }
-# Those that are read in order share all of their way but the decoder, which has tests of its own.
-SHOWN = {"modbus", "sbus", "everything"}
 
 
 def ways_of(name: str) -> list[Direction | None]:
@@ -91,13 +89,9 @@ def sender(way: Direction | None) -> str:
     return "any" if way is None else way.sender
 
 
-def _case(name: str, way: Direction | None) -> Any:
-    quick = VECTORISED[name, sender(way)] is None or name in SHOWN
-    marks = () if quick else (pytest.mark.slow,)
-    return pytest.param(name, way, id=f"{name}-{sender(way)}", marks=marks)
-
-
-CASES = [_case(name, way) for name in FILES for way in ways_of(name)]
+CASES = [
+    shown(name, way, called=f"{name}-{sender(way)}") for name in FILES for way in ways_of(name)
+]
 each_way = pytest.mark.parametrize(("name", "way"), CASES)
 
 
@@ -124,7 +118,7 @@ def is_vectorised(made: ModuleType, direction: Any) -> bool:
     return bool(searchable.is_searchable(search.sent(direction)))
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [shown(name) for name in FILES])
 def test_what_is_vectorised_stays_so(libraries: Libraries, name: str) -> None:
     made = libraries[name]
     found = {

@@ -20,6 +20,7 @@ VERBS = {
     "replay": "Send a recording again.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual device to talk to.",
+    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
     "teach": "Release the device, and record poses set by hand.",
 }
 
@@ -42,6 +43,11 @@ EXAMPLES = {
         ("busservo decode --json line.bin", "a line of JSON for each message and noise"),
         ("busservo decode -t absolute line.hex", "a recording, with the time of day"),
         ("busservo decode --csv line.hex", "a row for each, for a spreadsheet"),
+        (
+            "busservo decode line.bin --parquet tables",
+            "a folder of tables, for pandas, Polars or DuckDB",
+        ),
+        ("busservo decode line.bin --arrow line.arrow", "all events in one table"),
     ),
     "docs": (
         ("busservo docs", "every message, in a line"),
@@ -130,6 +136,11 @@ EXAMPLES = {
     "simulate": (
         ("busservo simulate", "a device behind a port, whose name is printed first"),
         ("busservo simulate --help", "all its options"),
+    ),
+    "stats": (
+        ("busservo stats line.hex", "a recording: what came how often, and when"),
+        ("busservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
+        ("busservo stats --json line.hex", "for a program to read"),
     ),
     "teach": (
         ("busservo teach poses.json --port COM7", "all ids that answer, at each Enter"),

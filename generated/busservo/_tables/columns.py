@@ -23,9 +23,14 @@ if TYPE_CHECKING:
 
 def batch_of(layout: Layout, frames: Frames) -> pa.RecordBatch:
     """Return the frames of one message as a record batch."""
-    fields = [_Column(layout, frames, column).array for column in layout.columns]
+    fields = [field_array(layout, frames, column) for column in layout.columns]
     columns = [*event_columns(frames), *fields]
     return pa.RecordBatch.from_arrays(columns, schema=schema_of(layout))
+
+
+def field_array(layout: Layout, frames: Frames, column: Column) -> pa.Array:
+    """Return the values of one field, in all frames of its message."""
+    return _Column(layout, frames, column).array
 
 
 def event_columns(found: Frames | Stray) -> list[pa.Array]:

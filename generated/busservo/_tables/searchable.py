@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from .layout import Layout
 
 _IN_FRONT = ("constant", "length", "id", "address", "counter")
+_COMPARED = ("length", "id", "address", "checksum")
+# Larger ones have no room in the numbers that are worked with.
+_WIDEST = 4
 
 
 def is_searchable(messages: Sequence[Layout]) -> bool:
@@ -27,7 +30,6 @@ def is_searchable(messages: Sequence[Layout]) -> bool:
     return (
         len(envelopes) == 1
         and all(map(_is_regular, envelopes.values()))
-        and all(not each.described.optional for each in messages)
         and all(is_testable(slot) for each in messages for slot in each.described.fields)
     )
 
@@ -40,6 +42,7 @@ def _is_regular(envelope: Envelope) -> bool:
         bool(envelope.header)
         and constants == len(envelope.header)
         and {"length", "id"} <= {*roles} <= {*_IN_FRONT}
+        and all(slot.size <= _WIDEST for slot in envelope.slots if slot.role in _COMPARED)
         and not envelope.unsent
         and all(slot.role == "checksum" for slot in behind)
         and all(is_summed(envelope, part) for part in envelope.checksums)

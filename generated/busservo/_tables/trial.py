@@ -61,6 +61,10 @@ class Trial:
             for field in tested:
                 self.part(field, slot.at + number * slot.size + field.at, there)
 
+    def optional(self, slot: Slot, tail: int) -> None:
+        """Test a number in those frames that do not end before it; `tail` bytes are behind."""
+        self.part(slot, slot.at, self._sizes - tail >= slot.at + slot.size)
+
     def part(self, slot: Slot, at: int, there: NDArray[np.bool_] | bool = True) -> None:
         """Test a constant, a number or a text, in those frames that have it."""
         for wrong, offset in self._wrong(slot, at):

@@ -19,6 +19,7 @@ VERBS = {
     "replay": "Send a recording again.",
     "send": "Send a message to a port, and print the reply.",
     "simulate": "Run a virtual device to talk to.",
+    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
 }
 
 EXAMPLES = {
@@ -82,6 +83,11 @@ EXAMPLES = {
         ("lxservo decode --json line.bin", "a line of JSON for each message and noise"),
         ("lxservo decode -t absolute line.hex", "a recording, with the time of day"),
         ("lxservo decode --csv line.hex", "a row for each, for a spreadsheet"),
+        (
+            "lxservo decode line.bin --parquet tables",
+            "a folder of tables, for pandas, Polars or DuckDB",
+        ),
+        ("lxservo decode line.bin --arrow line.arrow", "all events in one table"),
     ),
     "docs": (
         ("lxservo docs", "every message, in a line"),
@@ -179,5 +185,10 @@ EXAMPLES = {
     "simulate": (
         ("lxservo simulate", "a device behind a port, whose name is printed first"),
         ("lxservo simulate --help", "all its options"),
+    ),
+    "stats": (
+        ("lxservo stats line.hex", "a recording: what came how often, and when"),
+        ("lxservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
+        ("lxservo stats --json line.hex", "for a program to read"),
     ),
 }

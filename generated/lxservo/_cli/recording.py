@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 from ..recordings import RecordingError, read
 from .progress import PROGRESS_INTERVAL, Progress
+from .progress_bar import progress_bar
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
@@ -25,8 +26,10 @@ class Recording:
     """A recording that is open; `again` says whether it can be read more than once.
 
     Output so far is flushed before it waits for more. If that leaves a terminal empty for long, it
-    shows there how far it has come.
+    shows there how far it has come; `is_quiet` says that nothing is printed until all is read.
     """
+
+    is_quiet = False
 
     def __init__(self, stream: BinaryIO, name: str) -> None:
         self.name = name
@@ -36,15 +39,22 @@ class Recording:
         self._size = stream.seek(0, 2) if self.again else 0
         self._done = 0
         self._progress = Progress(sys.stderr)
-        self._shown = time.monotonic()
+        self._began = self._shown = time.monotonic()
 
     def entries(self, form: str, direction: Direction | None) -> Iterator[Entry]:
         """Yield the entries, from the beginning on. Raises UsageError."""
+        with self.from_the_beginning():
+            yield from read(self, form=form, direction=direction)
+
+    @contextmanager
+    def from_the_beginning(self) -> Iterator[None]:
+        """Go back to the beginning, and have what reads it raise UsageError for its content."""
         self._done = 0
+        self._began = time.monotonic()
         if self.again:
             self._stream.seek(0)
         try:
-            yield from read(self, form=form, direction=direction)
+            yield
         except RecordingError as error:
             raise UsageError(f"{self.name}, {error}") from None
         finally:
@@ -58,10 +68,11 @@ class Recording:
         except OSError as error:
             raise _unreadable(self.name, error) from None
         self._done += len(data)
-        if time.monotonic() - self._shown >= PROGRESS_INTERVAL and not sys.stdout.isatty():
-            self._shown = time.monotonic()
-            of = f" of {self._size / 1e6:.1f}" if self._size else ""
-            self._progress.show(f"{self.name}: {self._done / 1e6:.1f}{of} MB read")
+        now = time.monotonic()
+        if now - self._shown >= PROGRESS_INTERVAL and (self.is_quiet or not sys.stdout.isatty()):
+            self._shown = now
+            bar = progress_bar(self._done, self._size, now - self._began)
+            self._progress.show(f"{self.name}: {bar}")
         return data
 
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 
 from .layout import EVENT_COLUMNS, layouts
 from .reader import BLOCK, found
@@ -125,7 +124,7 @@ class _Rows:
             return pa.nulls(len(self._order), kind)
         noise = self._made[NOISE]
         values = [noise.column(name) for name in _of_unknown()]
-        absent = pc.invert(noise.column("unknown"))
+        absent = pa.array(~noise.column("unknown").to_numpy(zero_copy_only=False))
         frames = pa.StructArray.from_arrays(values, fields=[*kind], mask=absent)
         return self._spread(NOISE, frames)
 
@@ -175,11 +174,11 @@ def arrow_written(
     try:
         with naming(part):
             _write(batches, part, EventRows(names), rows)
+        part.replace(target)
     except BaseException:
         with suppress(OSError):
             part.unlink(missing_ok=True)
         raise
-    part.replace(target)
     return rows
 
 

@@ -58,9 +58,16 @@ def first_come(start: Numbers, end: Numbers) -> NDArray[np.bool_] | slice:
         return slice(None)
     # Into these nothing reaches, whatever else gives way.
     is_left = np.concatenate(([True], start[1:] >= np.maximum.accumulate(end)[:-1]))
+    doubtful = np.flatnonzero(~is_left)
+    after_left = is_left[doubtful - 1].tolist()
+    bounds = end[doubtful - 1].tolist(), start[doubtful].tolist(), end[doubtful].tolist()
+    found: list[bool] = []
     reached = 0
-    for number in np.flatnonzero(~is_left).tolist():
-        if is_left[number - 1]:
-            reached = end[number - 1]
-        is_left[number] = start[number] >= reached
+    for is_after_left, before, begin, until in zip(after_left, *bounds, strict=True):
+        if is_after_left:
+            reached = before
+        found.append(begin >= reached)
+        if found[-1]:
+            reached = until
+    is_left[doubtful] = found
     return is_left

@@ -144,7 +144,7 @@ class _Window:
         return Stray(
             offset=start[order] + self._offset,
             size=size[order],
-            reason=reasons[order],
+            reason=reasons[order].astype(np.int8),
             direction=np.full(count, self._sender, np.int8),
             time=None,
             clock=None,

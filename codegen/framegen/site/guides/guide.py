@@ -152,7 +152,9 @@ def rendered(tokens: Sequence[Token]) -> Markup:
 
 
 def _fence(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -> str:
-    return str(code_block(tokens[index].content, tokens[index].info.strip()))
+    # What follows the language is for others, such as those who run it.
+    language = tokens[index].info.strip().partition(" ")[0]
+    return str(code_block(tokens[index].content, language))
 
 
 def _code_block(_renderer: object, tokens: Sequence[Token], index: int, *_: object) -> str:

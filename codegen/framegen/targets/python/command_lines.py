@@ -32,6 +32,7 @@ _ABOUT = {
     "replay": "Send a recording again.",
     "send": "Send a message to a port.",
     "simulate": "Run a virtual device to talk to.",
+    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
     "teach": "Release the device, and record poses set by hand.",
 }
 
@@ -92,6 +93,11 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
             ("", "the name, VID:PID and description of each"),
             ("--json", "a line of JSON for each"),
         ],
+        "stats": [
+            ("line.hex", "a recording: what came how often, and when"),
+            ("line.bin --plot line.svg", "also a drawing of what was measured"),
+            ("--json line.hex", "for a program to read"),
+        ],
         "simulate": [
             ("", "a device behind a port, whose name is printed first"),
             ("--help", "all its options"),
@@ -137,6 +143,8 @@ def _decode_lines(model: Model) -> list[_Line]:
         ("--json line.bin", "a line of JSON for each message and noise"),
         ("-t absolute line.hex", "a recording, with the time of day"),
         ("--csv line.hex", "a row for each, for a spreadsheet"),
+        ("line.bin --parquet tables", "a folder of tables, for pandas, Polars or DuckDB"),
+        ("line.bin --arrow line.arrow", "all events in one table"),
     ]
 
 

@@ -10,7 +10,7 @@ from ..messages import MESSAGES
 from .events import KINDS
 from .examples import PROGRAM, SUMMARY
 from .reference_topics import TOPICS
-from .shell_completion import CompletionError, Files, Function, Words, script
+from .shell_completion import CompletionError, Files, Folders, Function, Words, script
 from .usage_error import UsageError
 from .verbs import verbs
 
@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
     from .shell_completion import Candidates
 
-_FILES = {"FILE", "HEX|FILE", "PATH"}
+_PATHS: dict[object, Candidates] = {
+    **dict.fromkeys(("FILE", "HEX|FILE", "PATH"), Files()),
+    "DIR": Folders(),
+}
 
 
 def completion(shell: str) -> str:
@@ -51,7 +54,7 @@ def _candidates(command: str, action: Action) -> Candidates | None:
         return Words([*(kind.__name__ for kind in MESSAGES), *TOPICS])
     if action.metavar == "NAME":
         return Words([*KINDS, *(kind.__name__ for kind in MESSAGES)])
-    return Files() if action.metavar in _FILES else None
+    return _PATHS.get(action.metavar)
 
 
 def _fields() -> Function:

@@ -40,6 +40,8 @@ class Shape:
                 trial.count(slot, items.size if slot.role == "size" else 1)
             elif slot.role == "list":
                 trial.listed(slot, [field for field in slot.fields if is_tested(field)])
+            elif slot.said.get("optional"):
+                trial.optional(slot, frame.least - frame.body_at)
             else:
                 trial.part(slot, slot.at)
         for part in frame.checksums:

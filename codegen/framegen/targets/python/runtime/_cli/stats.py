@@ -1,0 +1,76 @@
+"""The verb `stats`: what a line carried, in numbers, and its readings over time as a drawing."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from .._frame.protocol import BAUD
+from .capture import add_capture, direction_in, opened_capture
+from .exit_codes import DONE
+from .extra import imported
+from .numerals import at_least
+from .statistics_sheet import as_json, show
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+ABOUT = """\
+Counts and shares of each message, noise by reason, and between what the values lie; of a recording
+also rates, gaps, and how much of what the line allows was used. It takes the extra `tables`, and
+--plot the extra `plots`."""
+_SUFFIXES = (".svg", ".png", ".pdf")
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    add_capture(parser)
+    parser.add_argument(
+        "--baud",
+        type=at_least(1),
+        default=BAUD,
+        metavar="BAUD",
+        help=f"the rate of the line, for its load (default: {BAUD})",
+    )
+    parser.add_argument(
+        "--plot",
+        type=Path,
+        metavar="FILE",
+        help=f"also draw the readings over time; FILE ends with {' or '.join(_SUFFIXES)}",
+    )
+    parser.add_argument("--json", action="store_true", help="print a line of JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the statistics, and draw the readings if that is asked for."""
+    plot: Path | None = arguments.plot
+    baud: int = arguments.baud
+    # What cannot work is reported before a long file is read.
+    if plot is not None:
+        _refuse(plot)
+    measuring = imported("measuring")
+    drawing = None if plot is None else imported("drawing", needs="matplotlib")
+    with opened_capture(arguments) as (recording, form):
+        recording.is_quiet = True
+        with recording.from_the_beginning():
+            direction = direction_in(arguments)
+            found, traces = measuring.measured(
+                recording, form, direction, None if plot is None else baud
+            )
+    print(as_json(found, baud)) if arguments.json else show(found, recording.name, baud)
+    if drawing is not None:
+        sys.stdout.flush()
+        for note in drawing.drawn(traces, plot, recording.name, baud):
+            print(note, file=sys.stderr)
+    return DONE
+
+
+def _refuse(plot: Path) -> None:
+    """Raise UsageError for a drawing that cannot be made."""
+    if plot.suffix.lower() not in _SUFFIXES:
+        known = ", ".join(_SUFFIXES)
+        raise UsageError(f"{plot} cannot be drawn: its name has to end with one of {known}")
+    if not plot.parent.is_dir():
+        raise UsageError(f"{plot} cannot be written: there is no folder {plot.parent}")

@@ -1,0 +1,159 @@
+"""The drawings of `stats`: their lines, the points of these, and what is said of them."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree as ET
+
+import lxservo
+import lxservo._cli
+import pytest
+from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
+from busservo._cli import main
+from busservo._tables import plot, traces
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from busservo import Message
+
+Capture = pytest.CaptureFixture[str]
+
+ABSENT = 65535
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def drawn(file: Path) -> tuple[list[str], dict[str, list[tuple[float, float]]]]:
+    """Return the texts of a drawing, and the points of its lines by their names."""
+    root = ET.fromstring(file.read_text())  # noqa: S314 - our own
+    texts = ["".join(each.itertext()) for each in root.iter(f"{SVG}text")]
+    lines: dict[str, list[tuple[float, float]]] = {}
+    for group in root.iter(f"{SVG}g"):
+        path = group.find(f"{SVG}path")
+        if "." in group.get("id", "") and path is not None:
+            numbers = [float(each) for each in re.findall(r"-?[\d.]+", path.get("d", ""))]
+            pairs = [*zip(numbers[::2], numbers[1::2], strict=True)]
+            lines[group.attrib["id"]] = pairs
+    return texts, lines
+
+
+def positions(tmp_path: Path, count: int = 40) -> Path:
+    file = tmp_path / "line.hex"
+    lines = []
+
+    def line(message: Message, at: float) -> str:
+        return f"{message.encode().hex(' ')}  # {at:.6f} s, controller: {message}\n"
+
+    for number in range(count):
+        second = ABSENT if number == count // 2 else 400
+        read = ServoPositions([ServoPosition(1, 500 + number), ServoPosition(2, second)])
+        lines.append(line(read, number / 4))
+        if number % 10 == 0:
+            lines.append(line(BatteryVoltage(7400 - number), number / 4 + 0.05))
+    file.write_text("".join(lines))
+    return file
+
+
+def test_positions_and_the_battery_are_drawn(capsys: Capture, tmp_path: Path) -> None:
+    picture = tmp_path / "line.svg"
+    assert main(["stats", str(positions(tmp_path)), "--plot", str(picture)]) == 0
+    texts, lines = drawn(picture)
+    assert [*lines] == [
+        "ServoPositions.positions.position.1",
+        "ServoPositions.positions.position.2",
+        "BatteryVoltage.voltage_mv.0",
+    ]
+    first, second, battery = lines.values()
+    assert (len(first), len(second), len(battery)) == (40, 39, 4)
+    across = [x for x, _ in first]
+    steps = {round(after - before, 3) for before, after in pairwise(across)}
+    assert max(steps) - min(steps) < 0.01
+    # Upwards is less in SVG; what is absent is no point, as it would be far above.
+    assert [y for _, y in first] == sorted((y for _, y in first), reverse=True)
+    assert len({y for _, y in second}) == 1
+    assert [y for _, y in battery] == sorted(y for _, y in battery)
+    for text in ("Position", "Voltage", "V", "servo_id", "1", "2"):
+        assert text in texts
+    assert "time since the recording began (s)" in texts
+    assert "line.hex: Hiwonder bus servo controller" in texts
+
+
+def test_the_same_capture_gives_the_same_drawing(capsys: Capture, tmp_path: Path) -> None:
+    file, pictures = positions(tmp_path), [tmp_path / "a.svg", tmp_path / "b.svg"]
+    for picture in pictures:
+        assert main(["stats", str(file), "--plot", str(picture)]) == 0
+    first, second = (picture.read_bytes() for picture in pictures)
+    assert first == second
+    assert b"<dc:date>" not in first
+    assert {each.name for each in tmp_path.iterdir()} == {"a.svg", "b.svg", "line.hex"}
+
+
+@pytest.mark.parametrize(
+    ("suffix", "begins"),
+    [(".PNG", b"\x89PNG"), pytest.param(".pdf", b"%PDF", marks=pytest.mark.slow)],
+)
+def test_other_forms_of_pictures(
+    capsys: Capture, tmp_path: Path, suffix: str, begins: bytes
+) -> None:
+    file, pictures = positions(tmp_path, 3), [tmp_path / f"{name}{suffix}" for name in "ab"]
+    for picture in pictures:
+        assert main(["stats", str(file), "--plot", str(picture)]) == 0
+    first, second = (picture.read_bytes() for picture in pictures)
+    assert first.startswith(begins)
+    assert first == second
+
+
+def test_without_times_it_is_drawn_over_the_time_on_the_wire(
+    capsys: Capture, tmp_path: Path
+) -> None:
+    file, picture = tmp_path / "line.bin", tmp_path / "line.svg"
+    file.write_bytes(b"".join(BatteryVoltage(7000 + each).encode() for each in range(30)))
+    assert main(["stats", str(file), "--plot", str(picture), "--baud", "19200"]) == 0
+    texts, lines = drawn(picture)
+    assert "time on the wire at 19200 baud (s); the capture holds no times" in texts
+    assert len(lines["BatteryVoltage.voltage_mv.0"]) == 30
+
+
+def test_what_was_commanded_is_drawn_where_nothing_was_measured(
+    capsys: Capture, tmp_path: Path
+) -> None:
+    file, picture = tmp_path / "line.bin", tmp_path / "line.svg"
+    file.write_bytes(ServoMove(800, [ServoTarget(1, 500), ServoTarget(7, 600)]).encode() * 3)
+    assert main(["stats", str(file), "--plot", str(picture)]) == 0
+    _, lines = drawn(picture)
+    assert [*lines] == [
+        "ServoMove.targets.position.1",
+        "ServoMove.targets.position.7",
+        "ServoMove.time_ms.0",
+    ]
+
+
+def test_a_bus_has_a_line_for_each_address(capsys: Capture, tmp_path: Path) -> None:
+    file, picture = tmp_path / "line.bin", tmp_path / "line.svg"
+    read = [
+        lxservo.Move(servo_id=1, position=200, time_ms=100),
+        lxservo.Position(servo_id=1, position=-5),
+        lxservo.Position(servo_id=1, position=1004),
+        lxservo.Position(servo_id=9, position=77),
+        lxservo.Voltage(servo_id=9, voltage_mv=6900),
+    ]
+    file.write_bytes(b"".join(each.encode() for each in read))
+    assert lxservo._cli.main(["stats", str(file), "--plot", str(picture)]) == 0
+    texts, lines = drawn(picture)
+    assert [*lines] == ["Position.position.1", "Position.position.9", "Voltage.voltage_mv.9"]
+    assert "°" in texts
+
+
+def test_more_quantities_than_there_is_room_for_are_named(
+    capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(plot, "PANELS", 1)
+    assert main(["stats", str(positions(tmp_path)), "--plot", str(tmp_path / "a.svg")]) == 0
+    monkeypatch.setattr(traces, "_MOST_LINES", 1)
+    assert main(["stats", str(positions(tmp_path)), "--plot", str(tmp_path / "a.svg")]) == 0
+    shown = "not drawn, as there is no room: BatteryVoltage.voltage_mv"
+    more = "ServoPositions.positions.position of 1 more servo_id"
+    assert capsys.readouterr().err == f"{shown}\n{shown}, {more}\n"

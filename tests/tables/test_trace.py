@@ -1,0 +1,51 @@
+"""Traces: what they keep of many values is what can be seen of them."""
+
+from itertools import pairwise
+
+import numpy as np
+from busservo._tables import trace
+
+
+def test_a_long_trace_keeps_what_can_be_seen_of_it() -> None:
+    choose = np.random.default_rng(5)
+    seconds = np.cumsum(choose.uniform(0, 0.2, 200_000))
+    values = np.sin(seconds / 50) + choose.normal(size=len(seconds)) / 10
+    values[120_000], values[60_000] = 40.0, -40.0
+    found = trace.Trace()
+    for piece in np.array_split(np.arange(len(seconds)), 37):
+        found.add(seconds[piece], values[piece])
+    at, value = found.points()
+    assert found.count == 200_000
+    assert trace.BUCKETS <= len(at) <= 4 * trace.BUCKETS
+    assert (at[0], value[0], at[-1], value[-1]) == (
+        seconds[0],
+        values[0],
+        seconds[-1],
+        values[-1],
+    )
+    assert (np.diff(at) >= 0).all()
+    # Within each stretch of time, the extremes are those of all values.
+    edges = np.linspace(seconds[0], seconds[-1], 60)
+    width = 2 * (seconds[-1] - seconds[0]) / trace.BUCKETS
+    for low, high in pairwise(edges.tolist()):
+        inside = values[(seconds >= low) & (seconds < high)]
+        wider = value[(at >= low - width) & (at < high + width)]
+        assert wider.max() >= inside.max()
+        assert wider.min() <= inside.min()
+    assert (value.max(), value.min()) == (40.0, -40.0)
+
+
+def test_a_trace_is_the_same_however_it_is_cut() -> None:
+    choose = np.random.default_rng(9)
+    seconds = np.cumsum(choose.exponential(1.0, 3000))
+    values = np.where(choose.uniform(size=3000) < 0.1, np.nan, choose.normal(size=3000))
+    whole = trace.Trace()
+    whole.add(seconds, values)
+    pieces = trace.Trace()
+    for each in range(3000):
+        pieces.add(seconds[each : each + 1], values[each : each + 1])
+    few_at, few = trace.Trace().points()
+    assert len(few_at) == len(few) == 0
+    assert pieces.count == whole.count == int((~np.isnan(values)).sum())
+    assert np.nanmax(pieces.points()[1]) == np.nanmax(whole.points()[1]) == np.nanmax(values)
+    assert np.isnan(pieces.points()[1]).any()
