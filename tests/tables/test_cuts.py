@@ -105,6 +105,21 @@ def test_no_place_is_behind_noise_or_what_waits() -> None:
 
 
 @pytest.mark.usefixtures("way")
+def test_a_decoder_that_begins_in_a_frame_may_wait_for_more() -> None:
+    # In the frame stand a frame and the beginning of a large one.
+    around = bytes.fromhex("55 55 0E 03 03 00 00 55 55 02 07 55 55 FB 03 52")
+    waits_until = 11 + 0xFB + 2
+    capture = around + STOP * 100
+    assert len(StreamDecoder(None).feed(capture)) == 101
+    (first, *_) = safe_cuts(capture, len(around) + 1)
+    assert first == next(
+        len(around) + len(STOP) * number
+        for number in range(1, 100)
+        if len(around) + len(STOP) * (number - 1) >= waits_until
+    )
+
+
+@pytest.mark.usefixtures("way")
 def test_places_are_as_far_apart_as_asked_for() -> None:
     capture = conversation(400)
     places = safe_cuts(capture, 1000)

@@ -51,15 +51,26 @@ def _directions(numbers: NDArray[np.int8]) -> pa.Array:
 
 
 def _time(seconds: Seconds | None, count: int) -> pa.Array:
-    return pa.nulls(count, pa.float64()) if seconds is None else pa.array(seconds, from_pandas=True)
+    return _nulls(count, pa.float64()) if seconds is None else pa.array(seconds, from_pandas=True)
 
 
 def _clock(seconds: Seconds | None, count: int) -> pa.Array:
     if seconds is None:
-        return pa.nulls(count, CLOCK)
+        return _nulls(count, CLOCK)
     is_known = ~np.isnan(seconds)
     microseconds = np.where(is_known, seconds * 1e6, 0).round().astype(np.int64)
     return pa.array(microseconds, mask=~is_known).cast(CLOCK)
+
+
+_made: dict[pa.DataType, pa.Array] = {}
+
+
+def _nulls(count: int, kind: pa.DataType) -> pa.Array:
+    """Return a column without values: a part of one that is made once, as they are all alike."""
+    made = _made.get(kind)
+    if made is None or len(made) < count:
+        made = _made[kind] = pa.nulls(count, kind)
+    return made.slice(0, count)
 
 
 @dataclass(frozen=True, slots=True)

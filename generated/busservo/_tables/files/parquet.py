@@ -82,13 +82,16 @@ class ParquetFiles:
 
 
 def _writer(path: Path, schema: pa.Schema) -> Any:
-    # Dictionaries pay for names alone: numbers are smaller, and quicker, as they are.
+    # Dictionaries pay for names alone: numbers are smaller, and quicker, as they are. What is asked
+    # for by its bounds is where and when.
     names: Any = [each.name for each in schema if pa.types.is_dictionary(each.type)]
+    bounded: Any = ["offset", "time", "clock"]
     return pq.ParquetWriter(
         str(path),
         schema,
         compression="zstd",
         use_dictionary=names,
+        write_statistics=bounded,
         column_encoding={"offset": "DELTA_BINARY_PACKED"},
     )
 

@@ -91,15 +91,15 @@ def _place_near(
     read: Read, about: int, length: int, largest: int, proven: _Proven | _Tried
 ) -> tuple[int | None, int]:
     """Return the first safe place from `about` on, and up to where there is no other."""
+    # A frame that ends at the place, begins so far behind the window's first byte that all headers
+    # are seen which may claim bytes of it.
     start = max(0, about - 2 * largest)
-    # What began in front of the window may reach into its first bytes.
-    first = largest if start else 0
     reach = _FRAMES * largest
     while True:
         data = read(start, start + reach)
         searched = start + len(data)
         # The end of the capture is no place to cut it.
-        ends = (start + end for end in proven.ends(data, first, about - start))
+        ends = (start + end for end in proven.ends(data, about - start))
         place = next((end for end in ends if end < length), None)
         if place is not None or reach >= proven.furthest or searched >= length:
             return place, searched
@@ -113,15 +113,15 @@ class _Proven:
         self._legal = legal
         self.furthest = 1 << 20
 
-    def ends(self, data: bytes, first: int, about: int) -> Iterator[int]:
-        """Yield safe places from `about` on, of frames that begin at `first` or behind it."""
+    def ends(self, data: bytes, about: int) -> Iterator[int]:
+        """Yield safe places from `about` on."""
         window: Bytes = np.frombuffer(data + bytes(self._legal.largest), np.uint8)
         places = find_all(window[: len(data)], self._legal.envelope.header)
         judged = self._legal.judge(window, places)
         ends = places + judged.size
         # How far the headers in front of each claim bytes.
         claimed = np.concatenate(([0], np.maximum.accumulate(ends)[:-1]))[: len(ends)]
-        safe = (judged.kind >= 0) & (places >= first) & (claimed <= places)
+        safe = (judged.kind >= 0) & (claimed <= places)
         safe &= (ends <= len(data)) & (ends >= about)
         yield from ends[safe].tolist()
 
@@ -135,13 +135,13 @@ class _Tried:
         # To try a frame takes time.
         self.furthest = 16 * largest
 
-    def ends(self, data: bytes, first: int, about: int) -> Iterator[int]:
-        """Yield safe places from `about` on, of frames that begin at `first` or behind it."""
+    def ends(self, data: bytes, about: int) -> Iterator[int]:
+        """Yield safe places from `about` on."""
         events = StreamDecoder(self._direction).feed(data)
         sizes = [len(each.data if isinstance(each, Noise) else each.encode()) for each in events]
         for event, size, end in zip(events, sizes, accumulate(sizes), strict=True):
             is_message = not isinstance(event, Noise)
-            if is_message and end >= about and end - size >= first:
+            if is_message and end >= about:
                 begin = end - size
                 if all(map(self._is_read, self._lines(data, begin, end))):
                     yield end
