@@ -10,7 +10,7 @@ import polars as pl
 import pyarrow as pa
 import pytest
 from busservo import Direction
-from busservo._tables.arrow_file import arrow_written
+from busservo._tables.files.arrow_file import arrow_written
 from busservo.recordings import RecordingError
 from busservo.tables import NOISE, read, read_batches, schemas, write_arrow
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import ActionGroupStop, Direction, Noise, ServoMove, StreamDecoder
-from busservo._tables import cuts
+from busservo._tables.archive import cuts
 from busservo.tables import safe_cuts
 from hypothesis import given
 from hypothesis import strategies as st

@@ -19,9 +19,9 @@ import polars as pl
 import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 import pytest
-from busservo._tables import dataset, manifest
-from busservo._tables.manifest import Manifest
-from busservo._tables.parquet import ParquetFiles
+from busservo._tables.archive import dataset, manifest
+from busservo._tables.archive.manifest import Manifest
+from busservo._tables.files.parquet import ParquetFiles
 from busservo.tables import Piece, Report, archive, read, scan
 
 from tests.tables.conversations import conversation, recorded

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 
-from .found import UNKNOWN_SENDER
+from .events import UNKNOWN_SENDER
 from .places import read_blocks, read_numbers
 from .schema import CLOCK, DIRECTION, arrow_type, schema_of
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .._explanation.protocol import Slot
-    from .found import Frames, Numbers, Seconds, Stray
+    from .events import Frames, NoiseRuns, Numbers, Seconds
     from .layout import Column, Layout
 
 
@@ -33,14 +33,14 @@ def field_array(layout: Layout, frames: Frames, column: Column) -> pa.Array:
     return _Column(layout, frames, column).array
 
 
-def event_columns(found: Frames | Stray) -> list[pa.Array]:
+def event_columns(events: Frames | NoiseRuns) -> list[pa.Array]:
     """Return what is known of each event, whatever it is."""
     return [
-        pa.array(found.offset),
-        pa.array(found.size.astype(np.uint32, copy=False)),
-        _directions(found.direction),
-        _time(found.time, len(found.offset)),
-        _clock(found.clock, len(found.offset)),
+        pa.array(events.offset),
+        pa.array(events.size.astype(np.uint32, copy=False)),
+        _directions(events.direction),
+        _time(events.time, len(events.offset)),
+        _clock(events.clock, len(events.offset)),
     ]
 
 
