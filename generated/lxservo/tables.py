@@ -13,16 +13,16 @@ import os
 from collections.abc import Iterator
 
 from ._frame.direction import Direction
-from ._tables.arrow_file import arrow_written, names_in
-from ._tables.cuts import safe_cuts
-from ._tables.dataset import Report, archive
-from ._tables.parquet import parquet_written
-from ._tables.pieces import PIECE, Piece, scan
+from ._tables.archive.cuts import safe_cuts
+from ._tables.archive.dataset import Report, archive
+from ._tables.archive.pieces import PIECE, Piece, scan
+from ._tables.files.arrow_file import arrow_written, names_in
+from ._tables.files.parquet import parquet_written
+from ._tables.files.rereading import rereadable
 from ._tables.reader import BLOCK, Batches, batches
-from ._tables.rereading import rereadable
 from ._tables.schema import NOISE, schemas
 from ._tables.source import Source
-from ._tables.whole import Tables, gathered
+from ._tables.tables import Tables, gathered
 
 __all__ = [
     "BLOCK",

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo.tables import Piece, Report, archive, scan
-from dask import distributed as untyped
+from dask import distributed
 
 from tests.tables.conversations import conversation, recorded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+# Untyped, as far as it is used here.
+dask: Any = distributed
 
 BROKEN = {"broken.hex", "gone.bin"}
 
@@ -31,21 +34,18 @@ def captures(tmp_path: Path) -> Path:
     return folder
 
 
-distributed: Any = untyped
-
-
 @contextmanager
 def cluster(folder: Path) -> Iterator[Any]:
     """Start two workers, as processes of this machine."""
     with (
-        distributed.LocalCluster(
+        dask.LocalCluster(
             n_workers=2,
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address=None,
             local_directory=str(folder / "workers"),
         ) as machine,
-        distributed.Client(machine) as client,
+        dask.Client(machine) as client,
     ):
         yield client
 

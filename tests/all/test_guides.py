@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 import pytest
@@ -12,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 LONG = [page for page in PAGES if "\n```python slow\n" in page.read_text(encoding="utf-8")]
+CONSTRAINTS = (ROOT / "constraints.txt").read_text(encoding="utf-8")
 
 
 def test_one_of_the_pages_takes_long() -> None:
@@ -23,3 +26,17 @@ def test_long_examples_print_what_the_page_says(page: Path, tmp_path: Path) -> N
     text = page.read_text(encoding="utf-8")
     truth = played(text, copy_project(tmp_path, text), slow=True)
     assert truth == text, "if this was meant to change: python -m tests.documents"
+
+
+@pytest.mark.skipif(
+    f"matplotlib=={version('matplotlib')}\n" not in CONSTRAINTS,
+    reason="another Matplotlib draws it in another way",
+)
+def test_the_guide_shows_the_picture_that_its_command_draws(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "captures.md").read_text(encoding="utf-8")
+    (recorded,) = re.findall(r"^```python\n# arm\.py\n.*?^```\n", page, re.MULTILINE | re.DOTALL)
+    command = "```console\n$ busservo stats arm.hex --plot arm.svg\n...\n```\n"
+    played(f"{recorded}\n{command}", copy_project(tmp_path, command))
+    drawn = (tmp_path / "arm.svg").read_text(encoding="utf-8")
+    # To get the new picture: copy what the guide's command draws.
+    assert drawn == (ROOT / "docs" / "images" / "captures-arm.svg").read_text(encoding="utf-8")

@@ -17,7 +17,7 @@ import pytest
 from busservo import BatteryVoltage
 from busservo._cli import main
 from busservo._cli import recording as reading
-from busservo._tables import parquet
+from busservo._tables.files import parquet
 
 Capture = pytest.CaptureFixture[str]
 
@@ -232,7 +232,8 @@ def test_without_the_extra_the_error_says_how_to_get_it(
 ) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     # As it is where nothing has imported them yet.
-    for name in ("busservo._tables", "busservo._tables.arrow_file", "busservo._cli.table_files"):
+    names = [name for name in sys.modules if name.startswith("busservo._tables")]
+    for name in (*names, "busservo._cli.table_files"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     assert main(["decode", "55", "--parquet", str(tmp_path / "tables")]) == 2
     output, errors = capsys.readouterr()

@@ -25,7 +25,7 @@ from busservo import (
     recordings,
 )
 from busservo._cli import main
-from busservo._tables import extremes
+from busservo._tables.stats import extremes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

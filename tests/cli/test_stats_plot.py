@@ -12,7 +12,7 @@ import lxservo._cli
 import pytest
 from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
 from busservo._cli import main
-from busservo._tables import plot, traces
+from busservo._tables.stats import plot, traces
 
 if TYPE_CHECKING:
     from pathlib import Path

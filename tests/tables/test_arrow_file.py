@@ -10,7 +10,7 @@ import polars as pl
 import pyarrow as pa
 import pytest
 from busservo import Direction
-from busservo._tables.arrow_file import arrow_written
+from busservo._tables.files.arrow_file import arrow_written
 from busservo.recordings import RecordingError
 from busservo.tables import NOISE, read, read_batches, schemas, write_arrow
 
@@ -91,6 +91,7 @@ def test_the_messages_that_occur_have_columns_in_the_order_of_the_spec(tmp_path:
 
 def test_what_comes_in_a_stream_is_read_twice_all_the_same(tmp_path: Path) -> None:
     rows = write_arrow(io.BytesIO(CAPTURE), tmp_path / "line.arrow")
+    assert rows == {name: table.num_rows for name, table in read(CAPTURE).filled.items()}
     assert sum(rows.values()) == len(events_in(tmp_path / "line.arrow"))
     (tmp_path / "line.bin").write_bytes(CAPTURE)
     assert write_arrow(tmp_path / "line.bin", tmp_path / "other.arrow") == rows

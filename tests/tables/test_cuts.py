@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import ActionGroupStop, Direction, Noise, ServoMove, StreamDecoder
-from busservo._tables import cuts
+from busservo._tables.archive import cuts
 from busservo.tables import safe_cuts
 from hypothesis import given
 from hypothesis import strategies as st
@@ -102,6 +102,21 @@ def test_no_place_is_behind_noise_or_what_waits() -> None:
     # The header in front waits for more bytes than the frame behind it has.
     waiting = bytes.fromhex("55 55 FE 03 53")
     assert safe_cuts(waiting + STOP + bytes(3), 1) == []
+
+
+@pytest.mark.usefixtures("way")
+def test_a_decoder_that_begins_in_a_frame_may_wait_for_more() -> None:
+    # In the frame stand a frame and the beginning of a large one.
+    around = bytes.fromhex("55 55 0E 03 03 00 00 55 55 02 07 55 55 FB 03 52")
+    waits_until = 11 + 0xFB + 2
+    capture = around + STOP * 100
+    assert len(StreamDecoder(None).feed(capture)) == 101
+    (first, *_) = safe_cuts(capture, len(around) + 1)
+    assert first == next(
+        len(around) + len(STOP) * number
+        for number in range(1, 100)
+        if len(around) + len(STOP) * (number - 1) >= waits_until
+    )
 
 
 @pytest.mark.usefixtures("way")

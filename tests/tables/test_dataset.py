@@ -19,9 +19,9 @@ import polars as pl
 import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 import pytest
-from busservo._tables import dataset
-from busservo._tables.manifest import Manifest
-from busservo._tables.parquet import ParquetFiles
+from busservo._tables.archive import dataset, manifest
+from busservo._tables.archive.manifest import Manifest
+from busservo._tables.files.parquet import ParquetFiles
 from busservo.tables import Piece, Report, archive, read, scan
 
 from tests.tables.conversations import conversation, recorded
@@ -159,6 +159,15 @@ def test_a_capture_that_is_removed_stays_in_the_dataset(captures: Path, tmp_path
     assert rows_in(tmp_path / "dataset") == expected
 
 
+def test_what_was_written_with_other_tables_is_written_again(
+    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    archived(captures, tmp_path / "dataset")
+    monkeypatch.setattr(manifest, "_tables", lambda: "those of another version")
+    assert all(report.is_new for report in archived(captures, tmp_path / "dataset"))
+    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+
+
 # --- What is broken ------------------------------------------------------------------------------
 
 
@@ -195,7 +204,8 @@ def test_a_full_disk_is_reported_with_the_place_and_leaves_nothing(
         report = archive(piece, tmp_path / "dataset")
     assert str(report.error).startswith(str(tmp_path / "dataset" / "_pieces"))
     assert str(report.error).endswith(".parquet: No space left on device")
-    assert not [*(tmp_path / "dataset").rglob("*.parquet")]
+    (left,) = (tmp_path / "dataset" / "_pieces").glob("*/*")
+    assert left.suffix == ".json"
     assert archive(piece, tmp_path / "dataset").is_new
 
 
@@ -271,6 +281,8 @@ def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
         for path in folder.glob("*/capture=*/*.parquet"):
             if path.parent.parent.name != "_pieces":
                 assert pq.read_metadata(path).num_rows
+        if is_second:
+            (captures / "line.bin").write_bytes(conversation(8)[number + 2 :])
         archived(captures, folder, 250)
         assert rows_in(folder) == rows_of(captures)
     assert number > 20

@@ -113,8 +113,8 @@ def filler(name: str) -> bytes:
 
 def is_vectorised(made: ModuleType, direction: Any) -> bool:
     """Tell whether a library searches at many places at once."""
-    search: Any = import_module(f"{made.__name__}._tables.search")
-    searchable: Any = import_module(f"{made.__name__}._tables.searchable")
+    search: Any = import_module(f"{made.__name__}._tables.search.window")
+    searchable: Any = import_module(f"{made.__name__}._tables.search.searchable")
     return bool(searchable.is_searchable(search.sent(direction)))
 
 

@@ -11,7 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from busservo import Direction
-from busservo._tables import parquet
+from busservo._tables.files import parquet
 from busservo.recordings import RecordingError
 from busservo.tables import read, schemas, write_parquet
 

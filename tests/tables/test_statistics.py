@@ -44,7 +44,7 @@ def test_statistics_are_those_of_the_decoder(
     made = libraries[name]
     line = data.draw(lines_of(name, made))
     direction = None if way is None else direction_of(made, way)
-    found = part(made, "_tables.statistics").statistics(line, form="raw", direction=direction)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", direction=direction)
     rows = joined(rows_of_decoder(made, line, direction))
     messages = [row for row in rows if row.table not in ("noise", "unknown")]
     assert {each.name: each.count for each in found.messages} == Counter(
@@ -79,7 +79,7 @@ def test_ranges_are_those_of_the_messages(
     made = libraries[name]
     line = data.draw(lines_of(name, made))
     direction = None if way is None else direction_of(made, way)
-    found = part(made, "_tables.statistics").statistics(line, form="raw", direction=direction)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", direction=direction)
     decoder = made.StreamDecoder(direction)
     values: dict[tuple[str, str], list[float]] = {}
     for event in [*decoder.feed(line), *decoder.flush()]:
@@ -88,16 +88,19 @@ def test_ranges_are_those_of_the_messages(
                 values.setdefault((type(event).__name__, path), []).append(value)
     ends: dict[tuple[str, str], list[float]] = {}
     counts: Counter[tuple[str, str]] = Counter()
+    slots: dict[tuple[str, str], Any] = {}
     absent: dict[tuple[str, str], list[int]] = {}
     for each in found.ranges:
         key = each.quantity.layout.name, each.quantity.path.rstrip("_")
         counts[key] += each.count
-        absent[key] = each.quantity.absent
+        slots[key], absent[key] = each.quantity.slot, each.quantity.absent
         some = ends.setdefault(key, [])
         some += [end for end in (each.lowest, each.highest) if end is not None]
     for key, some in ends.items():
         there = [each for each in values[key] if math.isfinite(each) and each not in absent[key]]
         assert counts[key] == len(values[key])
+        if "signed_as" in slots[key].said:
+            there = [_signed(int(each), slots[key].size) for each in there]
         assert (min(some, default=None), max(some, default=None)) == (
             min(there, default=None),
             max(there, default=None),
@@ -116,6 +119,10 @@ def _numbers(message: Any) -> Iterator[tuple[str, float]]:
                 yield path, element
 
 
+def _signed(value: int, size: int) -> int:
+    return int.from_bytes(value.to_bytes(size, "big"), "big", signed=True)
+
+
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float)
 
@@ -128,8 +135,8 @@ def test_statistics_can_be_shown_and_drawn(
 ) -> None:
     made = libraries[name]
     line = data.draw(lines_of(name, made))
-    traces = part(made, "_tables.traces").Traces(9600)
-    found = part(made, "_tables.statistics").statistics(line, form="raw", traces=traces)
+    traces = part(made, "_tables.stats.traces").Traces(9600)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
     sheet = part(made, "_cli.statistics_sheet")
     assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600)
     sheet.show(found, "line.bin", 9600)

@@ -8,13 +8,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .._tables.plot import drawing
+from .._tables.stats.plot import drawing
 from .usage_error import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .._tables.traces import Traces
+    from .._tables.stats.traces import Traces
 
 
 def drawn(traces: Traces, file: Path, name: str, baud: float) -> Iterator[str]:

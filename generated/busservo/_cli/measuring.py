@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._tables.statistics import Statistics, statistics
-from .._tables.traces import Traces
+from .._tables.stats.statistics import Statistics, statistics
+from .._tables.stats.traces import Traces
 
 if TYPE_CHECKING:
     from .._frame.direction import Direction

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 
-from .found import UNKNOWN_SENDER
+from .events import UNKNOWN_SENDER
 from .places import read_blocks, read_numbers
 from .schema import CLOCK, DIRECTION, arrow_type, schema_of
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .._explanation.protocol import Slot
-    from .found import Frames, Numbers, Seconds, Stray
+    from .events import Frames, NoiseRuns, Numbers, Seconds
     from .layout import Column, Layout
 
 
@@ -33,14 +33,14 @@ def field_array(layout: Layout, frames: Frames, column: Column) -> pa.Array:
     return _Column(layout, frames, column).array
 
 
-def event_columns(found: Frames | Stray) -> list[pa.Array]:
+def event_columns(events: Frames | NoiseRuns) -> list[pa.Array]:
     """Return what is known of each event, whatever it is."""
     return [
-        pa.array(found.offset),
-        pa.array(found.size.astype(np.uint32, copy=False)),
-        _directions(found.direction),
-        _time(found.time, len(found.offset)),
-        _clock(found.clock, len(found.offset)),
+        pa.array(events.offset),
+        pa.array(events.size.astype(np.uint32, copy=False)),
+        _directions(events.direction),
+        _time(events.time, len(events.offset)),
+        _clock(events.clock, len(events.offset)),
     ]
 
 
@@ -51,15 +51,26 @@ def _directions(numbers: NDArray[np.int8]) -> pa.Array:
 
 
 def _time(seconds: Seconds | None, count: int) -> pa.Array:
-    return pa.nulls(count, pa.float64()) if seconds is None else pa.array(seconds, from_pandas=True)
+    return _nulls(count, pa.float64()) if seconds is None else pa.array(seconds, from_pandas=True)
 
 
 def _clock(seconds: Seconds | None, count: int) -> pa.Array:
     if seconds is None:
-        return pa.nulls(count, CLOCK)
+        return _nulls(count, CLOCK)
     is_known = ~np.isnan(seconds)
     microseconds = np.where(is_known, seconds * 1e6, 0).round().astype(np.int64)
     return pa.array(microseconds, mask=~is_known).cast(CLOCK)
+
+
+_made: dict[pa.DataType, pa.Array] = {}
+
+
+def _nulls(count: int, kind: pa.DataType) -> pa.Array:
+    """Return a column without values: a part of one that is made once, as they are all alike."""
+    made = _made.get(kind)
+    if made is None or len(made) < count:
+        made = _made[kind] = pa.nulls(count, kind)
+    return made.slice(0, count)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from ..recordings import FORMS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .found import Bytes
+    from .events import Bytes
 
 
 class Readable(Protocol):

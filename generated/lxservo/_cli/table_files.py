@@ -7,8 +7,8 @@ import sys
 from typing import TYPE_CHECKING
 
 from .._frame.pluralize import pluralize
-from .._tables.arrow_file import arrow_written, names_in
-from .._tables.parquet import parquet_written
+from .._tables.files.arrow_file import arrow_written, names_in
+from .._tables.files.parquet import parquet_written
 from .._tables.reader import batches
 from .._tables.schema import NOISE
 from .capture import direction_in, opened_capture

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .._explanation.protocol import Slot
-    from .found import Bytes, Numbers
+    from .events import Bytes, Numbers
 
 
 def dtype_of(slot: Slot) -> np.dtype[Any]:

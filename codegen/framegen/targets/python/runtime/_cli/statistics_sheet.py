@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._frame.direction import Direction
-    from .._tables.extremes import Extremes
-    from .._tables.statistics import Span, Statistics
+    from .._tables.stats.extremes import Extremes
+    from .._tables.stats.statistics import Span, Statistics
 
 _NONE = "-"
 # Of so many servos or addresses each has its own range; of more, all have one.

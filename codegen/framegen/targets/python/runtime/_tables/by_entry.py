@@ -11,14 +11,14 @@ from .._codec.noise import Noise, UnknownFrame
 from .._frame.errors import Reason
 from .._recording.entry import SENDERS
 from ..messages import MESSAGES
-from .found import UNKNOWN_SENDER, Found, Frames, Stray
+from .events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
 from .layout import DIRECTIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..recordings import Entry
-    from .found import Seconds
+    from .events import Seconds
 
 _KINDS: dict[type[object], int] = {kind: number for number, kind in enumerate(MESSAGES)}
 _REASONS = {reason: number for number, reason in enumerate(Reason)}
@@ -28,24 +28,24 @@ _DIRECTIONS: dict[str | None, int] = {
 _DIRECTIONS[None] = UNKNOWN_SENDER
 
 
-def found_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Found]:
+def events_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Events]:
     """Yield what the entries of a recording hold, so many entries at once.
 
     Noise at the end of one stretch may go on in the next.
     """
     while True:
-        frames, stray = _Rows(), _Rows()
+        frames, runs = _Rows(), _Rows()
         is_unknown: list[bool] = []
         for entry in islice(entries, many):
             event = entry.event
             if isinstance(event, Noise):
-                stray.add(entry, event.data, _REASONS[event.reason])
+                runs.add(entry, event.data, _REASONS[event.reason])
                 is_unknown.append(isinstance(event, UnknownFrame))
             else:
                 frames.add(entry, event.encode(), _KINDS[type(event)])
-        if not frames.data and not stray.data:
+        if not frames.data and not runs.data:
             return
-        yield Found(_frames(frames), _stray(stray, is_unknown), max(frames.end, stray.end))
+        yield Events(_frames(frames), _runs(runs, is_unknown), max(frames.end, runs.end))
 
 
 class _Rows:
@@ -89,9 +89,9 @@ def _frames(rows: _Rows) -> Frames:
     )
 
 
-def _stray(rows: _Rows, is_unknown: list[bool]) -> Stray:
+def _runs(rows: _Rows, is_unknown: list[bool]) -> NoiseRuns:
     pairs = zip(rows.data, is_unknown, strict=True)
-    return Stray(
+    return NoiseRuns(
         offset=np.array(rows.offset, np.int64),
         size=np.array([len(each) for each in rows.data], np.int64),
         reason=np.array(rows.what, np.int8),

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias
 
 from ..recordings import read
-from .by_entry import found_by_entry
+from .by_entry import events_by_entry
 from .columns import batch_of
 from .layout import layouts
+from .noise_rows import NoiseRows
 from .schema import NOISE
-from .search import search, sent
-from .searchable import is_searchable
+from .search.searchable import is_searchable
+from .search.window import search, sent
 from .source import opened
-from .stray_rows import StrayRows
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
     from .._frame.direction import Direction
-    from .found import Found, Frames
+    from .events import Events, Frames
     from .source import Capture, Source
 
 BLOCK = 1 << 20
@@ -39,11 +39,11 @@ def batches(
 
     `start` is the byte of a larger capture at which this one begins.
     """
-    rows = StrayRows()
+    rows = NoiseRows()
     with opened(source, form) as capture:
-        for stretch in (each.moved(start) for each in found(capture, direction, block)):
+        for stretch in (each.moved(start) for each in events(capture, direction, block)):
             made = _messages(stretch.frames)
-            noise = rows.add(stretch.stray, stretch.end)
+            noise = rows.add(stretch.noise, stretch.end)
             if noise is not None:
                 made[NOISE] = noise
             if made:
@@ -53,12 +53,12 @@ def batches(
         yield {NOISE: noise}
 
 
-def found(capture: Capture, direction: Direction | None, block: int) -> Iterator[Found]:
+def events(capture: Capture, direction: Direction | None, block: int) -> Iterator[Events]:
     """Yield what an open capture holds, stretch by stretch."""
     if not capture.is_text and is_searchable(sent(direction)):
         return search(capture.blocks(block), direction)
     form = "hex" if capture.is_text else "raw"
-    return found_by_entry(read(capture, form=form, direction=direction), _ENTRIES)
+    return events_by_entry(read(capture, form=form, direction=direction), _ENTRIES)
 
 
 def _messages(frames: Frames) -> Batches:

@@ -1,0 +1,1 @@
+"""Cut captures into independent pieces, and write these into one dataset."""

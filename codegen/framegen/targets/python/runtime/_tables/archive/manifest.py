@@ -1,0 +1,130 @@
+"""Which pieces of a dataset are done: a small file for each, written last.
+
+It is written before the piece is begun as well, so that whatever is left of one that was never
+finished can be told, and removed when it is of no use any more.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from contextlib import suppress
+from functools import cache
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+from uuid import uuid4
+
+from ..schema import schemas
+from .capture_files import MANIFESTS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from .pieces import Piece
+
+_LONGEST_NAME = 200
+
+
+class Manifest:
+    """What a dataset knows of one piece, and where the files of that are."""
+
+    def __init__(self, folder: Path, piece: Piece) -> None:
+        self._folder = folder
+        self._capture = f"capture={_file_name(piece.capture)}"
+        self._said: dict[str, Any] = {
+            "capture": piece.capture,
+            "start": piece.start,
+            "end": piece.end,
+            "form": piece.form,
+            "direction": None if piece.direction is None else piece.direction.value,
+            "stamp": None if piece.stamp is None else [*piece.stamp],
+        }
+        # The same name means the same bytes, read in the same way.
+        known = blake2b(json.dumps([self._said, _tables()]).encode(), digest_size=6)
+        self._name = f"{piece.start:015}-{known.hexdigest()}"
+        self._manifests = folder / MANIFESTS / self._capture
+        self._own = self._manifests / f"{self._name}.json"
+
+    @property
+    def rows(self) -> dict[str, int] | None:
+        """The rows of each table, if the piece is done."""
+        rows: dict[str, int] | None = (_read(self._own) or {}).get("rows")
+        return rows
+
+    def begin(self) -> Path:
+        """Note that the piece is begun, and return a new folder for its files."""
+        unfinished = self._manifests / f"{self._name}.{uuid4().hex[:12]}"
+        unfinished.mkdir(parents=True)
+        if not self._own.exists():
+            self._write(unfinished, None)
+        return unfinished
+
+    def finish(self, unfinished: Path, rows: dict[str, int]) -> None:
+        """Take over the files of the piece, in place of all that is not valid any more."""
+        for path in self._replaced():
+            self._remove(path)
+        for table in rows:
+            final = self._folder / table / self._capture / f"{self._name}.parquet"
+            final.parent.mkdir(parents=True, exist_ok=True)
+            (unfinished / f"{table}.parquet").replace(final)
+        self._write(unfinished, rows)
+        # Also those of a worker that was stopped.
+        self._remove_unfinished(self._name)
+
+    def _write(self, unfinished: Path, rows: dict[str, int] | None) -> None:
+        text = json.dumps({**self._said, "rows": rows}, indent=1)
+        part = unfinished / "manifest.json"
+        part.write_text(text, encoding="utf-8")
+        part.replace(self._own)
+
+    def _replaced(self) -> Iterator[Path]:
+        """Yield the manifests of what this piece takes the place of."""
+        for path in sorted(self._manifests.glob("*.json")):
+            other = _read(path)
+            if path != self._own and (other is None or self._takes_place_of(other)):
+                yield path
+
+    def _takes_place_of(self, other: dict[str, Any]) -> bool:
+        """Tell whether another piece is of a file as it was, or has bytes of this one."""
+        if other["stamp"] != self._said["stamp"]:
+            return True
+        start, end = self._said["start"], self._said["end"]
+        return bool(other["start"] < end and start < other["end"])
+
+    def _remove(self, manifest: Path) -> None:
+        """Remove a piece: its files first, so that whatever is left is still known."""
+        name = manifest.stem
+        for path in self._folder.glob(f"*/{self._capture}/{name}.parquet"):
+            path.unlink(missing_ok=True)
+        self._remove_unfinished(name)
+        manifest.unlink(missing_ok=True)
+
+    def _remove_unfinished(self, name: str) -> None:
+        for path in self._manifests.glob(f"{name}.*"):
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)
+
+
+def _read(manifest: Path) -> dict[str, Any] | None:
+    """Return what a manifest says; None if it is not there, or cannot be read."""
+    with suppress(FileNotFoundError, ValueError):
+        said: dict[str, Any] = json.loads(manifest.read_text(encoding="utf-8"))
+        return said
+    return None
+
+
+def _file_name(capture: str) -> str:
+    """Return the name of a capture as that of one folder, which datasets turn back."""
+    name = quote(capture, safe="", errors="surrogateescape")
+    if len(name) <= _LONGEST_NAME:
+        return name
+    return f"{name[:_LONGEST_NAME]}~{blake2b(name.encode(), digest_size=6).hexdigest()}"
+
+
+@cache
+def _tables() -> str:
+    """Return what the tables are made of: pieces that were written with others are done again."""
+    made = {name: [(each.name, str(each.type)) for each in of] for name, of in schemas().items()}
+    return blake2b(json.dumps(made).encode(), digest_size=6).hexdigest()

@@ -1,0 +1,1 @@
+"""Find frames and noise at many places of raw bytes at once."""

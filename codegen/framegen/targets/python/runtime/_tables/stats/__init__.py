@@ -1,0 +1,1 @@
+"""Count, measure and draw what a line carried."""
