@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo import ActionGroupStop, Direction, Noise, ServoMove, StreamDecoder
+from busservo import ActionGroupStop, Direction, Noise, ServoMove, ServoUnload, StreamDecoder
 from busservo._tables.archive import cuts
 from busservo.tables import safe_cuts
 from hypothesis import given
@@ -102,6 +102,17 @@ def test_no_place_is_behind_noise_or_what_waits() -> None:
     # The header in front waits for more bytes than the frame behind it has.
     waiting = bytes.fromhex("55 55 FE 03 53")
     assert safe_cuts(waiting + STOP + bytes(3), 1) == []
+
+
+@pytest.mark.usefixtures("way")
+@pytest.mark.parametrize("shared", [1, 2])
+def test_no_place_is_behind_a_frame_that_begins_in_another(shared: int) -> None:
+    unload = ServoUnload([1] * (252 - shared) + [0x55] * shared).encode()
+    assert len(unload) == LARGEST
+    in_front = STOP * 100 + unload + STOP[shared:]
+    capture = in_front + bytes(3) + STOP * 5
+    assert StreamDecoder(None).feed(capture[: len(in_front)])[-1] != ActionGroupStop()
+    assert safe_cuts(capture, len(in_front))[0] == len(in_front) + 3 + len(STOP)
 
 
 @pytest.mark.usefixtures("way")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._frame.errors import Reason
+from ..layout import REASON_NUMBERS
 from ..places import read_numbers
 
 if TYPE_CHECKING:
@@ -24,7 +24,6 @@ FINE = -1
 """Stands for the reason of what nothing is wrong with."""
 
 _NONE = -1
-_REASONS = {reason.name: number for number, reason in enumerate(Reason)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +58,7 @@ class Heads:
 
         def refuse(wrong: NDArray[np.bool_], why: str) -> None:
             if wrong.any():
-                reason[wrong & (reason == FINE)] = _REASONS[why]
+                reason[wrong & (reason == FINE)] = REASON_NUMBERS[why]
 
         for placed in self._envelope.head:
             slot = placed.slot
