@@ -138,6 +138,12 @@ def test_places_are_as_far_apart_as_asked_for() -> None:
     assert all(1000 <= end - start < 1000 + LARGEST for start, end in pairwise([0, *places]))
 
 
+def test_behind_noise_the_first_place_is_taken() -> None:
+    capture = STOP * 10 + bytes(5000) + STOP * 500
+    (first, *_) = safe_cuts(capture, 1500)
+    assert first == 5040 + len(STOP)
+
+
 def test_a_place_is_found_by_the_bytes_around_it(tmp_path: Path) -> None:
     file = tmp_path / "sparse.bin"
     with file.open("wb") as stream:
