@@ -91,15 +91,13 @@ class NoiseRuns:
 
     @property
     def goes_on(self) -> NDArray[np.bool_]:
-        """Which of them go on with the noise in front, for the same reason and of one sender."""
+        """Which of them go on with the noise in front, for the same reason."""
         noise = np.array([frame is None for frame in self.frame], np.bool_)
         goes_on = np.zeros(len(noise), np.bool_)
-        goes_on[1:] = self.offset[1:] == self.offset[:-1] + self.size[:-1]
-        goes_on[1:] &= (self.reason[1:] == self.reason[:-1]) & noise[1:] & noise[:-1]
-        goes_on[1:] &= self.direction[1:] == self.direction[:-1]
-        # Bytes of two lines of a recording are not joined.
-        if self.time is not None:
-            goes_on[1:] &= np.isnan(self.time[1:]) & np.isnan(self.time[:-1])
+        # Each line of a recording, which has times, stands by itself.
+        if self.time is None:
+            goes_on[1:] = self.offset[1:] == self.offset[:-1] + self.size[:-1]
+            goes_on[1:] &= (self.reason[1:] == self.reason[:-1]) & noise[1:] & noise[:-1]
         return goes_on
 
     def then(self, other: NoiseRuns) -> NoiseRuns:

@@ -27,7 +27,7 @@ _NONE = -1
 
 
 @dataclass(frozen=True, slots=True)
-class Read:
+class ReadHeads:
     """The heads at some places: the size that each gives its frame, 0 for a size that none has.
 
     `reason` says why no frame begins there, or FINE. `order` has those first that nothing is wrong
@@ -49,7 +49,7 @@ class Heads:
         self._ids = len(ids)
         self._steps = _steps(envelope.ids, ids)
 
-    def read(self, data: Bytes, places: Numbers) -> Read:
+    def read(self, data: Bytes, places: Numbers) -> ReadHeads:
         """Read the heads at some places."""
         reason = np.full(len(places), FINE, np.int8)
         size: NDArray[np.int32] = np.zeros(len(places), np.int32)
@@ -79,7 +79,7 @@ class Heads:
         group[reason != FINE] = self._ids
         order = np.argsort(group, kind="stable")
         ends = np.cumsum(np.bincount(group, minlength=self._ids))[: self._ids]
-        return Read(size, reason, order, [*pairwise([0, *ends.tolist()])])
+        return ReadHeads(size, reason, order, [*pairwise([0, *ends.tolist()])])
 
 
 class _Step:
