@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .._tables.stats.statistics import Span, Statistics
 
 _NONE = "-"
-# Of so many servos or addresses each has its own range; of more, all have one.
+# Of so many channels or addresses each has its own range; of more, all have one.
 _MOST_KEYS = 16
 _SILENCES = 3
 
@@ -177,7 +177,7 @@ def _noise(found: Statistics) -> Iterator[tuple[str, ...]]:
 
 
 def _ranges(ranges: Iterable[Extremes]) -> Iterator[tuple[str, str]]:
-    """Yield each number with its range, or that of each servo, channel or address."""
+    """Yield each number with its range, or that of each channel or address."""
     by_name: dict[str, list[Extremes]] = {}
     for each in ranges:
         by_name.setdefault(each.quantity.name, []).append(each)
