@@ -105,14 +105,16 @@ def _drawn(
 def _draw(axes: Axes, quantity: Quantity, lines: dict[int, Trace], divisor: float) -> None:
     for number, (key, trace) in enumerate(lines.items()):
         at, value = trace.points()
+        places = alone(value).tolist()
+        is_few = trace.count <= _FEW
         axes.plot(
             at / divisor,
             value,
             color=_COLOURS[number % len(_COLOURS)],
             linestyle=_STYLES[number // len(_COLOURS) % len(_STYLES)],
-            marker=".",
+            marker="." if is_few or places else "",
             markersize=5,
-            markevery=None if trace.count <= _FEW else alone(value).tolist(),
+            markevery=None if is_few else places,
             label=str(key),
             gid=f"{quantity.name}.{key}",
         )
