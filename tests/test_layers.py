@@ -166,3 +166,40 @@ def test_parts_of_one_layer_do_not_import_each_other() -> None:
         if LIBRARY_LAYER[name] == LIBRARY_LAYER[path.with_suffix("").parts[0]]
     ]
     assert beside == []
+
+
+# ------------------------------------------------------------------ the tables of a library
+
+# From the bottom up.
+TABLES_LAYERS = [
+    {"extra"},
+    {"layout", "events"},
+    {"places", "by_entry"},
+    {"schema", "search"},
+    {"columns", "source"},
+    {"noise_rows"},
+    {"reader"},
+    {"tables", "files", "stats"},
+    {"archive"},
+    {"__init__"},
+]
+TABLES_LAYER = {part: height for height, layer in enumerate(TABLES_LAYERS) for part in layer}
+TABLES = [path.relative_to("_tables") for path in PARTS if path.parts[0] == "_tables"]
+
+
+def needed_in_tables(path: Path) -> Iterator[str]:
+    """Yield every part of the tables that a module of another part imports."""
+    for node in statements(LIBRARY / "_tables" / path):
+        if isinstance(node, ast.ImportFrom) and node.module and node.level == len(path.parts):
+            yield node.module.partition(".")[0]
+
+
+def test_imports_of_tables_point_downwards() -> None:
+    assert {path.with_suffix("").parts[0] for path in TABLES} == set(TABLES_LAYER)
+    upwards = [
+        (path.as_posix(), name)
+        for path in TABLES
+        for name in needed_in_tables(path)
+        if TABLES_LAYER[name] >= TABLES_LAYER[path.with_suffix("").parts[0]]
+    ]
+    assert upwards == []

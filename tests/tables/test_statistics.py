@@ -88,16 +88,19 @@ def test_ranges_are_those_of_the_messages(
                 values.setdefault((type(event).__name__, path), []).append(value)
     ends: dict[tuple[str, str], list[float]] = {}
     counts: Counter[tuple[str, str]] = Counter()
+    slots: dict[tuple[str, str], Any] = {}
     absent: dict[tuple[str, str], list[int]] = {}
     for each in found.ranges:
         key = each.quantity.layout.name, each.quantity.path.rstrip("_")
         counts[key] += each.count
-        absent[key] = each.quantity.absent
+        slots[key], absent[key] = each.quantity.slot, each.quantity.absent
         some = ends.setdefault(key, [])
         some += [end for end in (each.lowest, each.highest) if end is not None]
     for key, some in ends.items():
         there = [each for each in values[key] if math.isfinite(each) and each not in absent[key]]
         assert counts[key] == len(values[key])
+        if "signed_as" in slots[key].said:
+            there = [_signed(int(each), slots[key].size) for each in there]
         assert (min(some, default=None), max(some, default=None)) == (
             min(there, default=None),
             max(there, default=None),
@@ -114,6 +117,10 @@ def _numbers(message: Any) -> Iterator[tuple[str, float]]:
                 yield from ((each, value) for each, value in inner if _is_number(value))
             elif _is_number(element):
                 yield path, element
+
+
+def _signed(value: int, size: int) -> int:
+    return int.from_bytes(value.to_bytes(size, "big"), "big", signed=True)
 
 
 def _is_number(value: object) -> bool:

@@ -155,9 +155,14 @@ def _readings(quantity: Quantity, array: pa.Array, addresses: Numbers) -> Readin
     if np.issubdtype(value.dtype, np.floating):
         absent |= ~np.isfinite(value)
     if "signed_as" in quantity.slot.said:
-        # As people read it: a little below zero is no more than that.
-        value = value.view(f"i{value.itemsize}")
+        value = _signed(value, quantity.slot.size)
     return Readings(frame, key, value, absent)
+
+
+def _signed(value: NDArray[Any], size: int) -> NDArray[Any]:
+    """Return numbers of so many bytes as people read them: a little below zero is no more."""
+    unused = 8 * (value.itemsize - size)
+    return (value << unused).view(f"i{value.itemsize}") >> unused
 
 
 def _whole(array: pa.Array) -> Numbers:
