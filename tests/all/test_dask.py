@@ -104,7 +104,7 @@ def test_another_worker_does_what_a_killed_one_had_begun(captures: Path, tmp_pat
     with cluster(tmp_path) as client:
         processes = list(client.run(os.getpid).values())
         futures = client.map(archive, pieces, folder=tmp_path / "dataset", pure=False)
-        distributed.wait(futures[:10])
+        dask.wait(futures[:10])
         os.kill(processes[0], KILL)
         reports = client.gather(futures)
     assert set(reported(reports)) == BROKEN

@@ -425,3 +425,13 @@ def test_captures_that_share_a_folder_keep_their_pieces(
     for _ in range(2):
         reports = archived(captures, tmp_path / "dataset")
     assert not any(report.is_new for report in reports)
+
+
+def test_long_names_that_begin_alike_are_told_apart(tmp_path: Path) -> None:
+    folder = tmp_path / "captures" / ("long" * 30)
+    folder.mkdir(parents=True)
+    for name in ("first", "second"):
+        (folder / f"{'name' * 30}{name}.bin").write_bytes(conversation(1))
+    archived(tmp_path / "captures", tmp_path / "dataset")
+    captures = {capture for _, capture in rows_in(tmp_path / "dataset")}
+    assert len(captures) == 2

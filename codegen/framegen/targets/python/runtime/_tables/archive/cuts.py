@@ -20,12 +20,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..._codec.codec import table_for
 from ..._codec.decoder import StreamDecoder
 from ..._codec.noise import Noise
+from ..layout import messages_on
 from ..places import find_all
 from ..search.legal import LegalFrames
 from ..search.searchable import is_searchable
-from ..search.window import sent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -83,10 +84,9 @@ def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> It
 @cache
 def _prover(direction: Direction | None) -> tuple[int, _Proven | _Tried | None]:
     """Return the size of the largest frame on a line, and what proves its places, if anything."""
-    messages = sent(direction)
+    messages, largest = messages_on(direction), table_for(direction).largest
     if not messages:
-        return 0, None
-    largest = max(each.described.largest for each in messages)
+        return largest, None
     if is_searchable(messages):
         return largest, _Proven(LegalFrames(messages))
     return largest, _Tried(direction, largest) if largest <= _TRIED else None
