@@ -81,6 +81,26 @@ def test_positions_and_the_battery_are_drawn(capsys: Capture, tmp_path: Path) ->
     assert "line.hex: Hiwonder bus servo controller" in texts
 
 
+def test_readings_between_absent_ones_are_seen(capsys: Capture, tmp_path: Path) -> None:
+    file, lines = tmp_path / "line.hex", []
+    for number in range(140):
+        second = 400 if number % 2 else ABSENT
+        read = ServoPositions([ServoPosition(1, 500 + number), ServoPosition(2, second)])
+        lines.append(f"{read.encode().hex(' ')}  # {number / 4:.6f} s, controller: {read}\n")
+    file.write_text("".join(lines))
+    assert main(["stats", str(file), "--plot", str(tmp_path / "line.svg")]) == 0
+    capsys.readouterr()
+    root = ET.fromstring((tmp_path / "line.svg").read_text())  # noqa: S314 - our own
+    points = {
+        group.attrib["id"]: len([*group.iter(f"{SVG}use")])
+        for group in root.iter(f"{SVG}g")
+        if group.get("id", "").startswith("ServoPositions.")
+    }
+    name = "ServoPositions.positions.position"
+    # A line shows the first servo, and nothing but points the second.
+    assert points == {f"{name}.1": 0, f"{name}.2": 70}
+
+
 def test_the_same_capture_gives_the_same_drawing(capsys: Capture, tmp_path: Path) -> None:
     file, pictures = positions(tmp_path), [tmp_path / "a.svg", tmp_path / "b.svg"]
     for picture in pictures:

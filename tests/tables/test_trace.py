@@ -49,3 +49,19 @@ def test_a_trace_is_the_same_however_it_is_cut() -> None:
     assert pieces.count == whole.count == int((~np.isnan(values)).sum())
     assert np.nanmax(pieces.points()[1]) == np.nanmax(whole.points()[1]) == np.nanmax(values)
     assert np.isnan(pieces.points()[1]).any()
+
+
+def test_values_that_no_line_goes_through_are_known() -> None:
+    gap = np.nan
+    assert trace.alone(np.array([1.0, gap, 2.0, 3.0, gap, gap, 4.0])).tolist() == [0, 6]
+    assert trace.alone(np.array([gap, 5.0, gap])).tolist() == [1]
+    assert trace.alone(np.array([1.0, 2.0])).tolist() == trace.alone(np.empty(0)).tolist() == []
+    assert trace.alone(np.array([7.0])).tolist() == [0]
+
+
+def test_two_values_close_to_each_other_are_two_points() -> None:
+    found = trace.Trace()
+    found.add(np.array([0.0, 1000.0, 1000.001, 2000.0]), np.array([1.0, 5.0, 3.0, 7.0]))
+    at, value = found.points()
+    assert at.tolist() == [0.0, 1000.0, 1000.001, 2000.0]
+    assert value.tolist() == [1.0, 5.0, 3.0, 7.0]

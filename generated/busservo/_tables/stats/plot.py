@@ -10,6 +10,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from ..layout import described
+from .trace import alone
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,13 +105,16 @@ def _drawn(
 def _draw(axes: Axes, quantity: Quantity, lines: dict[int, Trace], divisor: float) -> None:
     for number, (key, trace) in enumerate(lines.items()):
         at, value = trace.points()
+        places = alone(value).tolist()
+        is_few = trace.count <= _FEW
         axes.plot(
             at / divisor,
             value,
             color=_COLOURS[number % len(_COLOURS)],
             linestyle=_STYLES[number // len(_COLOURS) % len(_STYLES)],
-            marker="." if trace.count <= _FEW else "",
+            marker="." if is_few or places else "",
             markersize=5,
+            markevery=None if is_few else places,
             label=str(key),
             gid=f"{quantity.name}.{key}",
         )

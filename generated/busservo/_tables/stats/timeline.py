@@ -55,6 +55,9 @@ class Timeline:
     silences: list[Silence] = field(default_factory=list)
     _time: float = 0.0
     _clock: float = np.nan
+    # Where the present recording begins: by its own times, and on the line.
+    _begins: float = 0.0
+    _base: float = 0.0
 
     @property
     def seconds(self) -> float | None:
@@ -74,7 +77,7 @@ class Timeline:
             return None
         clock = seconds_of(frames.clock, count, runs.clock, len(runs.offset))[order] - time
         if self.first is None:
-            self.first = self.last = self._time = float(time[0])
+            self.first = self.last = self._time = self._begins = self._base = float(time[0])
             self.began = None if np.isnan(clock[0]) else float(clock[0] + time[0])
             self._clock, self.recordings = float(clock[0]), 1
         placed = self._placed(time, clock)
@@ -94,14 +97,14 @@ class Timeline:
         numbers = self.recordings - 1 + np.cumsum(is_new)
         seconds = np.empty_like(time)
         bounds = [0, *np.flatnonzero(is_new).tolist(), len(time)]
-        at, begins = self.last, self._time
+        at = self.last
         for start, end in pairwise(bounds):
             if start == end:
                 continue
             if is_new[start]:
-                begins = float(time[start])
-            since = np.maximum(time[start:end] - begins, 0)
-            seconds[start:end] = at + np.maximum.accumulate(since)
+                self._begins, self._base = float(time[start]), at
+            reached = np.maximum.accumulate(self._base + (time[start:end] - self._begins))
+            seconds[start:end] = np.maximum(reached, at)
             at = float(seconds[end - 1])
         self.recordings = int(numbers[-1]) + 1
         return Moments(seconds, numbers)

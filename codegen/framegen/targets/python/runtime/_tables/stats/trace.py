@@ -96,18 +96,20 @@ class Trace:
         rises = found.last >= found.first
         middle = (found.first_at + found.last_at) / 2
         end = np.where(found.gap, np.nan, found.last)
-        at = np.stack([found.first_at, middle, middle, found.last_at, found.last_at], axis=1)
-        value = np.stack(
-            [
-                found.first,
-                np.where(rises, found.low, found.high),
-                np.where(rises, found.high, found.low),
-                found.last,
-                end,
-            ],
-            axis=1,
-        )
+        one = np.where(rises, found.low, found.high)
+        other = np.where(rises, found.high, found.low)
+        # Where the first or the last is an extreme, no point between them is needed for it.
+        one_at = np.where(one == found.first, found.first_at, middle)
+        other_at = np.where(other == found.last, found.last_at, middle)
+        at = np.stack([found.first_at, one_at, other_at, found.last_at, found.last_at], axis=1)
+        value = np.stack([found.first, one, other, found.last, end], axis=1)
         flat_at, flat = at.reshape(-1), value.reshape(-1)
         same = (flat_at[1:] == flat_at[:-1]) & (flat[1:] == flat[:-1])
         kept = np.concatenate(([True], ~same))
         return flat_at[kept], flat[kept]
+
+
+def alone(values: _Values) -> Numbers:
+    """Return the places of the values that stand between two gaps: no line goes through them."""
+    gap = np.concatenate(([True], np.isnan(values), [True]))
+    return np.flatnonzero(~gap[1:-1] & gap[:-2] & gap[2:])
