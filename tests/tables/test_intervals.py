@@ -76,7 +76,7 @@ def test_the_median_of_many_gaps_counts_all_of_them() -> None:
     found = Intervals()
     now = 0.0
     for gap, count in ((0.001, 5000), (1.5, 1000), (1.5, 1000)):
-        seconds = now + gap * np.arange(1, count + 1)
+        seconds = np.linspace(now + gap, now + gap * count, count, dtype=np.float64)
         found.add(Moments(seconds, np.zeros(count, np.int64)))
         now = float(seconds[-1])
     assert found.median is not None
