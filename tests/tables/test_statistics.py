@@ -144,3 +144,22 @@ def test_statistics_can_be_shown_and_drawn(
         for trace in lines.values():
             at, value = trace.points()
             assert len(at) == len(value) >= 1, quantity.name
+
+
+def test_what_is_drawn_is_in_the_larger_unit(libraries: Libraries) -> None:
+    made = libraries["crsf"]
+    (place,) = (kind for kind in made.MESSAGES if "altitude" in kind.__match_args__)
+    given = dict.fromkeys(place.__match_args__, 1) | {"altitude": 1234, "heading": 9050}
+    traces = part(made, "_tables.stats.traces").Traces(9600)
+    line = place(**given).encode()
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+    drawn = {
+        quantity.path: trace.points()[1].tolist()
+        for quantity, lines in traces.panels()
+        for trace in lines.values()
+    }
+    assert (drawn["altitude"], drawn["heading"]) == ([234.0], [pytest.approx(90.5)])
+    # As whole numbers, values are those on the wire.
+    (altitude,) = (each for each in found.ranges if each.quantity.path == "altitude")
+    assert (altitude.lowest, altitude.highest) == (1234, 1234)
+    assert altitude.quantity.slot.scaled(1234) == 234
