@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _MEGABYTE = 1_000_000
 _TIMES = 16
-"""How often the conversation is repeated: columns are made of four megabytes at once."""
+"""How often the conversation is repeated, so that its end hardly counts."""
 
 _FILES = 8
 _CHUNK = 65536

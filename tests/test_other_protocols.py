@@ -152,7 +152,7 @@ def verbs_in(shown: str) -> list[str]:
     return [line.split()[0] for line in table.split("\n")]
 
 
-HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor", "ports"]
+HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor", "ports", "stats"]
 
 
 @pytest.mark.parametrize(

@@ -39,4 +39,4 @@ def test_the_guide_shows_the_picture_that_its_command_draws(tmp_path: Path) -> N
     played(f"{recorded}\n{command}", copy_project(tmp_path, command))
     drawn = (tmp_path / "arm.svg").read_text(encoding="utf-8")
     # To get the new picture: copy what the guide's command draws.
-    assert drawn == (ROOT / "docs" / "images" / "captures-arm.svg").read_text(encoding="utf-8")
+    assert drawn == (ROOT / "docs" / "images" / "plot-arm.svg").read_text(encoding="utf-8")

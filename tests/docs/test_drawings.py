@@ -9,7 +9,9 @@ import pytest
 from tests.documents import ROOT
 from tests.screenshots import IMAGES, LARGEST, SCREENSHOTS, Screenshot
 
-DRAWINGS = sorted((ROOT / "docs" / "images").glob("*.svg"))
+DRAWINGS = sorted((ROOT / "docs" / "images").glob("wiring-*.svg"))
+# Drawn by the commands of guides, which tests/all/test_guides.py runs.
+PLOTS = {"plot-arm.svg"}
 GUIDES = "\n".join(file.read_text("utf-8") for file in (ROOT / "docs").glob("*.md"))
 SVG = "{http://www.w3.org/2000/svg}"
 # What draws, and nothing that loads, runs or leads anywhere.
@@ -67,4 +69,4 @@ def test_the_readme_shows_a_screenshot_that_is_small(each: Screenshot) -> None:
 
 def test_there_are_no_other_pictures() -> None:
     names = {drawing.name for drawing in DRAWINGS} | {each.name for each in SCREENSHOTS}
-    assert {file.name for file in IMAGES.iterdir()} == names | {"preview.png"}
+    assert {file.name for file in IMAGES.iterdir()} == names | PLOTS | {"preview.png"}

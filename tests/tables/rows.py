@@ -86,7 +86,7 @@ def _told(made: ModuleType, events: Iterable[Any], direction: Any) -> Iterator[R
             sender = sender_of(made, event, direction)
             yield Row(type(event).__name__, offset, len(data), sender, fields=fields_of(event))
         else:
-            yield stray(made, event, offset, None if direction is None else direction.value)
+            yield noise_row(made, event, offset, None if direction is None else direction.value)
         offset += len(data)
 
 
@@ -100,7 +100,7 @@ def fields_of(message: Any) -> Any:
     return exact({f"{name}_" if name in _TAKEN else name: fields[name] for name in fields})
 
 
-def stray(made: ModuleType, event: Any, offset: int, direction: str | None) -> Row:
+def noise_row(made: ModuleType, event: Any, offset: int, direction: str | None) -> Row:
     """Return the row of noise, or of an unknown frame."""
     is_unknown = isinstance(event, made.UnknownFrame)
     fields = None

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo import ActionGroupStop, Direction, Noise, ServoMove, StreamDecoder
+from busservo import ActionGroupStop, Direction, Noise, ServoMove, ServoUnload, StreamDecoder
 from busservo._tables.archive import cuts
 from busservo.tables import safe_cuts
 from hypothesis import given
@@ -105,6 +105,17 @@ def test_no_place_is_behind_noise_or_what_waits() -> None:
 
 
 @pytest.mark.usefixtures("way")
+@pytest.mark.parametrize("shared", [1, 2])
+def test_no_place_is_behind_a_frame_that_begins_in_another(shared: int) -> None:
+    unload = ServoUnload([1] * (252 - shared) + [0x55] * shared).encode()
+    assert len(unload) == LARGEST
+    in_front = STOP * 100 + unload + STOP[shared:]
+    capture = in_front + bytes(3) + STOP * 5
+    assert StreamDecoder(None).feed(capture[: len(in_front)])[-1] != ActionGroupStop()
+    assert safe_cuts(capture, len(in_front))[0] == len(in_front) + 3 + len(STOP)
+
+
+@pytest.mark.usefixtures("way")
 def test_a_decoder_that_begins_in_a_frame_may_wait_for_more() -> None:
     # In the frame stand a frame and the beginning of a large one.
     around = bytes.fromhex("55 55 0E 03 03 00 00 55 55 02 07 55 55 FB 03 52")
@@ -125,6 +136,12 @@ def test_places_are_as_far_apart_as_asked_for() -> None:
     places = safe_cuts(capture, 1000)
     assert len(places) == pytest.approx(len(capture) / 1000, abs=2)
     assert all(1000 <= end - start < 1000 + LARGEST for start, end in pairwise([0, *places]))
+
+
+def test_behind_noise_the_first_place_is_taken() -> None:
+    capture = STOP * 10 + bytes(5000) + STOP * 500
+    (first, *_) = safe_cuts(capture, 1500)
+    assert first == 5040 + len(STOP)
 
 
 def test_a_place_is_found_by_the_bytes_around_it(tmp_path: Path) -> None:

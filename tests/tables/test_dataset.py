@@ -367,3 +367,13 @@ def test_a_capture_may_have_any_name(name: str, tmp_path: Path) -> None:
     archived(tmp_path / "captures", tmp_path / "dataset")
     (capture,) = {capture for _, capture in rows_in(tmp_path / "dataset")}
     assert capture == name or len(os.fsencode(name)) > 200
+
+
+def test_long_names_that_begin_alike_are_told_apart(tmp_path: Path) -> None:
+    folder = tmp_path / "captures" / ("long" * 30)
+    folder.mkdir(parents=True)
+    for name in ("first", "second"):
+        (folder / f"{'name' * 30}{name}.bin").write_bytes(conversation(1))
+    archived(tmp_path / "captures", tmp_path / "dataset")
+    captures = {capture for _, capture in rows_in(tmp_path / "dataset")}
+    assert len(captures) == 2

@@ -113,9 +113,9 @@ def filler(name: str) -> bytes:
 
 def is_vectorised(made: ModuleType, direction: Any) -> bool:
     """Tell whether a library searches at many places at once."""
-    search: Any = import_module(f"{made.__name__}._tables.search.window")
+    layout: Any = import_module(f"{made.__name__}._tables.layout")
     searchable: Any = import_module(f"{made.__name__}._tables.search.searchable")
-    return bool(searchable.is_searchable(search.sent(direction)))
+    return bool(searchable.is_searchable(layout.messages_on(direction)))
 
 
 @pytest.mark.parametrize("name", [shown(name) for name in FILES])

@@ -150,6 +150,20 @@ def test_a_link_to_nowhere_is_a_piece_that_says_so(tmp_path: Path) -> None:
         piece.read()
 
 
+def test_a_file_that_cannot_be_read_is_a_piece_that_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def denied(path: Path, *_: object, **_named: object) -> None:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    written(tmp_path, ["line.bin"])
+    monkeypatch.setattr(type(tmp_path), "open", denied)
+    (piece,) = scan(tmp_path)
+    assert (piece.capture, piece.size, piece.stamp) == ("line.bin", 0, None)
+    with pytest.raises(PermissionError):
+        piece.read()
+
+
 def test_links_to_folders_are_not_followed(tmp_path: Path) -> None:
     written(tmp_path, ["a/line.bin"])
     (tmp_path / "a" / "again").symlink_to(tmp_path)
@@ -165,7 +179,8 @@ def test_a_file_that_has_changed_is_not_read(tmp_path: Path) -> None:
     (piece, *_) = scan(tmp_path, size=1000)
     written(tmp_path, ["line.bin"], CAPTURE + b"\x00")
     with pytest.raises(RecordingError, match="changed since it was scanned: scan again"):
-        piece.read()
+        # Before any of it is shown.
+        next(piece.read_batches())
 
 
 def test_a_file_that_changes_while_it_is_read_is_not_taken_for_what_it_was(tmp_path: Path) -> None:

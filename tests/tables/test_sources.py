@@ -17,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import HEADS, damaged_frames, directions, lines, unknown_frames
-from tests.tables.rows import Row, fields_of, joined, rows_in_tables, rows_of_decoder, stray
+from tests.tables.rows import Row, fields_of, joined, noise_row, rows_in_tables, rows_of_decoder
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -145,7 +145,7 @@ def _rows_of(entries: Iterable[Entry]) -> Iterator[Row]:
     for entry in entries:
         direction = None if entry.direction is None else entry.direction.value
         if isinstance(entry.event, Noise):
-            row = stray(busservo, entry.event, entry.offset, direction)
+            row = noise_row(busservo, entry.event, entry.offset, direction)
         else:
             name, size = type(entry.event).__name__, len(entry.event.encode())
             row = Row(name, entry.offset, size, direction, fields=fields_of(entry.event))

@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 import sys
 from datetime import datetime, timezone
-from decimal import Decimal
 
 from .._frame.pluralize import pluralize
 from .._frame.protocol import BITS_PER_BYTE, LOCAL_ECHO
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from .._tables.stats.statistics import Span, Statistics
 
 _NONE = "-"
-# Of so many servos or addresses each has its own range; of more, all have one.
+# Of so many channels or addresses each has its own range; of more, all have one.
 _MOST_KEYS = 16
 _SILENCES = 3
 
@@ -179,7 +178,7 @@ def _noise(found: Statistics) -> Iterator[tuple[str, ...]]:
 
 
 def _ranges(ranges: Iterable[Extremes]) -> Iterator[tuple[str, str]]:
-    """Yield each number with its range, or that of each servo, channel or address."""
+    """Yield each number with its range, or that of each channel or address."""
     by_name: dict[str, list[Extremes]] = {}
     for each in ranges:
         by_name.setdefault(each.quantity.name, []).append(each)
@@ -202,13 +201,11 @@ def _range(some: Sequence[Extremes]) -> str:
 
 def _scaled(some: Sequence[Extremes]) -> str:
     """Return the range in the larger unit, if there is one."""
-    said = some[0].quantity.slot.said
-    if "scale" not in said or not _ends(some):
+    slot = some[0].quantity.slot
+    if "scale" not in slot.said or not _ends(some):
         return ""
-    step, unit, *offset = said["scale"]
-    beyond = Decimal((*offset, "0")[0])
-    scaled = [Decimal(str(end)) * Decimal(step) + beyond for end in _ends(some)]
-    return f" = {'..'.join(f'{each:f}' for each in scaled)} {unit}".rstrip()
+    scaled = "..".join(f"{slot.scaled(end):f}" for end in _ends(some))
+    return f" = {scaled} {slot.said['scale'][1]}".rstrip()
 
 
 def _absent(some: Sequence[Extremes]) -> str:

@@ -169,6 +169,14 @@ class Slot:
         inner = f".{field.name}" if self.said.get("element") else ""
         return f"{self.name}[{index}]{inner}"
 
+    def scaled(self, value: float) -> Decimal:
+        """Return a number that has a scale in its larger unit, with no digit rounded."""
+        step, _, *offset = self.said["scale"]
+        scaled = _EXACT.multiply(Decimal(str(value)), Decimal(step))
+        for each in offset:
+            scaled = _EXACT.add(scaled, Decimal(each))
+        return scaled
+
     def in_words(self, value: Value) -> tuple[str, str]:
         """Return a value with its unit, in its larger unit and by its name; and its meaning."""
         if isinstance(value, list | str):
@@ -176,11 +184,7 @@ class Slot:
             return text, self.about
         text = f"{value} {self.said.get('unit', '')}".rstrip()
         if "scale" in self.said:
-            step, unit, *offset = self.said["scale"]
-            scaled = _EXACT.multiply(Decimal(str(value)), Decimal(step))
-            for each in offset:
-                scaled = _EXACT.add(scaled, Decimal(each))
-            text += f" = {scaled:f} {unit}".rstrip()
+            text += f" = {self.scaled(value):f} {self.said['scale'][1]}".rstrip()
         set_bits = ", ".join(self.bits_in_words(int(value))) if "bits" in self.said else ""
         text += f" ({set_bits})" if set_bits else ""
         for name, named in self.said.get("values", {}).items():

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
+from .._codec.codec import table_for
 from .._explanation.carried_model import classes, protocol
 from .._frame.direction import Direction
+from .._frame.errors import Reason
 from ..messages import MESSAGES
 
 if TYPE_CHECKING:
@@ -18,7 +20,11 @@ if TYPE_CHECKING:
     from .._explanation.protocol import Protocol, Slot
     from .._frame.message import Message
 
+# Arrays hold directions and reasons as indices into these.
 DIRECTIONS = tuple(Direction)
+REASONS = tuple(Reason)
+# By name: a protocol has only the reasons that it needs.
+REASON_NUMBERS = {reason.name: number for number, reason in enumerate(REASONS)}
 
 # What every table says of an event; a field of such a name has a `_` behind it.
 EVENT_COLUMNS = ("offset", "size", "direction", "time", "clock")
@@ -83,6 +89,12 @@ class Column:
 def _attribute(name: str, given: Sequence[str]) -> str:
     """Return the attribute of a field: its name, or another where Python has taken that."""
     return name if name in given else f"{name}_"
+
+
+def messages_on(direction: Direction | None) -> list[Layout]:
+    """Return the messages of one direction, or of both; in the order in which decoders try them."""
+    by_kind = {each.kind: each for each in layouts()}
+    return [by_kind[kind] for kind in table_for(direction).messages]
 
 
 @cache

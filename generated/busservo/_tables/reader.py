@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, TypeAlias
 from ..recordings import read
 from .by_entry import events_by_entry
 from .columns import batch_of
-from .layout import layouts
+from .layout import layouts, messages_on
 from .noise_rows import NoiseRows
 from .schema import NOISE
 from .search.searchable import is_searchable
-from .search.window import search, sent
+from .search.window import search
 from .source import opened
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def batches(
 
 def events(capture: Capture, direction: Direction | None, block: int) -> Iterator[Events]:
     """Yield what an open capture holds, stretch by stretch."""
-    if not capture.is_text and is_searchable(sent(direction)):
+    if not capture.is_text and is_searchable(messages_on(direction)):
         return search(capture.blocks(block), direction)
     form = "hex" if capture.is_text else "raw"
     return events_by_entry(read(capture, form=form, direction=direction), _ENTRIES)

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._codec.noise import Noise, UnknownFrame
-from .._frame.errors import Reason
 from .._recording.entry import SENDERS
 from ..messages import MESSAGES
 from .events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
-from .layout import DIRECTIONS
+from .layout import DIRECTIONS, REASON_NUMBERS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from .events import Seconds
 
 _KINDS: dict[type[object], int] = {kind: number for number, kind in enumerate(MESSAGES)}
-_REASONS = {reason: number for number, reason in enumerate(Reason)}
 _DIRECTIONS: dict[str | None, int] = {
     sender: DIRECTIONS.index(direction) for sender, direction in SENDERS.items()
 }
@@ -40,7 +38,7 @@ def events_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Events]:
         for entry in islice(entries, many):
             event = entry.event
             if isinstance(event, Noise):
-                runs.add(entry, event.data, _REASONS[event.reason])
+                runs.add(entry, event.data, REASON_NUMBERS[event.reason.name])
                 is_unknown.append(isinstance(event, UnknownFrame))
             else:
                 frames.add(entry, event.encode(), _KINDS[type(event)])

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pyarrow as pa
 
-from .._frame.errors import Reason
-from .layout import DIRECTIONS, described, layouts
+from .layout import DIRECTIONS, REASONS, described, layouts
 from .places import dtype_of
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ class _Names:
 
 
 DIRECTION = _Names([each.value for each in DIRECTIONS])
-REASON = _Names([each.value for each in Reason])
+REASON = _Names([each.value for each in REASONS])
 CLOCK = pa.timestamp("us", tz="UTC")
 
 _EVENT: tuple[tuple[str, pa.DataType, dict[str, str]], ...] = (

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._frame.errors import Reason
+from ..layout import REASON_NUMBERS
 from .checksums import Checksums
 from .fields import NO_KIND, judge_fields
 from .heads import Heads
@@ -29,8 +29,7 @@ if TYPE_CHECKING:
 UNKNOWN_KIND = -2
 """Stands for the class of a frame that is not known, and surely is one."""
 
-_REASONS = {reason.name: number for number, reason in enumerate(Reason)}
-UNKNOWN_COMMAND = _REASONS["UNKNOWN_COMMAND"]
+UNKNOWN_COMMAND = REASON_NUMBERS["UNKNOWN_COMMAND"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..events import seconds_of
+
 if TYPE_CHECKING:
     from ..events import Events, Numbers, Seconds
 
@@ -67,10 +69,10 @@ class Timeline:
         count = len(frames.offset)
         offset = np.concatenate((frames.offset, runs.offset))
         order = np.argsort(offset, kind="stable")
-        time = _both(frames.time, count, runs.time, len(runs.offset))[order]
+        time = seconds_of(frames.time, count, runs.time, len(runs.offset))[order]
         if np.isnan(time).any():
             return None
-        clock = _both(frames.clock, count, runs.clock, len(runs.offset))[order] - time
+        clock = seconds_of(frames.clock, count, runs.clock, len(runs.offset))[order] - time
         if self.first is None:
             self.first = self.last = self._time = float(time[0])
             self.began = None if np.isnan(clock[0]) else float(clock[0] + time[0])
@@ -111,16 +113,6 @@ class Timeline:
             if long[at] > 0:
                 self.silences.append(Silence(float(long[at]), float(before[at]), int(offset[at])))
         self.silences = heapq.nsmallest(_SILENCES, self.silences, lambda s: (-s.seconds, s.offset))
-
-
-def _both(one: Seconds | None, count: int, other: Seconds | None, other_count: int) -> Seconds:
-    """Return the times of frames and of noise; NaN for those that are not known."""
-    return np.concatenate(
-        (
-            np.full(count, np.nan) if one is None else one,
-            np.full(other_count, np.nan) if other is None else other,
-        )
-    )
 
 
 class Intervals:

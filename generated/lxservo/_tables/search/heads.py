@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._frame.errors import Reason
+from ..layout import REASON_NUMBERS
 from ..places import read_numbers
 
 if TYPE_CHECKING:
@@ -24,11 +24,10 @@ FINE = -1
 """Stands for the reason of what nothing is wrong with."""
 
 _NONE = -1
-_REASONS = {reason.name: number for number, reason in enumerate(Reason)}
 
 
 @dataclass(frozen=True, slots=True)
-class Read:
+class ReadHeads:
     """The heads at some places: the size that each gives its frame, 0 for a size that none has.
 
     `reason` says why no frame begins there, or FINE. `order` has those first that nothing is wrong
@@ -50,7 +49,7 @@ class Heads:
         self._ids = len(ids)
         self._steps = _steps(envelope.ids, ids)
 
-    def read(self, data: Bytes, places: Numbers) -> Read:
+    def read(self, data: Bytes, places: Numbers) -> ReadHeads:
         """Read the heads at some places."""
         reason = np.full(len(places), FINE, np.int8)
         size: NDArray[np.int32] = np.zeros(len(places), np.int32)
@@ -59,7 +58,7 @@ class Heads:
 
         def refuse(wrong: NDArray[np.bool_], why: str) -> None:
             if wrong.any():
-                reason[wrong & (reason == FINE)] = _REASONS[why]
+                reason[wrong & (reason == FINE)] = REASON_NUMBERS[why]
 
         for placed in self._envelope.head:
             slot = placed.slot
@@ -80,7 +79,7 @@ class Heads:
         group[reason != FINE] = self._ids
         order = np.argsort(group, kind="stable")
         ends = np.cumsum(np.bincount(group, minlength=self._ids))[: self._ids]
-        return Read(size, reason, order, [*pairwise([0, *ends.tolist()])])
+        return ReadHeads(size, reason, order, [*pairwise([0, *ends.tolist()])])
 
 
 class _Step:

@@ -88,6 +88,17 @@ class NoiseRuns:
             [self.frame[at] for at in which.tolist()],
         )
 
+    @property
+    def goes_on(self) -> NDArray[np.bool_]:
+        """Which of them go on with the noise in front, for the same reason."""
+        noise = np.array([frame is None for frame in self.frame], np.bool_)
+        goes_on = np.zeros(len(noise), np.bool_)
+        # Each line of a recording, which has times, stands by itself.
+        if self.time is None:
+            goes_on[1:] = self.offset[1:] == self.offset[:-1] + self.size[:-1]
+            goes_on[1:] &= (self.reason[1:] == self.reason[:-1]) & noise[1:] & noise[:-1]
+        return goes_on
+
     def then(self, other: NoiseRuns) -> NoiseRuns:
         """Return these, and what comes behind them."""
         return NoiseRuns(
@@ -120,6 +131,13 @@ def _one_after_other(
 ) -> Seconds | None:
     if first is None and second is None:
         return None
+    return seconds_of(first, count, second, other_count)
+
+
+def seconds_of(
+    first: Seconds | None, count: int, second: Seconds | None, other_count: int
+) -> Seconds:
+    """Return some times and others behind them; NaN for those that are not known."""
     one: Seconds = np.full(count, np.nan) if first is None else first
     other: Seconds = np.full(other_count, np.nan) if second is None else second
     return np.concatenate((one, other))

@@ -43,14 +43,7 @@ def _joined(runs: NoiseRuns) -> NoiseRuns:
     """Join noise of one reason that follows each other without anything between."""
     if len(runs.frame) < 2:
         return runs
-    ends = runs.offset + runs.size
-    noise = np.array([frame is None for frame in runs.frame])
-    goes_on = (runs.offset[1:] == ends[:-1]) & (runs.reason[1:] == runs.reason[:-1])
-    goes_on &= noise[1:] & noise[:-1] & (runs.direction[1:] == runs.direction[:-1])
-    # Bytes of two lines of a recording are not joined.
-    if runs.time is not None:
-        goes_on &= np.isnan(runs.time[1:]) & np.isnan(runs.time[:-1])
-    first = np.flatnonzero(np.concatenate(([True], ~goes_on)))
+    first = np.flatnonzero(~runs.goes_on)
     return replace(runs.chosen(first), size=np.add.reduceat(runs.size, first))
 
 

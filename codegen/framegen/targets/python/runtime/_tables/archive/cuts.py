@@ -19,12 +19,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..._codec.codec import table_for
 from ..._codec.decoder import StreamDecoder
 from ..._codec.noise import Noise
+from ..layout import messages_on
 from ..places import find_all
 from ..search.legal import LegalFrames
 from ..search.searchable import is_searchable
-from ..search.window import sent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -68,10 +69,9 @@ def safe_cuts(
 
 
 def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> Iterator[int]:
-    messages = sent(direction)
+    messages, largest = messages_on(direction), table_for(direction).largest
     if not messages:
         return
-    largest = max(each.described.largest for each in messages)
     proven: _Proven | _Tried
     if is_searchable(messages):
         proven = _Proven(LegalFrames(messages))

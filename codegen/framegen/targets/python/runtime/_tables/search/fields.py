@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._frame.errors import Reason
+from ..layout import REASON_NUMBERS
 from .heads import FINE
 from .trial import ReasonedTrial, Trial
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 NO_KIND = -1
 """Stands for the class of what is no frame."""
 
-_LENGTH_MISMATCH = [*Reason].index(Reason.LENGTH_MISMATCH)
+_LENGTH_MISMATCH = REASON_NUMBERS["LENGTH_MISMATCH"]
 
 
 @dataclass(frozen=True, slots=True)

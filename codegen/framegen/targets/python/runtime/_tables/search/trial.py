@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._frame.errors import Reason
+from ..layout import REASON_NUMBERS
 from ..places import read_blocks, read_numbers
 from .heads import FINE
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from ..events import Numbers
     from .checksums import Checksums
 
-_REASONS = {reason.name: number for number, reason in enumerate(Reason)}
 _HIGHEST_CHARACTER = 0x7F
 
 
@@ -117,6 +116,6 @@ class ReasonedTrial(Trial):
     def refuse(self, wrong: NDArray[np.bool_], why: str, at: NDArray[np.int32] | int, /) -> None:
         """Note why frames are none, unless it is noted already."""
         new = wrong & ~self.is_wrong
-        self.why[new] = _REASONS[why]
+        self.why[new] = REASON_NUMBERS[why]
         self.at[new] = at if isinstance(at, int) else at[new]
         self.is_wrong |= wrong

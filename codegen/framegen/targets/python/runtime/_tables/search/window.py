@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._codec.codec import table_for
-from ..._frame.errors import Reason
 from ...recordings import read
 from ..by_entry import events_by_entry
 from ..events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
-from ..layout import DIRECTIONS, layouts
+from ..layout import DIRECTIONS, REASON_NUMBERS, layouts, messages_on
 from ..places import find_all
 from .chain import Chain, chained, no_chain
 from .fields import NO_KIND
@@ -31,20 +29,13 @@ if TYPE_CHECKING:
 
     from ..._frame.direction import Direction
     from ..events import Bytes, Numbers
-    from ..layout import Layout
 
-_BAD_HEADER = [*Reason].index(Reason.BAD_HEADER)
+_BAD_HEADER = REASON_NUMBERS["BAD_HEADER"]
 _NOTHING = np.empty(0, np.int64)
 # Who sends each message.
 _SENDERS = np.array([each.direction for each in layouts()], np.int8)
 # What the end of a stream holds is one stretch.
 _ALL = 1 << 31
-
-
-def sent(direction: Direction | None) -> list[Layout]:
-    """Return the messages on a line, in the order in which decoders prefer them."""
-    by_kind = {each.kind: each for each in layouts()}
-    return [by_kind[kind] for kind in table_for(direction).messages]
 
 
 def search(blocks: Iterable[Bytes], direction: Direction | None) -> Iterator[Events]:
@@ -61,7 +52,7 @@ class _Window:
     def __init__(self, direction: Direction | None) -> None:
         self._direction = direction
         self._sender = UNKNOWN_SENDER if direction is None else DIRECTIONS.index(direction)
-        self._legal = LegalFrames(sent(direction))
+        self._legal = LegalFrames(messages_on(direction))
         self._header = self._legal.envelope.header
         self._claims = Claims(direction, self._header)
         self._data: Bytes = np.empty(0, np.uint8)

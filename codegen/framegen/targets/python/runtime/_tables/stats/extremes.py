@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..events import Numbers
     from .quantities import Quantity, Readings
 
-# So many servos, channels or addresses are told apart; of more, the values are taken together.
+# So many channels or addresses are told apart; of more, the values are taken together.
 _MOST_KEYS = 512
 _NARROW = 1 << 15
 

@@ -1,4 +1,4 @@
-"""Quantities over time, drawn: a panel for each, with a line for each servo, channel or address."""
+"""Quantities over time, drawn: a panel for each, with a line for each channel or address."""
 
 from __future__ import annotations
 
