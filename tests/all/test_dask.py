@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
 # Untyped, as far as it is used here.
 dask: Any = distributed
 
+# Windows has no other.
+KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 BROKEN = {"broken.hex", "gone.bin"}
 
 
@@ -70,7 +74,7 @@ def test_two_workers_make_the_files_of_one_process(captures: Path, tmp_path: Pat
     pieces = scan(captures, size=10_000)
     expected = of_one_process(pieces, tmp_path / "by one")
     with cluster(tmp_path) as client:
-        futures = client.map(archive, pieces, folder=tmp_path / "by two")
+        futures = client.map(archive, pieces, folder=tmp_path / "by two", pure=False)
         reports = client.gather(futures)
         where = {worker for holders in client.who_has(futures).values() for worker in holders}
     assert [report.piece for report in reports] == pieces
@@ -84,10 +88,37 @@ def test_work_goes_on_after_its_cluster_was_closed(captures: Path, tmp_path: Pat
     pieces = scan(captures, size=10_000)
     expected = of_one_process(pieces, tmp_path / "by one")
     with cluster(tmp_path) as client:
-        futures = client.map(archive, pieces, folder=tmp_path / "dataset")
+        futures = client.map(archive, pieces, folder=tmp_path / "dataset", pure=False)
         client.gather(futures[: len(pieces) // 3])
     with cluster(tmp_path) as client:
-        reports = client.gather(client.map(archive, pieces, folder=tmp_path / "dataset"))
+        work = client.map(archive, pieces, folder=tmp_path / "dataset", pure=False)
+        reports = client.gather(work)
     assert {report.is_new for report in reports if not report.error} == {True, False}
     assert set(reported(reports)) == BROKEN
     assert files_in(tmp_path / "dataset") == expected
+
+
+def test_another_worker_does_what_a_killed_one_had_begun(captures: Path, tmp_path: Path) -> None:
+    pieces = scan(captures, size=2_000)
+    expected = of_one_process(pieces, tmp_path / "by one")
+    with cluster(tmp_path) as client:
+        processes = list(client.run(os.getpid).values())
+        futures = client.map(archive, pieces, folder=tmp_path / "dataset", pure=False)
+        dask.wait(futures[:10])
+        os.kill(processes[0], KILL)
+        reports = client.gather(futures)
+    assert set(reported(reports)) == BROKEN
+    assert files_in(tmp_path / "dataset") == expected
+    assert not [path for path in (tmp_path / "dataset" / "_pieces").glob("*/*") if path.is_dir()]
+
+
+def test_work_that_failed_is_done_again_by_the_same_client(tmp_path: Path) -> None:
+    (tmp_path / "line.bin").write_bytes(conversation(20))
+    pieces = scan(tmp_path / "line.bin")
+    (tmp_path / "dataset").write_bytes(b"")
+    with cluster(tmp_path) as client:
+        failed = client.map(archive, pieces, folder=tmp_path / "dataset", pure=False)
+        assert all(report.error for report in client.gather(failed))
+        (tmp_path / "dataset").unlink()
+        again = client.map(archive, pieces, folder=tmp_path / "dataset", pure=False)
+        assert all(report.is_new for report in client.gather(again))

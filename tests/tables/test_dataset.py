@@ -10,11 +10,14 @@ import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import duckdb
+import lxservo.tables
 import polars as pl
 import pyarrow.dataset as ds
 import pyarrow.parquet as pq
@@ -217,6 +220,41 @@ def test_a_dataset_that_cannot_be_written_is_reported(captures: Path, tmp_path: 
     assert not report.rows
 
 
+def test_what_cannot_even_be_begun_leaves_nothing(
+    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, *_: object, **__: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+    monkeypatch.setattr(Path, "write_text", full)
+    reports = archived(captures, tmp_path / "dataset")
+    assert {report.error is None for report in reports} == {False}
+    assert not [*tmp_path.glob("dataset/*/*/*")]
+
+
+@pytest.mark.parametrize("data", [None, b""])
+def test_files_that_were_lost_are_written_again(
+    data: bytes | None, captures: Path, tmp_path: Path
+) -> None:
+    archived(captures, tmp_path / "dataset")
+    (lost, *_) = sorted(tmp_path.glob("dataset/BatteryVoltage/*/*.parquet"))
+    lost.unlink()
+    if data is not None:
+        lost.write_bytes(data)
+    reports = archived(captures, tmp_path / "dataset")
+    assert [report.is_new for report in reports].count(True) == 1
+    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+
+
+def test_a_dataset_of_another_protocol_is_refused(captures: Path, tmp_path: Path) -> None:
+    archived(captures, tmp_path / "dataset")
+    for piece in lxservo.tables.scan(captures):
+        report = lxservo.tables.archive(piece, tmp_path / "dataset")
+        said = "it holds captures of busservo: name another folder"
+        assert report.error == f"{tmp_path / 'dataset'}: {said}"
+    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+
+
 def test_a_manifest_that_makes_no_sense_is_none(captures: Path, tmp_path: Path) -> None:
     archived(captures, tmp_path / "dataset")
     for path in (tmp_path / "dataset" / "_pieces").rglob("*.json"):
@@ -360,13 +398,33 @@ def test_a_report_says_what_became_of_a_piece() -> None:
     ]
 
 
-@pytest.mark.parametrize("name", ["ü ß.bin", "a=b&c%20.bin", "x" * 120 + "ö" * 60])
+NAMES = ["ü ß.bin", "a=b&c%20.bin", "x" * 120 + "ö" * 60, "x" * 121 + "線" * 40, "a\udcff.bin"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_capture_may_have_any_name(name: str, tmp_path: Path) -> None:
-    (tmp_path / "captures").mkdir()
-    (tmp_path / "captures" / name).write_bytes(conversation(3))
-    archived(tmp_path / "captures", tmp_path / "dataset")
-    (capture,) = {capture for _, capture in rows_in(tmp_path / "dataset")}
-    assert capture == name or len(os.fsencode(name)) > 200
+    (tmp_path / "line.bin").write_bytes(conversation(3))
+    (piece,) = scan(tmp_path / "line.bin")
+    assert archive(replace(piece, capture=name), tmp_path / "dataset").is_new
+    ((_, capture), *_) = rows_in(tmp_path / "dataset")
+    seen = name.replace("\udcff", "\\udcff")
+    assert capture == seen or (capture.startswith(seen[:120]) and len(quote(name, "")) > 200)
+    files = f"{(tmp_path / 'dataset' / 'BatteryVoltage').as_posix()}/**/*.parquet"
+    table = duckdb.read_parquet(files, hive_partitioning=True)
+    assert table.aggregate("capture, count(*)").fetchall() == [(capture, 3)]
+    rows = pl.scan_parquet(files, hive_partitioning=True).select("capture").collect()
+    assert rows["capture"].to_list() == [capture] * 3
+
+
+def test_captures_that_share_a_folder_keep_their_pieces(
+    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # As on a disk on which small letters are large ones.
+    monkeypatch.setattr(manifest, "_file_name", str.lower)
+    (captures / "LINE.bin").write_bytes(conversation(45))
+    for _ in range(2):
+        reports = archived(captures, tmp_path / "dataset")
+    assert not any(report.is_new for report in reports)
 
 
 def test_long_names_that_begin_alike_are_told_apart(tmp_path: Path) -> None:

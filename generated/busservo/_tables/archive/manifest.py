@@ -7,11 +7,13 @@ finished can be told, and removed when it is of no use any more.
 
 from __future__ import annotations
 
+import errno
 import json
 import shutil
 from contextlib import suppress
 from functools import cache
 from hashlib import blake2b
+from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 from uuid import uuid4
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from .pieces import Piece
 
 _LONGEST_NAME = 200
+_LIBRARY = __name__.partition(".")[0]
 
 
 class Manifest:
@@ -50,35 +53,54 @@ class Manifest:
 
     @property
     def rows(self) -> dict[str, int] | None:
-        """The rows of each table, if the piece is done."""
-        rows: dict[str, int] | None = (_read(self._own) or {}).get("rows")
+        """The rows of each table, if the piece is done and its files are there."""
+        said = _read(self._own) or {}
+        rows: dict[str, int] | None = said.get("rows")
+        # A computer that lost its power may have kept the manifest without the files.
+        if rows is None or said["sizes"] != {table: _size(self._file(table)) for table in rows}:
+            return None
         return rows
 
     def begin(self) -> Path:
         """Note that the piece is begun, and return a new folder for its files."""
         unfinished = self._manifests / f"{self._name}.{uuid4().hex[:12]}"
         unfinished.mkdir(parents=True)
-        if not self._own.exists():
-            self._write(unfinished, None)
+        try:
+            self._refuse_others(unfinished)
+            if not self._own.exists():
+                _write(unfinished, self._own, self._said)
+        except BaseException:
+            shutil.rmtree(unfinished, ignore_errors=True)
+            raise
         return unfinished
 
     def finish(self, unfinished: Path, rows: dict[str, int]) -> None:
         """Take over the files of the piece, in place of all that is not valid any more."""
         for path in self._replaced():
             self._remove(path)
-        for table in rows:
-            final = self._folder / table / self._capture / f"{self._name}.parquet"
+        made = {table: unfinished / f"{table}.parquet" for table in rows}
+        sizes = {table: _size(path) for table, path in made.items()}
+        for table, path in made.items():
+            final = self._file(table)
             final.parent.mkdir(parents=True, exist_ok=True)
-            (unfinished / f"{table}.parquet").replace(final)
-        self._write(unfinished, rows)
+            path.replace(final)
+        _write(unfinished, self._own, {**self._said, "rows": rows, "sizes": sizes})
         # Also those of a worker that was stopped.
         self._remove_unfinished(self._name)
 
-    def _write(self, unfinished: Path, rows: dict[str, int] | None) -> None:
-        text = json.dumps({**self._said, "rows": rows}, indent=1)
-        part = unfinished / "manifest.json"
-        part.write_text(text, encoding="utf-8")
-        part.replace(self._own)
+    def _file(self, table: str) -> Path:
+        """Return where the piece has its rows of a table."""
+        return self._folder / table / self._capture / f"{self._name}.parquet"
+
+    def _refuse_others(self, unfinished: Path) -> None:
+        """Raise FileExistsError for a dataset of another protocol: its tables are not these."""
+        path = self._folder / MANIFESTS / "library.json"
+        said = _read(path)
+        if said is None:
+            _write(unfinished, path, {"library": _LIBRARY})
+        elif said["library"] != _LIBRARY:
+            problem = f"it holds captures of {said['library']}: name another folder"
+            raise FileExistsError(errno.EEXIST, problem, str(self._folder))
 
     def _replaced(self) -> Iterator[Path]:
         """Yield the manifests of what this piece takes the place of."""
@@ -89,6 +111,9 @@ class Manifest:
 
     def _takes_place_of(self, other: dict[str, Any]) -> bool:
         """Tell whether another piece is of a file as it was, or has bytes of this one."""
+        if other["capture"] != self._said["capture"]:
+            # A disk on which small letters are large ones has one folder for both.
+            return False
         if other["stamp"] != self._said["stamp"]:
             return True
         start, end = self._said["start"], self._said["end"]
@@ -108,6 +133,20 @@ class Manifest:
                 shutil.rmtree(path, ignore_errors=True)
 
 
+def _size(path: Path) -> int | None:
+    """Return the size of a file; None if it is not there."""
+    with suppress(FileNotFoundError):
+        return path.stat().st_size
+    return None
+
+
+def _write(unfinished: Path, target: Path, said: dict[str, Any]) -> None:
+    """Write a file, which is there as a whole or not at all."""
+    part = unfinished / target.name
+    part.write_text(json.dumps(said, indent=1), encoding="utf-8")
+    part.replace(target)
+
+
 def _read(manifest: Path) -> dict[str, Any] | None:
     """Return what a manifest says; None if it is not there, or cannot be read."""
     with suppress(FileNotFoundError, ValueError):
@@ -117,11 +156,18 @@ def _read(manifest: Path) -> dict[str, Any] | None:
 
 
 def _file_name(capture: str) -> str:
-    """Return the name of a capture as that of one folder, which datasets turn back."""
-    name = quote(capture, safe="", errors="surrogateescape")
+    """Return the name of a capture as that of one folder, which datasets turn back.
+
+    They turn back UTF-8 alone: other bytes of a name are written as escapes.
+    """
+    text = capture.encode("utf-8", "backslashreplace").decode()
+    name = quote(text, safe="")
     if len(name) <= _LONGEST_NAME:
         return name
-    return f"{name[:_LONGEST_NAME]}~{blake2b(name.encode(), digest_size=6).hexdigest()}"
+    # Whole characters: half of one could not be turned back.
+    ends = accumulate(len(quote(each, safe="")) for each in text)
+    end = max((end for end in ends if end <= _LONGEST_NAME), default=0)
+    return f"{name[:end]}~{blake2b(name.encode(), digest_size=6).hexdigest()}"
 
 
 @cache

@@ -13,6 +13,7 @@ the bytes around it, wherever the decoder began.
 from __future__ import annotations
 
 import os
+from functools import cache
 from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -69,15 +70,8 @@ def safe_cuts(
 
 
 def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> Iterator[int]:
-    messages, largest = messages_on(direction), table_for(direction).largest
-    if not messages:
-        return
-    proven: _Proven | _Tried
-    if is_searchable(messages):
-        proven = _Proven(LegalFrames(messages))
-    elif largest <= _TRIED:
-        proven = _Tried(direction, largest)
-    else:
+    largest, proven = _prover(direction) if size < length else (0, None)
+    if proven is None:
         return
     about = size
     while about < length:
@@ -85,6 +79,17 @@ def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> It
         if place is not None:
             yield place
         about = max(about + size, searched + 1) if place is None else place + size
+
+
+@cache
+def _prover(direction: Direction | None) -> tuple[int, _Proven | _Tried | None]:
+    """Return the size of the largest frame on a line, and what proves its places, if anything."""
+    messages, largest = messages_on(direction), table_for(direction).largest
+    if not messages:
+        return largest, None
+    if is_searchable(messages):
+        return largest, _Proven(LegalFrames(messages))
+    return largest, _Tried(direction, largest) if largest <= _TRIED else None
 
 
 def _place_near(
