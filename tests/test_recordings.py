@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Iterable, Iterator
+from datetime import datetime, timezone
 from itertools import pairwise
 from pathlib import Path
 
@@ -315,6 +316,17 @@ def test_chunking_does_not_change_what_a_recording_holds(
         assert cut == whole
     else:
         assert cut[0] == whole[0]
+
+
+@pytest.mark.parametrize("size", [1, 2, 4, 1000])
+def test_the_mark_that_editors_write_in_front_of_text_is_no_line(size: int) -> None:
+    text = b"# recorded of 'COM5' from 2026-01-02 03:04:05 +0000 on\n"
+    text += b"55 55 02 07  # 0.5 s, host: ActionGroupStop()\n"
+    marked = b"\xef\xbb\xbf" + text
+    pieces = [marked[at : at + size] for at in range(0, len(marked), size)]
+    (entry,) = read(Pieces(pieces))
+    assert (entry.time, entry.sender, entry.line) == (0.5, "host", 2)
+    assert entry.began == datetime(2026, 1, 2, 3, 4, 5, tzinfo=timezone.utc).timestamp()
 
 
 @pytest.mark.parametrize("glued", [True, False])

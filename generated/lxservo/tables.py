@@ -16,7 +16,7 @@ from ._frame.direction import Direction
 from ._tables.archive.cuts import safe_cuts
 from ._tables.archive.dataset import Report, archive
 from ._tables.archive.pieces import PIECE, Piece, scan
-from ._tables.files.arrow_file import arrow_written, names_in
+from ._tables.files.arrow_file import arrow_written, names_in, refuse_target
 from ._tables.files.parquet import parquet_written
 from ._tables.files.rereading import rereadable
 from ._tables.reader import BLOCK, Batches, batches
@@ -52,7 +52,8 @@ def read(source: Source, *, form: str = "auto", direction: Direction | None = No
     capture names none; None for a line on which both ends are received.
 
     The events are exactly those of StreamDecoder, with neighbouring noise joined. Raises
-    RecordingError for text that makes no sense, and OSError for a file that cannot be read.
+    RecordingError for text that makes no sense, OSError for a file that cannot be read, and
+    TypeError for a source that is no bytes.
     """
     return gathered(batches(source, form, direction))
 
@@ -68,7 +69,10 @@ def read_batches(
 
     Each stretch is a dict of record batches by the name of their table, without those that would be
     empty. The batches of a table, one after the other, are the table that `read` returns.
+    Raises as `read` does, and ValueError for a block of less than a byte.
     """
+    if block < 1:
+        raise ValueError(f"block: {block} is below 1, the least there can be")
     return batches(source, form, direction, block)
 
 
@@ -99,9 +103,11 @@ def write_arrow(
 
     It has all events in the order of the capture: `event` is the name of a message, `noise` or
     `unknown`, and each message that occurs has a column of structs, null in the rows of others. The
-    capture is read twice; a stream is copied to disk for that. Raises RecordingError and OSError as
-    `read`, and leaves no file half-written.
+    capture is read twice; a stream is copied to disk for that. Raises FileExistsError if the file
+    is there and no Arrow file, RecordingError and OSError as `read`, and leaves no file
+    half-written.
     """
+    refuse_target(file)
     with rereadable(source) as again:
         names = names_in(again(), form, direction)
         return arrow_written(batches(again(), form, direction), file, names)

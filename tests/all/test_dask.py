@@ -46,7 +46,7 @@ def cluster(folder: Path) -> Iterator[Any]:
             n_workers=2,
             threads_per_worker=1,
             host="127.0.0.1",
-            dashboard_address=None,
+            dashboard_address=":0",
             local_directory=str(folder / "workers"),
         ) as machine,
         dask.Client(machine) as client,

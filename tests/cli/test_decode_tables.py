@@ -14,9 +14,10 @@ import lxservo._cli
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from busservo import BatteryVoltage
+from busservo import BatteryVoltage, tables
 from busservo._cli import main
 from busservo._cli import recording as reading
+from busservo._tables.extra import need
 from busservo._tables.files import parquet
 
 Capture = pytest.CaptureFixture[str]
@@ -155,8 +156,9 @@ def test_a_capture_of_nothing_makes_no_table(capsys: Capture, tmp_path: Path) ->
         (["-t", "delta", "--arrow", "f"], "-t is about what is printed; tables hold all times"),
         (["--parquet", "taken"], "taken cannot be written: it holds 'notes.txt', which is no"),
         (["--parquet", "taken/notes.txt"], "taken/notes.txt cannot be written: "),
-        (["--arrow", "taken"], "taken cannot be written: "),
-        (["--arrow", "absent/line.arrow"], "absent/line.arrow cannot be written: No such file"),
+        (["--arrow", "taken"], "taken cannot be written: it is a folder: name a file in it"),
+        (["--arrow", "absent/line.arrow"], "absent/line.arrow cannot be written: there is no fold"),
+        (["--arrow", "taken/notes.txt"], "taken/notes.txt cannot be written: it is there, and is"),
     ],
 )
 def test_a_target_that_cannot_be_used_is_reported_in_a_line(
@@ -175,6 +177,31 @@ def test_a_target_that_cannot_be_used_is_reported_in_a_line(
     assert f"busservo: error: {expected}" in errors
     assert [*tmp_path.rglob("*")] == [tmp_path / "taken", tmp_path / "taken" / "notes.txt"]
     assert (tmp_path / "taken" / "notes.txt").read_text() == "mine"
+
+
+def test_the_capture_itself_is_never_overwritten(capsys: Capture, tmp_path: Path) -> None:
+    line = tmp_path / "line.hex"
+    line.write_text(CUT_OFF.read_text())
+    assert main(["decode", str(line), "--arrow", str(line)]) == 2
+    assert "it is there, and is no Arrow file" in capsys.readouterr().err
+    with pytest.raises(FileExistsError, match="give another name, or remove it"):
+        tables.write_arrow(line, line)
+    assert line.read_text() == CUT_OFF.read_text()
+
+
+@pytest.mark.parametrize("option", ["--parquet", "--arrow"])
+def test_the_protocol_of_another_robot_is_recognised(
+    capsys: Capture, tmp_path: Path, option: str
+) -> None:
+    line = tmp_path / "line.bin"
+    line.write_bytes(b"".join(lxservo.PositionRead(1 + at % 6).encode() for at in range(9)))
+    assert main(["decode", str(line), option, str(tmp_path / "out")]) == 0
+    hint = "hint: most of it is noise; it looks like the LX-16A bus servo protocol\n"
+    assert capsys.readouterr().err == f"54 bytes: 0 messages, 54 bytes of noise\n{hint}"
+    assert main(["stats", str(line)]) == 0
+    assert capsys.readouterr().err == hint
+    assert main(["stats", str(NOISY)]) == 0
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize("option", ["--parquet", "--arrow"])
@@ -244,6 +271,13 @@ def test_without_the_extra_the_error_says_how_to_get_it(
     assert main(["decode", "55550207"]) == 0
 
 
+def test_what_is_missing_is_said_once() -> None:
+    with pytest.raises(ImportError, match="absent_package is needed here") as missing:
+        need("absent_package")
+    assert missing.value.__cause__ is None
+    assert missing.value.__suppress_context__
+
+
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
@@ -259,5 +293,5 @@ def test_a_bar_shows_how_far_a_long_file_has_been_read(
     Path("line.bin").write_bytes(BatteryVoltage(1).encode() * 50_000)
     assert main(["decode", "line.bin", "--parquet", "tables"]) == 0
     shown = terminal.getvalue()
-    assert "\rline.bin: [####################] 100%  0.3 of 0.3 MB read" in shown
+    assert "\r[####################] 100%  0.3 of 0.3 MB read: line.bin" in shown
     assert shown.endswith("\r300000 bytes: 50000 messages, 0 bytes of noise\n")

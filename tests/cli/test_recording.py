@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead
 from busservo._cli import main, recording
+from busservo._cli.progress import Progress
 from busservo._cli.progress_bar import progress_bar
 
 from tests.timeouts import GENEROUS
@@ -276,6 +277,12 @@ def test_the_bar_shows_share_rate_and_time_left(
     assert progress_bar(done, size, seconds) == expected
 
 
+def test_the_line_of_progress_leaves_room_for_what_ctrl_c_prints() -> None:
+    terminal = Terminal()
+    Progress(terminal).show(100 * "x")
+    assert terminal.getvalue() == f"\r{77 * 'x'}"
+
+
 def test_a_long_file_says_how_far_it_has_been_read(
     log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -286,5 +293,5 @@ def test_a_long_file_says_how_far_it_has_been_read(
     log.write_text(CUT_OFF + 300_000 * "#\n")
     assert main(["decode", log.name]) == 0
     shown = terminal.getvalue()
-    assert f"\r{log.name}: [##..................]  11%  0.1 of 0.6 MB read" in shown
+    assert f"\r[##..................]  11%  0.1 of 0.6 MB read: {log.name}" in shown
     assert shown.endswith(f"\r{TOTALS}")

@@ -114,11 +114,11 @@ def test_pandas_and_polars_open_it(tmp_path: Path) -> None:
 
 
 def test_a_broken_capture_leaves_the_file_of_before(tmp_path: Path) -> None:
-    (tmp_path / "line.arrow").write_bytes(b"of before")
+    (tmp_path / "line.arrow").write_bytes(b"ARROW1 of before")
     with pytest.raises(RecordingError):
         write_arrow(b"55 55 5Z", tmp_path / "line.arrow")
     assert [path.name for path in tmp_path.iterdir()] == ["line.arrow"]
-    assert (tmp_path / "line.arrow").read_bytes() == b"of before"
+    assert (tmp_path / "line.arrow").read_bytes() == b"ARROW1 of before"
 
 
 def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:

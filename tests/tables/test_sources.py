@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import mmap
+import re
 from datetime import datetime, timedelta, timezone
 from typing import TYPE_CHECKING, Any
 
@@ -37,6 +38,38 @@ class Pieces:
 
     def read(self, size: int, /) -> bytes:
         return self._held.read(min(self._size, size))
+
+
+@pytest.mark.parametrize(
+    ("source", "problem"),
+    [
+        (None, "a file name, bytes or a stream of bytes expected, not NoneType"),
+        ([0x55, 0x55], "a file name, bytes or a stream of bytes expected, not list"),
+        (iter([LINE]), "a file name, bytes or a stream of bytes expected, not list_iterator"),
+        (io.StringIO("55 55"), "a stream of bytes expected, not of text: open the file with 'rb'"),
+        (np.zeros((3, 4), np.uint8)[:, :2], "the array is no run of bytes as it lies in memory"),
+    ],
+)
+@pytest.mark.parametrize("use", [tables.read, tables.write_parquet, tables.write_arrow])
+def test_what_is_no_capture_is_refused_by_its_type(
+    tmp_path: Path, use: Any, source: Any, problem: str
+) -> None:
+    target = () if use is tables.read else (tmp_path / "out",)
+    with pytest.raises(TypeError, match=re.escape(problem)):
+        use(source, *target)
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_a_stretch_has_at_least_a_byte() -> None:
+    for block in (0, -1):
+        with pytest.raises(ValueError, match=f"block: {block} is below 1"):
+            tables.read_batches(LINE, block=block)
+
+
+def test_a_notebook_shows_the_tables_that_have_rows() -> None:
+    shown = tables.read(LINE)._repr_html_()
+    assert "<tr><td>BatteryVoltage</td><td>1</td></tr>" in shown
+    assert shown.count("<tr>") == 1 + len(tables.read(LINE).filled)
 
 
 @pytest.mark.parametrize("block", [7, None])

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 from .._codec.counters import Counters
-from .._codec.lookalikes import recognise
 from .._codec.noise import Noise, UnknownFrame
 from .capture import add_capture, direction_in, opened_capture
 from .entries import EntryLines
@@ -15,6 +14,7 @@ from .events import bytes_of, totals
 from .exit_codes import DONE, NOT_ALL
 from .extra import imported
 from .lines import TIMES
+from .look_alike import ENOUGH, hint
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
@@ -26,9 +26,8 @@ if TYPE_CHECKING:
 ENDS = {NOT_ALL: "there was noise, and --strict was given"}
 ABOUT = """\
 FILE is what `monitor --log` or the `trace` of a client recorded, or hex, or raw bytes. A recording
-says who has sent what, and when: each of its lines is decoded as its sender's."""
-# Bytes enough to recognise another protocol by.
-_KEPT = 16384
+says who has sent what, and when: each of its lines is decoded as its sender's.
+--parquet and --arrow take the extra `tables`."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -63,18 +62,16 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print every message and all noise, or write tables; and the totals on the error stream."""
-    seen, begun = Counters(0, 0, 0, 0), b""
+    seen = Counters(0, 0, 0, 0)
     if arguments.parquet is not None or arguments.arrow is not None:
         if arguments.time is not None:
             raise UsageError("-t is about what is printed; tables hold all times that there are")
-        imported("table_files").write_tables(arguments, seen)
+        begun = imported("table_files").write_tables(arguments, seen)
     else:
         begun = _print(arguments, seen)
     print(totals(seen), file=sys.stderr)
-    found = recognise(begun) if 2 * seen.noise > seen.fed else None
-    if found is not None:
-        title = found.removeprefix("The ")
-        print(f"hint: most of it is noise; it looks like the {title}", file=sys.stderr)
+    if 2 * seen.noise > seen.fed:
+        hint(begun)
     return NOT_ALL if arguments.strict and seen.noise else DONE
 
 
@@ -88,7 +85,7 @@ def _print(arguments: Namespace, seen: Counters) -> bytes:
             lines.show(entry)
             data = bytes_of(entry.event)
             _count(seen, entry.event, len(data))
-            if len(begun) < _KEPT:
+            if len(begun) < ENOUGH:
                 begun += data
     sys.stdout.flush()
     if arguments.time is not None:

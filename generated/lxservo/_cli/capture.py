@@ -62,12 +62,28 @@ def opened_capture(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
         try:
             data = read_hex(" ".join(words))
         except HexError as error:
+            _refuse_files(words)
             other = f", and there is no file {words[0]!r}" if len(words) == 1 else ""
             raise UsageError(f"{error}{other}") from None
         yield Recording(io.BytesIO(data), "the command line"), "raw"
         return
     with opened(file or Path("-")) as recording:
         yield recording, arguments.format
+
+
+def _refuse_files(words: list[str]) -> None:
+    """Raise UsageError for a folder, and for more files than one."""
+    if len(words) == 1 and _is_folder(words[0]):
+        raise UsageError(f"{words[0]} is a folder: name a file in it")
+    if all(map(_is_file, words)):
+        raise UsageError(f"these are {len(words)} files: give one of them at a time")
+
+
+def _is_folder(word: str) -> bool:
+    try:
+        return Path(word).is_dir()
+    except (OSError, ValueError):
+        return False
 
 
 def _is_file(word: str) -> bool:

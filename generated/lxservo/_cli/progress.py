@@ -27,8 +27,8 @@ class Progress:
         """Show a text, in place of the one before."""
         if not self.seen:
             return
-        # A line that is longer than the terminal is wide could not be cleared.
-        text = visible(text)[: _columns(self._screen) - 1]
+        # A line that is longer than the terminal is wide could not be cleared, nor ^C behind it.
+        text = visible(text)[: _columns(self._screen) - 1 - len("^C")]
         if text != self._shown:
             blank = " " * (len(self._shown) - len(text))
             self._shown = text

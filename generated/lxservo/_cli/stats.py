@@ -10,6 +10,7 @@ from .._frame.protocol import BAUD
 from .capture import add_capture, direction_in, opened_capture
 from .exit_codes import DONE
 from .extra import imported
+from .look_alike import beginning, hint
 from .numerals import at_least
 from .statistics_sheet import as_json, show
 from .usage_error import UsageError
@@ -60,9 +61,12 @@ def run(arguments: Namespace) -> int:
             found, traces = measuring.measured(
                 recording, form, direction, None if plot is None else baud
             )
+        mostly_noise = 2 * found.noise_size > found.size
+        begun = beginning(recording, form, direction) if mostly_noise else b""
     print(as_json(found, baud)) if arguments.json else show(found, recording.name, baud)
+    sys.stdout.flush()
+    hint(begun)
     if drawing is not None:
-        sys.stdout.flush()
         for note in drawing.drawn(traces, plot, recording.name, baud):
             print(note, file=sys.stderr)
     return DONE

@@ -7,11 +7,12 @@ import sys
 from typing import TYPE_CHECKING
 
 from .._frame.pluralize import pluralize
-from .._tables.files.arrow_file import arrow_written, names_in
+from .._tables.files.arrow_file import arrow_written, names_in, refuse_target
 from .._tables.files.parquet import parquet_written
 from .._tables.reader import batches
 from .._tables.schema import NOISE
 from .capture import direction_in, opened_capture
+from .look_alike import beginning
 from .rereading import rereadable
 from .sheet import Sheet
 from .usage_error import UsageError
@@ -27,8 +28,11 @@ if TYPE_CHECKING:
     from .recording import Recording
 
 
-def write_tables(arguments: Namespace, seen: Counters) -> None:
-    """Write the tables, print how many rows each has, and count the events. Raises UsageError."""
+def write_tables(arguments: Namespace, seen: Counters) -> bytes:
+    """Write the tables, print how many rows each has, and count the events.
+
+    Return how the bytes begin, if most of them are noise. Raises UsageError.
+    """
     direction = direction_in(arguments)
     with opened_capture(arguments) as (recording, form):
         recording.is_quiet = True
@@ -40,7 +44,10 @@ def write_tables(arguments: Namespace, seen: Counters) -> None:
         except OSError as error:
             target = arguments.parquet or arguments.arrow
             raise UsageError(f"{target} cannot be written: {error.strerror or error}") from None
+        begun = beginning(recording, form, direction) if 2 * seen.noise > seen.fed else b""
     Sheet(sys.stdout).columns([(name, pluralize(count, "row")) for name, count in rows.items()])
+    sys.stdout.flush()
+    return begun
 
 
 def _parquet(
@@ -54,6 +61,7 @@ def _parquet(
 def _arrow(
     recording: Recording, form: str, direction: Direction | None, file: Path, seen: Counters
 ) -> dict[str, int]:
+    refuse_target(file)
     # Which columns there are is known only when all of it has been read.
     with rereadable(recording) as twice:
         twice.is_quiet = True

@@ -14,8 +14,10 @@ def need(*names: str, extra: str = "tables") -> None:
         try:
             import_module(name)
         except ImportError as error:
+            # That it is missing says all; what is broken in one that is there has a cause.
+            cause = None if isinstance(error, ModuleNotFoundError) else error
             raise ImportError(
                 f"{name} is needed here, and cannot be imported ({error}): "
                 f"pip install '{_PACKAGE}[{extra}]'",
                 name=name,
-            ) from error
+            ) from cause

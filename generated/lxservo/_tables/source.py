@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from contextlib import contextmanager
 from pathlib import Path
@@ -80,17 +81,34 @@ class _Held:
 
 @contextmanager
 def opened(source: Source, form: str) -> Iterator[Capture]:
-    """Open a capture. Raises ValueError for another form, and OSError for a file."""
+    """Open a capture. Raises ValueError for another form, OSError and TypeError."""
     if form not in FORMS:
         raise ValueError(f"{form!r} is none of the forms {', '.join(FORMS)}")
     if isinstance(source, (str, os.PathLike)):
         with Path(source).open("rb", buffering=0) as stream:
             yield Capture(stream, form)
         return
-    held: Any = source
+    held = in_memory(source)
+    yield Capture(stream_in(source) if held is None else _Held(held), form)
+
+
+def in_memory(source: Any) -> memoryview | None:
+    """Return the bytes of a capture that is held; None for any other."""
     try:
-        whole = memoryview(held)
+        whole = memoryview(source)
     except TypeError:
-        yield Capture(held, form)
-    else:
-        yield Capture(_Held(whole.cast("B")), form)
+        return None
+    if not whole.c_contiguous:
+        raise TypeError("the array is no run of bytes as it lies in memory: give a copy of it")
+    return whole.cast("B")
+
+
+def stream_in(source: Any) -> Readable:
+    """Return a capture that is a stream of bytes. Raises TypeError for anything else."""
+    if not callable(getattr(source, "read", None)):
+        kind = type(source).__name__
+        raise TypeError(f"a file name, bytes or a stream of bytes expected, not {kind}")
+    if isinstance(source, io.TextIOBase):
+        raise TypeError("a stream of bytes expected, not of text: open the file with 'rb'")
+    stream: Readable = source
+    return stream

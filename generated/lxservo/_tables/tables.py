@@ -45,6 +45,14 @@ class Tables(Mapping[str, pa.Table]):
         rows = ", ".join(f"{name}: {table.num_rows}" for name, table in self.filled.items())
         return f"{type(self).__name__}({rows or 'no rows'})"
 
+    def _repr_html_(self) -> str:
+        """Return the names and rows as a small table, for notebooks."""
+        rows = "".join(
+            f"<tr><td>{name}</td><td>{table.num_rows}</td></tr>"
+            for name, table in self.filled.items()
+        )
+        return f"<table><tr><th>table</th><th>rows</th></tr>{rows}</table>"
+
 
 def gathered(batches: Iterable[Batches]) -> Tables:
     """Return all batches, table by table."""

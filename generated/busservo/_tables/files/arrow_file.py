@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from ..events import Numbers
     from ..reader import Batches
     from ..source import Source
+
+_MAGIC = b"ARROW1"
 
 UNKNOWN = "unknown"
 """The name of unknown frames: their column, and what `event` says of them."""
@@ -180,6 +183,25 @@ def arrow_written(
             part.unlink(missing_ok=True)
         raise
     return rows
+
+
+def refuse_target(file: str | os.PathLike[str]) -> None:
+    """Raise OSError if no Arrow file can be written there, or another file would be lost.
+
+    To be called before anything is read: the capture itself may have been named by mistake.
+    """
+    target = Path(file)
+    if not target.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, f"there is no folder {target.parent}", str(target))
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "it is a folder: name a file in it", str(target))
+    if not target.is_file():
+        return
+    with target.open("rb") as stream:
+        begun = stream.read(len(_MAGIC))
+    if begun not in (b"", _MAGIC):
+        problem = "it is there, and is no Arrow file: give another name, or remove it"
+        raise FileExistsError(errno.EEXIST, problem, str(target))
 
 
 def _write(batches: Iterable[Batches], path: Path, events: EventRows, rows: dict[str, int]) -> None:

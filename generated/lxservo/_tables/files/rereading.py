@@ -7,14 +7,15 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
+from ..source import in_memory, stream_in
 from .part import Part
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from ..source import Source
+    from ..source import Readable, Source
 
 _CHUNK = 1 << 20
 
@@ -25,7 +26,6 @@ def rereadable(source: Source) -> Iterator[Callable[[], Source]]:
 
     A stream is copied to disk. A file that grows is read as far as it goes now.
     """
-    held: Any = source
     if isinstance(source, (str, os.PathLike)):
         with Path(source).open("rb", buffering=0) as stream:
             if stream.seekable():
@@ -34,17 +34,15 @@ def rereadable(source: Source) -> Iterator[Callable[[], Source]]:
             with _copied(stream) as copy:
                 yield copy
         return
-    try:
-        memoryview(held)
-    except TypeError:
-        with _copied(held) as copy:
+    if in_memory(source) is None:
+        with _copied(stream_in(source)) as copy:
             yield copy
     else:
         yield lambda: source
 
 
 @contextmanager
-def _copied(stream: BinaryIO) -> Iterator[Callable[[], Source]]:
+def _copied(stream: Readable) -> Iterator[Callable[[], Source]]:
     with TemporaryFile() as copy:
         while data := stream.read(_CHUNK):
             copy.write(data)

@@ -71,7 +71,7 @@ class Recording:
         if now - self._shown >= PROGRESS_INTERVAL and (self.is_quiet or not sys.stdout.isatty()):
             self._shown = now
             bar = progress_bar(self._done, self._size, now - self._began)
-            self._progress.show(f"{self.name}: {bar}")
+            self._progress.show(f"{bar}: {self.name}")
         return data
 
 

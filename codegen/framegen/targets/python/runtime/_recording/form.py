@@ -70,8 +70,15 @@ def blocks(chunks: Iterable[bytes]) -> Iterator[str]:
     """Yield the text in whole lines, many at once; an overlong line comes in pieces."""
     held = bytearray()
     in_long = False
+    is_begun = False
     for chunk in chunks:
         held += chunk
+        if not is_begun:
+            if len(held) < len(_MARK) and _MARK.startswith(held):
+                continue
+            is_begun = True
+            if held.startswith(_MARK):
+                del held[: len(_MARK)]
         # The end of a long line comes alone, so that what follows it is whole lines again.
         end = held.find(b"\n") + 1 if in_long else held.rfind(b"\n") + 1
         while end:

@@ -1,0 +1,35 @@
+"""A hint for a capture that is mostly noise: its bytes may be of a protocol that looks alike."""
+
+from __future__ import annotations
+
+import sys
+
+from .._codec.lookalikes import recognise
+from .events import bytes_of
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .._frame.direction import Direction
+    from .recording import Recording
+
+ENOUGH = 16384
+"""Bytes enough to recognise another protocol by."""
+
+
+def beginning(recording: Recording, form: str, direction: Direction | None) -> bytes:
+    """Return how the bytes of a recording begin; nothing if it cannot be read again."""
+    begun = b""
+    if recording.again:
+        for entry in recording.entries(form, direction):
+            begun += bytes_of(entry.event)
+            if len(begun) >= ENOUGH:
+                break
+    return begun
+
+
+def hint(begun: bytes) -> None:
+    """Say on the error stream which protocol the bytes look like, if one is known."""
+    found = recognise(begun)
+    if found is not None:
+        title = found.removeprefix("The ")
+        print(f"hint: most of it is noise; it looks like the {title}", file=sys.stderr)
