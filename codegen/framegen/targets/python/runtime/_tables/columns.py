@@ -9,7 +9,7 @@ import numpy as np
 import pyarrow as pa
 
 from .events import UNKNOWN_SENDER
-from .places import read_blocks, read_numbers
+from .places import read_blocks, read_numbers, steps
 from .schema import CLOCK, DIRECTION, arrow_type, schema_of
 
 if TYPE_CHECKING:
@@ -128,7 +128,9 @@ class _Column:
         ends = np.concatenate(([0], np.cumsum(counts)))
         size = self.slot.size
         before = self._at(self.slot.at) - size * ends[:-1]
-        return ends, np.repeat(before, counts) + np.arange(0, size * ends[-1], size)
+        places = np.repeat(before, counts)
+        places += steps(size, len(places))
+        return ends, places
 
     def _list(self) -> pa.Array:
         ends, places = self._elements()

@@ -29,14 +29,27 @@ def read_numbers(data: Bytes, places: Numbers, slot: Slot) -> NDArray[Any]:
     if slot.size == 1:
         return data.take(places).view(kind)
     # Byte by byte: a number may begin anywhere, which few machines like.
-    numbers = np.zeros(len(places), f"u{kind.itemsize}")
-    for at in range(slot.size):
-        byte = data.take(places + at).astype(numbers.dtype)
-        shift = at if slot.order == "little" else slot.size - 1 - at
-        numbers |= byte << numbers.dtype.type(8 * shift)
+    last = slot.size - 1
+    lowest, further = (0, 1) if slot.order == "little" else (last, -1)
+    numbers = data.take(places + lowest).astype(f"u{kind.itemsize}")
+    for number in range(1, slot.size):
+        byte = data.take(places + (lowest + further * number)).astype(numbers.dtype)
+        byte <<= numbers.dtype.type(8 * number)
+        numbers |= byte
     if slot.size == 3 and slot.said.get("signed"):
         return (numbers << np.uint32(8)).view(kind) >> np.int32(8)
     return numbers.view(kind)
+
+
+_steps: dict[int, Numbers] = {}
+
+
+def steps(size: int, count: int) -> Numbers:
+    """Return so many multiples of a size, from 0 on: a part of some that are made once."""
+    made = _steps.get(size)
+    if made is None or len(made) < count:
+        made = _steps[size] = np.arange(0, size * count, size)
+    return made[:count]
 
 
 def read_blocks(data: Bytes, places: Numbers, size: int) -> Bytes:
