@@ -304,7 +304,7 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(terminal, "fileno", lambda: 7)
     monkeypatch.setattr(os, "get_terminal_size", lambda _: os.terminal_size((20, 24)))
     watched(line=Line(silence=1))
-    assert terminal.getvalue().startswith("\rnothing received fo\r")
+    assert terminal.getvalue().startswith("\rnothing received \r")
 
 
 @pytest.mark.parametrize(
