@@ -921,7 +921,7 @@ def test_the_libraries_are_clean(
 ) -> None:
     name, *options = words
     if name == "mypy":
-        options += ["--config-file=", f"--cache-dir={tmp_path}"]
+        options += [f"--config-file={ROOT / 'tests' / 'untyped.ini'}", f"--cache-dir={tmp_path}"]
     done = subprocess.run(
         [tool(name), *options], cwd=side_by_side, capture_output=True, encoding="utf-8", check=False
     )
