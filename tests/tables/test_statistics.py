@@ -35,6 +35,16 @@ def part(made: ModuleType, name: str) -> Any:
     return import_module(f"{made.__name__}.{name}")
 
 
+def _measured(
+    made: ModuleType, name: str, way: Direction | None, data: st.DataObject
+) -> tuple[bytes, Any, Any]:
+    """Return a line, who sends on it, and its statistics."""
+    line = data.draw(lines_of(name, made))
+    direction = None if way is None else direction_of(made, way)
+    measure = part(made, "_tables.stats.statistics").statistics
+    return line, direction, measure(line, form="raw", direction=direction)
+
+
 @pytest.mark.parametrize(("name", "way"), CASES)
 @few_each
 @given(data=st.data())
@@ -42,9 +52,7 @@ def test_statistics_are_those_of_the_decoder(
     libraries: Libraries, name: str, way: Direction | None, data: st.DataObject
 ) -> None:
     made = libraries[name]
-    line = data.draw(lines_of(name, made))
-    direction = None if way is None else direction_of(made, way)
-    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", direction=direction)
+    line, direction, found = _measured(made, name, way, data)
     rows = joined(rows_of_decoder(made, line, direction))
     messages = [row for row in rows if row.table not in ("noise", "unknown")]
     assert {each.name: each.count for each in found.messages} == Counter(
@@ -77,9 +85,7 @@ def test_ranges_are_those_of_the_messages(
     libraries: Libraries, name: str, way: Direction | None, data: st.DataObject
 ) -> None:
     made = libraries[name]
-    line = data.draw(lines_of(name, made))
-    direction = None if way is None else direction_of(made, way)
-    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", direction=direction)
+    line, direction, found = _measured(made, name, way, data)
     decoder = made.StreamDecoder(direction)
     values: dict[tuple[str, str], list[float]] = {}
     for event in [*decoder.feed(line), *decoder.flush()]:
