@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 from ..recordings import read
 from .by_entry import events_by_entry
 from .columns import batch_of
-from .layout import layouts, messages_on
+from .layout import layouts
 from .noise_rows import NoiseRows
 from .schema import NOISE
-from .search.searchable import is_searchable
+from .search.searchable import frames_on
 from .search.window import search
 from .source import opened
 
@@ -56,8 +56,9 @@ def batches(
 
 def events(capture: Capture, direction: Direction | None, block: int) -> Iterator[Events]:
     """Yield what an open capture holds, stretch by stretch."""
-    if not capture.is_text and is_searchable(messages_on(direction)):
-        return search(capture.blocks(block), direction)
+    legal = None if capture.is_text else frames_on(direction)
+    if legal is not None:
+        return search(capture.blocks(block), direction, legal)
     form = "hex" if capture.is_text else "raw"
     return events_by_entry(read(capture, form=form, direction=direction), _ENTRIES)
 

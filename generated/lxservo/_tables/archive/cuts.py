@@ -14,7 +14,6 @@ the bytes around it, wherever the decoder began.
 from __future__ import annotations
 
 import os
-from functools import cache
 from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,16 +23,15 @@ import numpy as np
 from ..._codec.codec import table_for
 from ..._codec.decoder import StreamDecoder
 from ..._codec.noise import Noise
-from ..layout import messages_on
 from ..places import find_all
-from ..search.legal import LegalFrames
-from ..search.searchable import is_searchable
+from ..search.searchable import frames_on
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from ..._frame.direction import Direction
     from ..events import Bytes
+    from ..search.legal import LegalFrames
 
     Read = Callable[[int, int], bytes]
 
@@ -82,15 +80,13 @@ def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> It
         about = max(about + size, searched + 1) if place is None else place + size
 
 
-@cache
 def _prover(direction: Direction | None) -> tuple[int, _Proven | _Tried | None]:
     """Return the size of the largest frame on a line, and what proves its places, if anything."""
-    messages, largest = messages_on(direction), table_for(direction).largest
-    if not messages:
-        return largest, None
-    if is_searchable(messages):
-        return largest, _Proven(LegalFrames(messages))
-    return largest, _Tried(direction, largest) if largest <= _TRIED else None
+    largest, legal = table_for(direction).largest, frames_on(direction)
+    if legal is not None:
+        return largest, _Proven(legal)
+    # There is no frame at all where nothing is sent.
+    return largest, _Tried(direction, largest) if 0 < largest <= _TRIED else None
 
 
 def _place_near(

@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
+from ..layout import messages_on
 from .checksums import is_summed
+from .legal import LegalFrames
 from .shape import is_testable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..._explanation.protocol import Envelope
+    from ..._frame.direction import Direction
     from ..layout import Layout
 
 _IN_FRONT = ("constant", "length", "id", "address", "counter")
 _COMPARED = ("length", "id", "address", "checksum")
 # Larger ones have no room in the numbers that are worked with.
 _WIDEST = 4
+
+
+@cache
+def frames_on(direction: Direction | None) -> LegalFrames | None:
+    """Return the frames on a line, if they can be found at many places at once; None if not."""
+    messages = messages_on(direction)
+    return LegalFrames(messages) if is_searchable(messages) else None
 
 
 def is_searchable(messages: Sequence[Layout]) -> bool:

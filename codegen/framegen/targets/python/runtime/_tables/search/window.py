@@ -14,11 +14,11 @@ import numpy as np
 from ...recordings import read
 from ..by_entry import events_by_entry
 from ..events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
-from ..layout import DIRECTIONS, REASON_NUMBERS, layouts, messages_on
+from ..layout import DIRECTIONS, REASON_NUMBERS, layouts
 from ..places import find_all
 from .chain import Chain, chained, no_chain
 from .fields import NO_KIND
-from .legal import UNKNOWN_COMMAND, UNKNOWN_KIND, LegalFrames
+from .legal import UNKNOWN_COMMAND, UNKNOWN_KIND
 from .noise_pieces import noise_pieces
 from .unknown import Claims
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from ..._frame.direction import Direction
     from ..events import Bytes, Numbers
+    from .legal import LegalFrames
 
 _BAD_HEADER = REASON_NUMBERS["BAD_HEADER"]
 _NOTHING = np.empty(0, np.int64)
@@ -38,9 +39,14 @@ _SENDERS = np.array([each.direction for each in layouts()], np.int8)
 _ALL = 1 << 31
 
 
-def search(blocks: Iterable[Bytes], direction: Direction | None) -> Iterator[Events]:
-    """Yield what a stream holds, which comes in blocks; after the last, the line is quiet."""
-    window = _Window(direction)
+def search(
+    blocks: Iterable[Bytes], direction: Direction | None, legal: LegalFrames
+) -> Iterator[Events]:
+    """Yield what a stream holds, which comes in blocks; after the last, the line is quiet.
+
+    `legal` are the frames on a line that carries `direction`.
+    """
+    window = _Window(direction, legal)
     for block in blocks:
         yield window.add(block)
     yield from window.end()
@@ -49,10 +55,10 @@ def search(blocks: Iterable[Bytes], direction: Direction | None) -> Iterator[Eve
 class _Window:
     """The bytes of a stream that are not decided yet, and what was in front of them."""
 
-    def __init__(self, direction: Direction | None) -> None:
+    def __init__(self, direction: Direction | None, legal: LegalFrames) -> None:
         self._direction = direction
         self._sender = UNKNOWN_SENDER if direction is None else DIRECTIONS.index(direction)
-        self._legal = LegalFrames(messages_on(direction))
+        self._legal = legal
         self._header = self._legal.envelope.header
         self._claims = Claims(direction, self._header)
         self._data: Bytes = np.empty(0, np.uint8)
