@@ -14,6 +14,8 @@ WIDTHS = (320, 380, 768, 1440)
 PAPER = 700
 
 _LOOKS = Path(__file__).with_suffix(".js").read_text("utf-8")
+# A page hears that it was made wider or narrower when its next frame is drawn.
+_DRAWN = "await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
 def faults(tab: Tab) -> list[str]:
@@ -97,5 +99,7 @@ def violations(tab: Tab, options: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _found(tab: Tab, kind: str) -> list[str]:
-    found: list[str] = tab.evaluate(f"() => {{ {_LOOKS}; return first({kind}()); }}")
+    found: list[str] = tab.evaluate(
+        f"async () => {{ {_LOOKS}; {_DRAWN}; return first({kind}()); }}"
+    )
     return found
