@@ -18,6 +18,7 @@ from pathlib import Path
 
 from ._codec.codec import twins
 from ._codec.decoder import Event, StreamDecoder
+from ._codec.event_bytes import bytes_of
 from ._codec.hextext import HexError, HexReader
 from ._codec.noise import Noise
 from ._frame.direction import Direction
@@ -29,6 +30,8 @@ from ._recording.lines import recorded
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from typing import Protocol
+
+    from ._frame.message import Message
 else:
     Protocol = object  # it is for type checkers alone
 
@@ -103,10 +106,10 @@ def _streamed(decoded: Iterable[list[Event]], direction: Direction | None) -> It
     for events in decoded:
         for event in events:
             yield Entry(event, _sender(event, direction), offset)
-            offset += len(event.data if isinstance(event, Noise) else event.encode())
+            offset += len(bytes_of(event))
 
 
-def _sender(event: Event, direction: Direction | None) -> str | None:
+def _sender(event: Message | Noise, direction: Direction | None) -> str | None:
     if direction is not None:
         return direction.sender
     return None if isinstance(event, Noise) or twins(event) else event.DIRECTION.sender

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from busservo import Reason, recordings
 from busservo._cli.entries import EntryLines
-from busservo._cli.events import bytes_of
+from busservo._codec.event_bytes import bytes_of
 from framegen.hextext import HexError, read_hex
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data

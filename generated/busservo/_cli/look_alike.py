@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import sys
 
+from .._codec.event_bytes import bytes_of
 from .._codec.lookalikes import recognise
-from .events import bytes_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -13,6 +13,7 @@ from copy import copy
 from .._frame.errors import Reason
 from .._frame.protocol import HEADER
 from .decoder import StreamDecoder
+from .event_bytes import bytes_of
 from .noise import Noise
 
 # How many seconds of silence end a frame that has begun: longer than the latency of any adapter,
@@ -117,11 +118,7 @@ class CarefulDecoder:
         for number, event in enumerate(events):
             if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
                 continue
-            rest = b"".join(
-                each.data if isinstance(each, Noise) else each.encode()
-                for each in events[number + 1 :]
-            )
-            rest += self._decoder.held
+            rest = b"".join(map(bytes_of, events[number + 1 :])) + self._decoder.held
             found = [] if self._doubted is not None else self._refuted(event)
             return [*events[:number], *found, *(self.feed(rest) if rest else ())]
         return events

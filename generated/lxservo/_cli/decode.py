@@ -7,10 +7,11 @@ import sys
 from pathlib import Path
 
 from .._codec.counters import Counters
+from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
 from .capture import add_capture, direction_in, opened_capture
 from .entries import EntryLines
-from .events import bytes_of, totals
+from .events import totals
 from .exit_codes import DONE, NOT_ALL
 from .extra import imported
 from .lines import TIMES

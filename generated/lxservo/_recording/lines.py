@@ -8,11 +8,11 @@ from datetime import datetime
 
 from .._codec.codec import table_for
 from .._codec.decoder import Event, StreamDecoder
+from .._codec.event_bytes import bytes_of
 from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._frame.errors import Reason
-from .._frame.message import Message
 from .entry import SENDERS, Entry, RecordingError
 from .file import EITHER, NOISE
 from .form import LONGEST_LINE, TIMED_LINE
@@ -53,7 +53,7 @@ def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Ent
             time = float(at)
             for event in _events(data, sender, what.strip(), is_noise=is_noise):
                 yield Entry(event, sender, offset, line=number, time=time, began=began)
-                offset += len(event.encode() if isinstance(event, Message) else event.data)
+                offset += len(bytes_of(event))
 
 
 def _beginning(line: str, number: int, began: float | None) -> float | None:

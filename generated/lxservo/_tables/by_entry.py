@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
 from .._recording.entry import SENDERS
 from ..messages import MESSAGES
@@ -17,6 +18,7 @@ from .layout import DIRECTIONS, REASON_NUMBERS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .._frame.message import Message
     from ..recordings import Entry
     from .events import Seconds
 
@@ -38,10 +40,10 @@ def events_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Events]:
         for entry in islice(entries, many):
             event = entry.event
             if isinstance(event, Noise):
-                runs.add(entry, event.data, REASON_NUMBERS[event.reason.name])
+                runs.add(entry, REASON_NUMBERS[event.reason.name])
                 is_unknown.append(isinstance(event, UnknownFrame))
             else:
-                frames.add(entry, event.encode(), _KINDS[type(event)])
+                frames.add(entry, _kind_of(event))
         if not frames.data and not runs.data:
             return
         yield Events(_frames(frames), _runs(runs, is_unknown), max(frames.end, runs.end))
@@ -58,10 +60,10 @@ class _Rows:
         self.time: list[float] = []
         self.clock: list[float] = []
 
-    def add(self, entry: Entry, data: bytes, what: int) -> None:
-        """Add an entry with its bytes, and its class or its reason."""
+    def add(self, entry: Entry, what: int) -> None:
+        """Add an entry, with its class or its reason."""
         time, began = entry.time, entry.began
-        self.data.append(data)
+        self.data.append(bytes_of(entry.event))
         self.offset.append(entry.offset)
         self.what.append(what)
         self.direction.append(_DIRECTIONS[entry.sender])
@@ -72,6 +74,10 @@ class _Rows:
     def end(self) -> int:
         """Where the last one ends."""
         return self.offset[-1] + len(self.data[-1]) if self.data else 0
+
+
+def _kind_of(message: Message) -> int:
+    return _KINDS[type(message)]
 
 
 def _frames(rows: _Rows) -> Frames:

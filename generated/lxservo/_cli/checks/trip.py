@@ -8,6 +8,7 @@ from itertools import accumulate
 
 from ..._client.exchanges import EXCHANGES
 from ..._codec.decoder import StreamDecoder
+from ..._codec.event_bytes import bytes_of
 from ..._codec.noise import Noise
 from ..._frame.direction import RECEIVED
 
@@ -33,7 +34,7 @@ def timed_events(pieces: Pieces, left_out: range = range(0)) -> list[TimedEvent]
     found: list[TimedEvent] = []
     end = 0
     for event in [*events, *decoder.flush()]:
-        end += len(event.data if isinstance(event, Noise) else event.encode())
+        end += len(bytes_of(event))
         at = end + len(left_out) * (end > left_out.start)
         found.append((pieces[bisect_left(ends, at)][0], event))
     return found

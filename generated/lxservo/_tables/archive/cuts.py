@@ -22,14 +22,16 @@ import numpy as np
 
 from ..._codec.codec import table_for
 from ..._codec.decoder import StreamDecoder
+from ..._codec.event_bytes import bytes_of
 from ..._codec.noise import Noise
 from ..places import find_all
 from ..search.searchable import frames_on
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from ..._frame.direction import Direction
+    from ..._frame.message import Message
     from ..events import Bytes
     from ..search.legal import LegalFrames
 
@@ -139,8 +141,8 @@ class _Tried:
 
     def ends(self, data: bytes, about: int) -> Iterator[int]:
         """Yield safe places from `about` on."""
-        events = StreamDecoder(self._direction).feed(data)
-        sizes = [len(each.data if isinstance(each, Noise) else each.encode()) for each in events]
+        events: Sequence[Message | Noise] = StreamDecoder(self._direction).feed(data)
+        sizes = [len(bytes_of(each)) for each in events]
         for event, size, end in zip(events, sizes, accumulate(sizes), strict=True):
             is_message = not isinstance(event, Noise)
             if is_message and end >= about:
@@ -156,7 +158,7 @@ class _Tried:
         """Tell whether a decoder reads a frame of some size last, and holds nothing."""
         data, size = line
         decoder = StreamDecoder(self._direction)
-        events = decoder.feed(data)
+        events: Sequence[Message | Noise] = decoder.feed(data)
         last = events[-1] if events else None
         return not (decoder.pending or last is None or isinstance(last, Noise)) and (
             len(last.encode()) == size

@@ -25,11 +25,6 @@ UNKNOWN = "unknown"
 KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
 
 
-def bytes_of(event: Message | Noise) -> bytes:
-    """Return the bytes of an event."""
-    return event.data if isinstance(event, Noise) else event.encode()
-
-
 def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
     """Return the names of the messages that it may be; none for noise."""
     if isinstance(event, Noise):

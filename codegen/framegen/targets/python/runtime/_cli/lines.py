@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import time
 
+from .._codec.event_bytes import bytes_of
 from .._frame.bytes_like import format_hex
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from .colour import painted, takes_colour
 from .console import visible, write_as_it_is
-from .events import UNKNOWN, bytes_of, in_json, in_words, sender_of
+from .events import UNKNOWN, in_json, in_words, sender_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -9,10 +9,11 @@ import time
 
 from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
+from .._codec.event_bytes import bytes_of
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
 from .._serial.link_errors import TransportError
-from .events import bytes_of, totals
+from .events import totals
 from .lines import Lines
 from .progress import PROGRESS_INTERVAL, Progress
 

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from contextlib import contextmanager, suppress
 
+from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._recording.file import EITHER, NOISE, RecordingFile
-from .events import bytes_of, names_of, sender_of
+from .events import names_of, sender_of
 from .usage_error import UsageError
 
 TYPE_CHECKING = False

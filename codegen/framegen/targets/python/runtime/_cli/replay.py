@@ -8,6 +8,7 @@ from pathlib import Path
 
 from .._client.exchanges import EXCHANGES
 from .._client.wire_time import WireTime
+from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
@@ -15,7 +16,7 @@ from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
 from ..recordings import FORMS
 from . import link
-from .events import bytes_of, in_words
+from .events import in_words
 from .exit_codes import DONE, INTERRUPTED
 from .lines import Lines
 from .link import add_port, failures_reported, open_line
