@@ -44,6 +44,7 @@ from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
 pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
 import tty  # noqa: E402 - as pty
@@ -87,13 +88,19 @@ class Board:
 
 
 class PtyBoard(Board):
-    """A board at one end of a pseudo-terminal; `port` is the other."""
+    """A board at one end of a pseudo-terminal; `port` is a link to the other.
 
-    def __init__(self) -> None:
+    The system soon gives the name of a pseudo-terminal that is closed to another one, which any
+    process may have; a link of our own leads nowhere then.
+    """
+
+    def __init__(self, link: Path) -> None:
         self.gone = False
         self._ends = pty.openpty()
         tty.setraw(self._ends[1])
-        self.port = os.ttyname(self._ends[1])
+        link.symlink_to(os.ttyname(self._ends[1]))
+        self._link = link
+        self.port = str(link)
         super().__init__(self._some, lambda data: os.write(self._ends[0], data))
 
     def _some(self) -> bytes:
@@ -108,13 +115,14 @@ class PtyBoard(Board):
         if not self.gone:
             self.gone = True
             self.join()
+            self._link.unlink()
             for end in self._ends:
                 os.close(end)
 
 
 @pytest.fixture
-def board() -> Iterator[PtyBoard]:
-    made = PtyBoard()
+def board(tmp_path: Path) -> Iterator[PtyBoard]:
+    made = PtyBoard(tmp_path / "port")
     yield made
     made.unplug()
 
