@@ -32,6 +32,9 @@ TESTS =
 # How many slow tests of each file are a sample; others on each day, or those of a SEED.
 SAMPLE = 3
 SEED =
+# Those of no sample: `make packages` and `make newcomer` run all of theirs, and each of the
+# afternoon is all tests once more.
+WHOLE = afternoon newcomer packages
 # Where the pages go.
 SITE = build/site
 # The address where they will be, for a sitemap and the like.
@@ -61,9 +64,8 @@ quick: $(TO_TEST)  ## Run the tests with fewer examples
 test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest --all -n $(WORKERS)
 
-# `make packages` runs all of those, and each of the guide to changes is all tests once more.
 sample: $(TO_TEST) $(TO_LINT)  ## Run some of the slow tests: make sample SAMPLE=5 SEED=7
-	$(IN)/python -m pytest -n $(WORKERS) --ignore tests/all/test_packages.py --ignore tests/all/test_afternoon.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
+	$(IN)/python -m pytest -n $(WORKERS) $(foreach file,$(WHOLE),--ignore tests/all/test_$(file).py) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
@@ -139,7 +141,7 @@ release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: mak
 	$(MAKE) wheel
 
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
-	$(IN)/python -m pytest tests/all/test_packages.py
+	$(IN)/python -m pytest -n $(WORKERS) tests/all/test_packages.py
 
 newcomer:  ## Follow README and guides in a new clone, with the system's own Python
 	.ci/newcomer
