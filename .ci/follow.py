@@ -38,6 +38,8 @@ BUS = "lxservo-simulator --servos 1,2"
 # What runs until Ctrl-C.
 WAITS = (SIMULATE, "busservo monitor")
 INTERRUPTED = 130
+# So many seconds after that it has ended, however busy the machine is.
+PATIENCE = 60
 IGNORED = {"bat", "powershell", "text"}
 # Where it is said how to install, and what a page says that does it by itself.
 INSTALLATION = ROOT / "docs" / "getting-started.md"
@@ -170,7 +172,12 @@ class Reader:
         else:
             time.sleep(2)
         waiting.send_signal(signal.SIGINT)
-        if waiting.wait() not in (0, INTERRUPTED) or not port:
+        try:
+            waiting.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            waiting.kill()
+            raise WrongError(f"Ctrl-C did not end `{command}`") from None
+        if waiting.returncode not in (0, INTERRUPTED) or not port:
             raise WrongError(f"it named the port {port!r}, and ended with {waiting.returncode}")
 
     def deactivate(self) -> None:
@@ -253,6 +260,8 @@ def _compare(expected: str, printed: str) -> None:
 
 def main() -> int:
     """Follow the named pages; return 1 if one of them does not work."""
+    # Whoever runs this in the background may have it ignore Ctrl-C, and all that it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         for name in sys.argv[1:]:
             installing = INSTALLS.search((ROOT / name).read_text(encoding="utf-8"))
