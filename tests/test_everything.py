@@ -97,8 +97,8 @@ def test_constants_and_reserved_bytes_are_no_fields(everything: Any) -> None:
     flags = everything.Flags(error=0, mode=0, position=0, temperature=0)
     assert flags.__match_args__ == ("error", "mode", "position", "temperature")
     frame = flags.encode()
-    assert frame[4:5] == b"\x04"
-    assert frame[6:8] == b"\x01\x02"
+    assert frame[5:6] == b"\x04"
+    assert frame[7:9] == b"\x01\x02"
     assert [type(each).__name__ for each in everything.Flags.CONSTANTS] == [
         "Always",
         "Reserved",
@@ -109,7 +109,7 @@ def test_constants_and_reserved_bytes_are_no_fields(everything: Any) -> None:
 
 def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
     flags = everything.Flags(error=0, mode=0, position=0, temperature=0)
-    body = flags.encode()[2:6] + b"\xaa\xbb" + flags.encode()[8:-1]
+    body = flags.encode()[2:7] + b"\xaa\xbb" + flags.encode()[9:-1]
     frame = b"\xbe\xef" + body + bytes([sum(body) & 0xFF])
     read = everything.Flags.decode(frame)
     assert read.encode() == frame
@@ -119,7 +119,7 @@ def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("present", "size"), [((), 7), ((2,), 8), ((2, 3, 1.5), 15)], ids=["none", "one", "all"]
+    ("present", "size"), [((), 8), ((2,), 9), ((2, 3, 1.5), 16)], ids=["none", "one", "all"]
 )
 def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size: int) -> None:
     # Where nothing is there, the checksum follows: no value that a field could have.
@@ -221,16 +221,16 @@ def test_a_bad_text_is_named(everything: Any, given: tuple[Any, Any], problem: s
 
 def test_zeros_at_the_end_of_a_fixed_text_are_no_part_of_it(everything: Any) -> None:
     texts = everything.Texts("ab", "c\0")
-    assert texts.encode()[4:12] == b"ab\0\0\0\0\0\0"
+    assert texts.encode()[5:13] == b"ab\0\0\0\0\0\0"
     assert (texts.name, texts.note) == ("ab", "c\0")
 
 
 @pytest.mark.parametrize(
     ("at", "byte", "problem"),
     [
-        (4, 0x05, "layout is 05, and always 04"),
-        (8, 0x0A, r"mode is 10, outside 0\.\.9"),
-        (17, 0x01, "mark is 01 03, and always 02 03"),
+        (5, 0x05, "layout is 05, and always 04"),
+        (9, 0x0A, r"mode is 10, outside 0\.\.9"),
+        (18, 0x01, "mark is 01 03, and always 02 03"),
     ],
 )
 def test_a_field_that_is_wrong_in_a_frame_is_named(

@@ -90,7 +90,7 @@ def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:
         assert row.fields == fields_of(made.decode(sealed, made.Direction.ASKER_TO_TELLER))
 
 
-TAIL = bytes.fromhex("BE EF 03 0A 00 01 02 80 00 01 00 00 60 40 31")
+TAIL = bytes.fromhex("BE EF 03 A5 0A 00 01 02 80 00 01 00 00 60 40 D6")
 ABSENT = {"first": 1, "second": None, "third": None, "fourth": None}
 
 
@@ -99,8 +99,8 @@ def test_what_is_absent_is_null(libraries: Libraries) -> None:
     seal = sealing(made)
     frames = [
         TAIL,
-        seal(bytes.fromhex("BE EF 03 03 00 01 63 00")),
-        seal(bytes.fromhex("BE EF 03 02 00 01 00")),
+        seal(bytes.fromhex("BE EF 03 A5 03 00 01 63 00")),
+        seal(bytes.fromhex("BE EF 03 A5 02 00 01 00")),
     ]
     rows = rows_in_tables(made, b"".join(frames), made.Direction.TELLER_TO_ASKER)
     assert [row.fields for row in rows] == [

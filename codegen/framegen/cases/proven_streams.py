@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING
 
 from framegen.cases.sender import LONGEST
 from framegen.cases.stream_case import QUIET, StreamCase, chunks, single_bytes
+from framegen.model.slots import Constant, Number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.cases.sender import Sender
     from framegen.cases.stream_case import Parts
+    from framegen.model.slots import Slot
 
 # So many beginnings of frames reach across several of the frames that they claim to be.
 _RUN = 12
@@ -22,7 +24,12 @@ def proven_streams(sender: Sender) -> Iterator[StreamCase]:
     frames = [*sender.small_frames.values()]
     if not frames or not sender.frame.proven:
         return
-    for title, parts in [*_runs(sender, frames[0]), *_unknown(sender, frames[0])]:
+    lines = [
+        *_runs(sender, frames[0]),
+        *_unknown(sender, frames[0]),
+        *_otherwise(sender, frames[0]),
+    ]
+    for title, parts in lines:
         yield StreamCase(title, sender.direction, parts)
 
 
@@ -51,3 +58,32 @@ def _unknown(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
         yield f"{title}, then quiet", (wrong, QUIET)
         yield f"{title}, then a frame", (wrong + frame, QUIET)
         yield f"{title}, byte by byte", (*single_bytes(wrong + frame), QUIET)
+
+
+def _otherwise(sender: Sender, frame: bytes) -> Iterator[tuple[str, Parts]]:
+    """Yield frames of an unknown id with a right checksum, in which another part is wrong."""
+    unknown, ids = sender.unknown(sender.noise(2)), sender.unknown_ids
+    if unknown is None or ids is None:
+        return
+    for placed in sender.frame.lay_out(len(unknown)):
+        wrong = _wrong(placed.slot)
+        # In front of the id, it is refused for itself.
+        if wrong is None or placed.at < sender.frame.id.at:
+            continue
+        changed = unknown[: placed.at] + wrong + unknown[placed.end :]
+        sealed = sender.frame.sealed(changed, ids)
+        title = f"an unknown frame whose {placed.slot.name} is no such"
+        yield f"{title}, then quiet", (sealed, QUIET)
+        yield f"{title}, byte by byte, then a frame", (*single_bytes(sealed + frame), QUIET)
+
+
+def _wrong(slot: Slot) -> bytes | None:
+    """Return what no frame has in a constant, or in an address; None where anything can be."""
+    if isinstance(slot, Constant) and slot.role == "constant":
+        return slot.data[:-1] + bytes([slot.data[-1] ^ 0x01])
+    if isinstance(slot, Number) and slot.role == "address":
+        beyond = (slot.high + 1, slot.low - 1)
+        numbers = (each for each in beyond if each not in slot.named)
+        fitting = (each for each in numbers if 0 <= each <= slot.number_type.high)
+        return next(map(slot.write, fitting), None)
+    return None

@@ -194,8 +194,7 @@ class _Look:
                         candidates = self._with_ids(ids, slot)
                         ids_left -= 1
                     case "address":
-                        if not slot.holds(number):
-                            raise _Refused(OUT_OF_RANGE, placed.at)
+                        self._address(placed, slot)
             self.seen.append(placed)
             if length is not None and not ids_left:
                 candidates = self._fitting(candidates, length)
@@ -235,7 +234,7 @@ class _Look:
         proven = provable and self.frame.body_at <= claim <= len(self.data)
         if proven:
             try:
-                self._tail(self.data[:claim])
+                self._around(self.data[:claim])
             except _Refused:
                 proven = False
         return replace(refused, claim=claim, provable=provable, proven=proven)
@@ -249,11 +248,14 @@ class _Look:
         size = self.frame.length.read_in(self.data) + self.frame.uncounted
         return size if self._is_possible(size) else 0
 
-    def _tail(self, frame: bytes) -> None:
-        """Refuse what is behind the fields of a frame of unknown id, unless it is right."""
+    def _around(self, frame: bytes) -> None:
+        """Refuse what is around the fields of a frame of unknown id, unless all of it is right."""
         for placed in self.frame.lay_out(len(frame)):
-            if isinstance(placed.slot, Constant):
-                self._constant(placed, placed.slot)
+            slot = placed.slot
+            if isinstance(slot, Constant):
+                self._constant(placed, slot)
+            elif isinstance(slot, Number) and slot.role == "address":
+                self._address(placed, slot)
         self._proven(
             lambda checksum, data: self.frame.covered(checksum, {}).checksum(checksum, data), frame
         )
@@ -285,6 +287,10 @@ class _Look:
                     raise _Refused(reason if slot.field is None else OUT_OF_RANGE, at)
         if len(found) < placed.size:
             raise _Refused(TOO_SHORT, len(self.data))
+
+    def _address(self, placed: Placed, slot: Number) -> None:
+        if not slot.holds(slot.read(self._whole(placed))):
+            raise _Refused(OUT_OF_RANGE, placed.at)
 
     def _whole(self, placed: Placed) -> bytes:
         found = placed.of(self.data)

@@ -52,6 +52,10 @@ class Constant(Part):
         super().__init__(name, len(data))
         self.data = data
 
+    def is_right(self, frame: bytes) -> bool:
+        """Return whether a frame has these bytes."""
+        return frame[self.place] == self.data
+
 
 class NumberPart(Part):
     """A whole number without a sign."""
@@ -99,6 +103,10 @@ class Address(NumberPart):
     def holds(self, number: int) -> bool:
         """Return whether there may be such a device."""
         return number in self.numbers or number in self.named
+
+    def is_right(self, frame: bytes) -> bool:
+        """Return whether a frame has the number of a device."""
+        return self.holds(self.read(frame))
 
     @property
     def first_bytes(self) -> frozenset[int]:
@@ -209,6 +217,8 @@ class Envelope:
         # What may be wrong behind the fields, besides checksums: the constants alone, and all.
         self.ends = tuple(part for part in tail if isinstance(part, Constant))
         self.judged = tuple(part for part in tail if isinstance(part, (Constant, Address)))
+        # What may be wrong in a frame of unknown id.
+        self.around = tuple(part for part in every if isinstance(part, (Constant, Address)))
         self.seal = _sealer(self)
         """A function that returns a frame, packed with zeros for its checksums, with these."""
 
@@ -250,8 +260,11 @@ class Envelope:
         if not self.proves_unknown:
             # What is claimed without a proof is not held to how frames end, either.
             return True
-        ends = all(frame[part.place] == part.data for part in self.ends)
-        return ends and self.wrong(frame, ()) is None
+        return self.is_around(frame) and self.wrong(frame, ()) is None
+
+    def is_around(self, frame: bytes) -> bool:
+        """Return whether a frame of any id has the right constants, and an address that is one."""
+        return all(part.is_right(frame) for part in self.around)
 
     def size(self, length: int) -> int:
         """Return the size of the frames of a length."""

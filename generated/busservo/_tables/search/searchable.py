@@ -47,11 +47,9 @@ def is_searchable(messages: Sequence[Layout]) -> bool:
 
 def _is_regular(envelope: Envelope) -> bool:
     roles = [placed.slot.role for placed in envelope.head]
-    constants = sum(placed.slot.size for placed in envelope.head if placed.slot.role == "constant")
     behind = [slot for slot in envelope.slots if slot.at < 0]
     return (
         bool(envelope.header)
-        and constants == len(envelope.header)
         and {"length", "id"} <= {*roles} <= {*_IN_FRONT}
         and all(slot.size <= _WIDEST for slot in envelope.slots if slot.role in _COMPARED)
         and not envelope.unsent

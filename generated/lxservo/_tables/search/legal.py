@@ -79,16 +79,16 @@ class LegalFrames:
             if found.either is not None:
                 either[which] = found.either
         if self.proves_unknown:
-            self._prove_unknown(Judged(size, kind, reason, either), sums, places)
+            self._prove_unknown(Judged(size, kind, reason, either), data, sums, places)
         return Judged(size, kind, reason, either)
 
-    def _prove_unknown(self, found: Judged, sums: Checksums, places: Numbers) -> None:
+    def _prove_unknown(self, found: Judged, data: Bytes, sums: Checksums, places: Numbers) -> None:
         """Find the frames of unknown command whose checksum proves that they are frames."""
         claimed = np.flatnonzero((found.reason == UNKNOWN_COMMAND) & (found.size > 0))
         if not len(claimed):
             return
         begins, sizes = places[claimed], found.size[claimed]
-        proven = sizes >= self.envelope.body_at
+        proven = (sizes >= self.envelope.body_at) & self._heads.are_around(data, begins)
         for part in self.envelope.checksums:
             proven &= sums.are_right(self.envelope, part, begins, sizes)
         found.kind[claimed[proven]] = UNKNOWN_KIND

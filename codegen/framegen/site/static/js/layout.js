@@ -52,6 +52,8 @@ function preparedEnvelope(frame) {
     lengthSlot: slots.find(({ role }) => role === "length"),
     checksums: slots.filter(({ role }) => role === "checksum"),
     headIds: head.filter(({ role }) => role === "id"),
+    // What is looked at in a frame of unknown id, besides its checksums.
+    around: slots.filter(({ role }) => role === "constant" || role === "address"),
   };
 }
 

@@ -214,8 +214,9 @@ function makeVerdicts(layout) {
   function weighUnknown(envelope, offset, line, look, at, limit) {
     const claim = claimOf(envelope, line, look, at, limit), provable = envelope.proves && claim > 0;
     const isWhole = envelope.bodyAt <= claim && at + claim <= limit;
-    const proven = provable && isWhole && !envelope.tail.some((slot) => slot.role === "constant"
-      && misfit(slot, claim + slot.at, slot.bytes, look, at, limit))
+    const placeOf = (slot) => (slot.at < 0 ? claim + slot.at : slot.at);
+    const proven = provable && isWhole
+      && !envelope.around.some((slot) => misfit(slot, placeOf(slot), fixed(slot), look, at, limit))
       && !misproof(envelope, [], claim, look, at);
     return verdict(null, Reason.unknown, offset, claim, provable, proven);
   }

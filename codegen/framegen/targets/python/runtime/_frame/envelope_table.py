@@ -287,7 +287,7 @@ def _end_test(part: Constant | Address) -> Callable[[bytes], bool]:
     if isinstance(part, Constant):
         place, due = part.place, part.data
         return lambda frame: frame[place] == due
-    return lambda frame: part.holds(part.read(frame))
+    return part.is_right
 
 
 def _reach(kind: type[Message], largest: int) -> int:

@@ -53,9 +53,8 @@ class Unknown:
         return Verdict(None, reason, self.id_at, size, is_open=is_open, proven=proven)
 
     def _is_right(self, frame: bytes, data: bytes, at: int, prove: Prove) -> bool:
-        if any(frame[part.place] != part.data for part in self.frame.ends):
-            return False
-        return prove(data, at, self.size, self.frame, ()) is None
+        right = self.frame.is_around(frame)
+        return right and prove(data, at, self.size, self.frame, ()) is None
 
 
 class Known:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..layout import REASON_NUMBERS
-from ..places import read_numbers
+from ..places import read_blocks, read_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -61,7 +61,10 @@ class Heads:
 
         for placed in self._envelope.head:
             slot = placed.slot
-            if slot.role in ("constant", "counter"):
+            if slot.role == "counter" or slot.at < len(self._envelope.header):
+                continue
+            if slot.role == "constant":
+                refuse(~_has(slot, data, places), "BAD_HEADER")
                 continue
             numbers = read_numbers(data, places + slot.at, slot)
             if slot.role == "length":
@@ -79,6 +82,17 @@ class Heads:
         order = np.argsort(group, kind="stable")
         ends = np.cumsum(np.bincount(group, minlength=self._ids))[: self._ids]
         return ReadHeads(size, reason, order, [*pairwise([0, *ends.tolist()])])
+
+    def are_around(self, data: Bytes, places: Numbers) -> NDArray[np.bool_]:
+        """Tell where constants and address are those of a frame, whatever its id is."""
+        right = np.ones(len(places), np.bool_)
+        for placed in self._envelope.head:
+            if placed.slot.role == "constant":
+                right &= _has(placed.slot, data, places)
+            elif placed.slot.role == "address":
+                numbers = read_numbers(data, places + placed.slot.at, placed.slot)
+                right &= _holds(placed.slot, numbers)
+        return right
 
 
 class _Step:
@@ -126,6 +140,13 @@ def _steps(parts: Sequence[Slot], ids: Sequence[tuple[int, ...]]) -> list[_Step]
         found.append(_Step(part, after, len(before)))
         before = numbers
     return found
+
+
+def _has(slot: Slot, data: Bytes, places: Numbers) -> NDArray[np.bool_]:
+    """Tell where a constant stands."""
+    found = read_blocks(data, places + slot.at, slot.size)
+    right: NDArray[np.bool_] = (found == np.frombuffer(slot.data, np.uint8)).all(axis=1)
+    return right
 
 
 def _holds(slot: Slot, numbers: NDArray[Any]) -> NDArray[np.bool_]:
