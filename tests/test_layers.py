@@ -17,6 +17,7 @@ LAYERS = [
         "console",
         "hextext",
         "recording_file",
+        "recording_form",
         "shell_completion",
         "pluralize",
     },

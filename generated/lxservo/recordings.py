@@ -24,7 +24,7 @@ from ._codec.noise import Noise
 from ._frame.direction import Direction
 from ._recording.entry import Entry, RecordingError
 from ._recording.file import QUIET
-from ._recording.form import TIMED_LINE, blocks, is_text
+from ._recording.form import FORMS, TIMED_LINE, begun_as, blocks
 from ._recording.lines import recorded
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -37,9 +37,6 @@ else:
 
 
 __all__ = ["FORMS", "Entry", "RecordingError", "read"]
-
-FORMS = ("auto", "hex", "raw")
-"""What a file may hold: hex, as every recording does, or raw bytes; auto goes by its first word."""
 
 
 class Readable(Protocol):
@@ -80,12 +77,7 @@ def _read(
             yield from _read(stream, form, direction)
         return
     chunks = _chunks(source)
-    begun = b""
-    text = {"hex": True, "raw": False}.get(form)
-    while text is None:
-        chunk = next(chunks, b"")
-        begun += chunk
-        text = is_text(begun, ended=not chunk)
+    begun, text = begun_as(lambda: next(chunks, b""), form)
     whole = chain([begun], chunks)
     if text:
         yield from _text(blocks(whole), direction)

@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from framegen.audit.recording import FORMS, read_recording
+from framegen.audit.recording import read_recording
 from framegen.cli import main
+from framegen.recording_form import FORMS
 
 from tests.audit.line import audited
 from tests.factories import BUSSERVO, compiled_file
@@ -63,7 +64,7 @@ def test_exit_code(
 UNUSABLE = [
     (b"", [], "holds no bytes of a line", "record the line"),
     (b"# recorded of 'x' from 2026\n# quiet\n", [], "holds no bytes of a line", "record"),
-    (b"hello", [], "line 1: no hex: 'h' in 'hello'", "raw bytes need --input raw"),
+    (b"55 hello", [], "line 1: no hex: 'h' in 'hello'", "raw bytes need --input raw"),
     (b"55 55\n55 5\n", [], "line 2: no hex: '5' is half a byte", "raw bytes need --input raw"),
     (b"5 # 1 s, host: a\n", [], "line 1: no hex: '5' is half a byte", "--input raw"),
     (b"55 # 1 s, kiln: a\n", [], "line 1: 'kiln' is none of those who send", "host, controller"),
@@ -158,7 +159,7 @@ def test_every_form_of_a_file_holds_the_same(form: str) -> None:
         contents[form],
         [*model.spec.endpoints],
         model.roles,
-        form,  # type: ignore[arg-type]
+        form,
     )
     assert b"".join(each.data for each in recording.stretches) == bytes.fromhex(BAD)
     assert audited(model, contents[form]).size == recording.size

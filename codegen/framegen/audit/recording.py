@@ -10,27 +10,19 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass, replace
 from itertools import accumulate
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING
 
 from framegen.cases.malformed import malformed_in
 from framegen.hextext import HexError, read_hex
 from framegen.reading.yamltree import Unusable
 from framegen.recording_file import EITHER, NOISE, QUIET
+from framegen.recording_form import TIMED_LINE, is_text, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from framegen.model.roles import Roles
 
-Form: TypeAlias = Literal["auto", "hex", "raw"]
-FORMS: tuple[Form, ...] = ("auto", "hex", "raw")
-
-_TIMED = re.compile(
-    r"(?P<hex>[^#]*)#+ *(?P<at>[0-9]{1,9}(?:\.[0-9]{1,9})?) s, (?P<who>[^:]*): (?P<what>.*)"
-)
-_MARK = b"\xef\xbb\xbf"  # what some editors write in front of text
-_CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
-_COMMENT = re.compile(rb"#[^\n]*")
 _RAW = "raw bytes need --input raw"
 # How a doctor's report says what board it is of, and at which rate it goes on.
 _DEVICE, _NOT_STATED = "# device: ", "not stated"
@@ -89,18 +81,18 @@ class Recording:
 
 
 def read_recording(
-    name: str, content: bytes, ends: Collection[str], roles: Roles, form: Form = "auto"
+    name: str, content: bytes, ends: Collection[str], roles: Roles, form: str = "auto"
 ) -> Recording:
-    """Read the content of a file in any form. Raises Unusable, with the line.
+    """Read the content of a file in one of FORMS. Raises Unusable, with the line.
 
     `ends` are those who may send. Noise of nobody's came from the device.
     """
-    if form == "raw" or (form == "auto" and not _is_text(content)):
+    if form == "raw" or (form == "auto" and not is_text(content, ended=True)):
         raw = Stretch(content, "byte 0")
         return Recording(name, (raw,) if content else ())
-    lines = content.removeprefix(_MARK).decode("utf-8", errors="replace").split("\n")
+    lines = text_of(content).split("\n")
     try:
-        if any(map(_TIMED.match, lines)):
+        if any(map(TIMED_LINE.match, lines)):
             found = [*_joined(_recorded(lines, ends, roles))]
             return Recording(name, tuple(_probed(found, roles)), device=_device(lines))
         return Recording(name, tuple(_plain(lines)))
@@ -119,17 +111,6 @@ class _Line(ValueError):  # noqa: N818 - where it is
         super().__init__(problem)
         self.number = number
         self.hint = hint
-
-
-def _is_text(content: bytes) -> bool:
-    """Tell text from raw bytes, which hold controls or are no text outside of comments."""
-    if _CONTROLS.search(content):
-        return False
-    try:
-        _COMMENT.sub(b"", content).decode("utf-8")
-    except UnicodeDecodeError:
-        return False
-    return True
 
 
 def _plain(lines: list[str]) -> Iterator[Stretch]:
@@ -174,7 +155,7 @@ def _recorded(lines: list[str], ends: Collection[str], roles: Roles) -> Iterator
     """Yield the lines of a recording; None for one where the line went quiet."""
     notes = _Notes()
     for number, line in enumerate(lines, 1):
-        found = _TIMED.match(line)
+        found = TIMED_LINE.match(line)
         if found is None:
             text = line.strip()
             if text == QUIET:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.console import visible
+from framegen.recording_form import FORMS
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -44,7 +45,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--input",
-        choices=("auto", "hex", "raw"),
+        choices=FORMS,
         default="auto",
         help="what the files hold, where it cannot be told",
     )

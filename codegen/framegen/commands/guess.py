@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from framegen.console import visible
+from framegen.recording_form import FORMS
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -29,6 +30,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="FILE",
         help="raw bytes, or hex as text, such as a recording; - is standard input",
     )
+    parser.add_argument(
+        "--input",
+        choices=FORMS,
+        default="auto",
+        help="what the file holds (default: auto, by its first word)",
+    )
 
 
 def run(arguments: Namespace) -> int:
@@ -41,7 +48,10 @@ def run(arguments: Namespace) -> int:
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
     name = "standard input" if arguments.file == "-" else visible(arguments.file)
-    capture = read_capture(content(arguments.file))
+    try:
+        capture = read_capture(content(arguments.file), arguments.input)
+    except ValueError as error:
+        raise Unusable(f"{name}, {error}", hint="raw bytes need --input raw") from None
     if not capture.data:
         raise Unusable(f"{name} is empty", hint="record some 200 frames of the line")
     found = guess(capture)

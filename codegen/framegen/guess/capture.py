@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 from framegen.hextext import HexError, read_hex
+from framegen.recording_form import is_text, text_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 # More bytes than these tell nothing that is new, and take their time.
 MOST = 1 << 14
@@ -34,14 +39,22 @@ class Capture:
         return [end for end in accumulate(map(len, self.pieces)) if end <= len(self.data)]
 
 
-def read_capture(content: bytes) -> Capture:
-    """Read the content of a file: text of nothing but hex and comments, or else raw bytes.
+def read_capture(content: bytes, form: str = "auto") -> Capture:
+    """Read the content of a file in one of FORMS: text of hex and comments, or raw bytes.
 
-    Recordings are such text: what they say of senders and times is in comments.
+    Recordings are such text: what they say of senders and times is in comments. Raises ValueError
+    for text that is no hex, with its line.
     """
-    try:
-        lines = content.decode("ascii").splitlines()
-        pieces = tuple(filter(None, map(read_hex, lines)))
-    except (UnicodeDecodeError, HexError):
+    if form == "raw" or (form == "auto" and not is_text(content, ended=True)):
         pieces = (content,) if content else ()
+    else:
+        pieces = tuple(filter(None, _lines(text_of(content))))
     return Capture(b"".join(pieces)[:MOST], pieces)
+
+
+def _lines(text: str) -> Iterator[bytes]:
+    for number, line in enumerate(text.split("\n"), 1):
+        try:
+            yield read_hex(line)
+        except HexError as error:
+            raise ValueError(f"line {number}: {error}") from None

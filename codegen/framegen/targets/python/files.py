@@ -17,6 +17,7 @@ SHARED = {
     "_cli/shell_completion.py": "shell_completion.py",
     "_codec/hextext.py": "hextext.py",
     "_recording/file.py": "recording_file.py",
+    "_recording/form.py": "recording_form.py",
     "_frame/pluralize.py": "pluralize.py",
     **{
         f"_explanation/{name}.py": f"explanation/{name}.py"

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
-from .._recording.form import is_text
-from ..recordings import FORMS
+from .._recording.form import FORMS, begun_as
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,13 +37,7 @@ class Capture:
 
     def __init__(self, stream: Readable, form: str) -> None:
         self._read = getattr(stream, "read1", stream.read)
-        self._begun = b""
-        text = {"hex": True, "raw": False}.get(form)
-        while text is None:
-            more = self._read(_LOOKED_AT)
-            self._begun += more
-            text = is_text(self._begun, ended=not more)
-        self.is_text = text
+        self._begun, self.is_text = begun_as(lambda: self._read(_LOOKED_AT), form)
 
     def read(self, size: int, /) -> bytes:
         """Return at most so many bytes; none at the end."""

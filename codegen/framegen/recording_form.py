@@ -1,12 +1,21 @@
-"""Distinguish a text recording from raw bytes, by how it begins, and read its text in lines."""
+"""Distinguish a text recording from raw bytes, by how it begins, and read its text in lines.
+
+Whatever reads a capture asks here. The Python target copies this file into each library, so it
+imports the standard library alone.
+"""
 
 from __future__ import annotations
 
 import re
+from codecs import getincrementaldecoder
+from itertools import chain
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
+
+FORMS = ("auto", "hex", "raw")
+"""What a file may hold: hex, as every recording does, or raw bytes; auto goes by its first word."""
 
 # A line of a recording: hex, and in a comment the time, the sender, and the message.
 TIMED_LINE = re.compile(
@@ -16,6 +25,7 @@ TIMED_LINE = re.compile(
 LONGEST_LINE = 65536
 
 _MARK = b"\xef\xbb\xbf"  # what some editors write in front of text
+_WIDE_MARKS = (b"\xff\xfe", b"\xfe\xff")  # and others, as PowerShell, where it is in UTF-16
 _SKIPPED = re.compile(
     rb"(?:\xef\xbb\xbf)?(?:[ \t\n\r\v\f,:;_-]|#[^\x00-\x08\x0a-\x0c\x0e-\x1f\x7f]*\n)*"
 )
@@ -28,22 +38,56 @@ _NOT_PRINTABLE = re.compile(rb"[^\n]*[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\xff]")
 _LOOKED_AT = 4096
 
 
+def begun_as(read_some: Callable[[], bytes], form: str) -> tuple[bytes, bool]:
+    """Return how a capture of one of FORMS begins, and whether it is text.
+
+    `read_some` returns what comes next, and nothing at the end.
+    """
+    begun = b""
+    text = {"hex": True, "raw": False}.get(form)
+    while text is None:
+        more = read_some()
+        begun += more
+        text = is_text(begun, ended=not more)
+    return begun, text
+
+
 def is_text(begun: bytes, *, ended: bool) -> bool | None:
     """Return whether bytes that begin so are hex written as text; None while that is undecided.
 
     The answer follows from the first word alone, wherever the bytes are cut: it is made of hex
-    digits; or it is a typing error in a line that has the form of a recording. `ended` says that no
-    more bytes will come.
+    digits; or it is a typing error in a line that has the form of a recording. Without a word, a
+    comment and blanks are text; marks that separate nothing are bytes, of which none is lost.
+    `ended` says that no more bytes will come.
     """
-    if len(begun) < len(_MARK) and _MARK.startswith(begun) and not ended:
+    ended = ended or len(begun) >= LONGEST_LINE
+    begun = begun[:LONGEST_LINE]
+    if not ended and any(mark.startswith(begun) for mark in (_MARK, *_WIDE_MARKS)):
         return None
-    skipped = _SKIPPED.match(begun)
-    rest = begun[skipped.end() :] if skipped else begun
+    # Half of a character may follow.
+    text = b"".join(_as_utf_8([begun[: len(begun) // 2 * 2]])) if _is_wide(begun) else begun
+    skipped = _SKIPPED.match(text)
+    rest = text[skipped.end() :] if skipped else text
     if rest and not rest.startswith(b"#"):
         return _is_hex_word(rest, ended=ended)
     if _NO_COMMENT.match(rest):
         return False
-    return True if ended or len(begun) >= LONGEST_LINE else None
+    if not ended:
+        return None
+    is_blank = not _is_wide(begun) and not text.removeprefix(_MARK).strip()
+    return is_blank or b"#" in text
+
+
+def _is_wide(begun: bytes | bytearray) -> bool:
+    return begun.startswith(_WIDE_MARKS)
+
+
+def _as_utf_8(chunks: Iterable[bytes]) -> Iterator[bytes]:
+    """Yield text in UTF-16 as UTF-8."""
+    decoder = getincrementaldecoder("utf-16")(errors="replace")
+    for chunk in chunks:
+        yield decoder.decode(chunk).encode(errors="replace")
+    yield decoder.decode(b"", final=True).encode(errors="replace")
 
 
 def _is_hex_word(rest: bytes, *, ended: bool) -> bool | None:
@@ -66,19 +110,29 @@ def _is_timed_line(rest: bytes, *, ended: bool) -> bool | None:
     return None
 
 
+def text_of(content: bytes) -> str:
+    """Return the text of a whole file."""
+    return "".join(blocks([content]))
+
+
 def blocks(chunks: Iterable[bytes]) -> Iterator[str]:
     """Yield the text in whole lines, many at once; an overlong line comes in pieces."""
+    rest = iter(chunks)
+    begun = b""
+    for chunk in rest:
+        begun += chunk
+        if len(begun) >= len(_MARK):
+            break
+    if _is_wide(begun):
+        return _lines(_as_utf_8(chain([begun], rest)))
+    return _lines(chain([begun.removeprefix(_MARK)], rest))
+
+
+def _lines(chunks: Iterable[bytes]) -> Iterator[str]:
     held = bytearray()
     in_long = False
-    is_begun = False
     for chunk in chunks:
         held += chunk
-        if not is_begun:
-            if len(held) < len(_MARK) and _MARK.startswith(held):
-                continue
-            is_begun = True
-            if held.startswith(_MARK):
-                del held[: len(_MARK)]
         # The end of a long line comes alone, so that what follows it is whole lines again.
         end = held.find(b"\n") + 1 if in_long else held.rfind(b"\n") + 1
         while end:
