@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -102,9 +103,13 @@ REFUSALS = (RecordingError, Unusable, UsageError, ValueError)
 @pytest.mark.parametrize("name", FORMS)
 def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) -> None:
     content, data = FORMS[name]
-    counts = {**COUNTS, "tables.scan": lambda given: scanned(given, tmp_path)}
+    counts: dict[str, Callable[[bytes], int]] = {
+        **COUNTS,
+        "tables.scan": partial(scanned, folder=tmp_path),
+    }
     if data is None:
-        for reader in (*READERS.values(), *counts.values()):
+        readers: list[Callable[[bytes], object]] = [*READERS.values(), *counts.values()]
+        for reader in readers:
             with pytest.raises(REFUSALS, match=r"line [12]\b|no hex|no time"):
                 reader(content)
         return
@@ -127,7 +132,8 @@ contents = st.one_of(
 @given(content=contents)
 def test_what_is_taken_for_raw_bytes_is_all_there(content: bytes) -> None:
     found: dict[str, bytes | int | None] = {}
-    for name, reader in {**READERS, **COUNTS}.items():
+    readers: dict[str, Callable[[bytes], Any]] = {**READERS, **COUNTS}
+    for name, reader in readers.items():
         try:
             found[name] = reader(content)
         except REFUSALS:

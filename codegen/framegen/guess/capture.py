@@ -45,10 +45,8 @@ def read_capture(content: bytes, form: str = "auto") -> Capture:
     Recordings are such text: what they say of senders and times is in comments. Raises ValueError
     for text that is no hex, with its line.
     """
-    if form == "raw" or (form == "auto" and not is_text(content, ended=True)):
-        pieces = (content,) if content else ()
-    else:
-        pieces = tuple(filter(None, _lines(text_of(content))))
+    is_raw = form == "raw" or (form == "auto" and not is_text(content, ended=True))
+    pieces = tuple(filter(None, [content] if is_raw else _lines(text_of(content))))
     return Capture(b"".join(pieces)[:MOST], pieces)
 
 

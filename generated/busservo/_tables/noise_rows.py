@@ -60,9 +60,9 @@ def _batch(runs: NoiseRuns) -> pa.RecordBatch:
         reasons,
         pa.array([frame is not None for frame in frames]),
     ]
-    for name in unknown_numbers():
+    for name, kind in unknown_numbers().items():
         values = [None if each is None else each.get(name) for each in numbers]
-        columns.append(pa.array(values, pa.int64()))
+        columns.append(pa.array(values, kind))
     parameters = [None if frame is None else frame.parameters for frame in frames]
     columns.append(pa.array(parameters, pa.binary()))
     return pa.RecordBatch.from_arrays(columns, schema=noise_schema())

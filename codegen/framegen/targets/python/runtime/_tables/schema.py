@@ -69,7 +69,8 @@ def schema_of(layout: Layout) -> pa.Schema:
 def noise_schema() -> pa.Schema:
     """Return the schema of the table of noise and unknown frames."""
     numbers = [
-        _field(name, pa.int64(), {"about": "Of an unknown frame."}) for name in unknown_numbers()
+        _field(name, kind, {"about": "Of an unknown frame."})
+        for name, kind in unknown_numbers().items()
     ]
     return pa.schema(
         [
@@ -84,15 +85,15 @@ def noise_schema() -> pa.Schema:
 
 
 @cache
-def unknown_numbers() -> tuple[str, ...]:
-    """Return the names of the numbers by which unknown frames are told apart."""
-    parts = (
-        slot.name
-        for envelope in described().envelopes.values()
-        for slot in envelope.slots
-        if slot.role in ("address", "id")
-    )
-    return tuple(dict.fromkeys(parts))
+def unknown_numbers() -> dict[str, pa.DataType]:
+    """Return the types of the numbers by which unknown frames are told apart, by their names."""
+    sizes: dict[str, int] = {}
+    for envelope in described().envelopes.values():
+        for slot in envelope.slots:
+            if slot.role in ("address", "id"):
+                sizes[slot.name] = max(slot.size, sizes.get(slot.name, 0))
+    # None is negative, and one of eight bytes needs all of its bits.
+    return {name: pa.uint64() if size == 8 else pa.int64() for name, size in sizes.items()}
 
 
 def arrow_type(layout: Layout, column: Column) -> Any:

@@ -81,7 +81,7 @@ class Readings:
     """
 
     frame: Numbers
-    key: Numbers
+    key: NDArray[Any]
     value: NDArray[Any]
     absent: NDArray[np.bool_]
 
@@ -126,9 +126,9 @@ def readings(layout: Layout, frames: Frames) -> Iterator[tuple[Quantity, Reading
     """Yield all numbers of one message with their values in some of its frames."""
     address = next((each for each in layout.columns if each.slot.role == "address"), None)
     count = len(frames.start)
-    addresses: Numbers = np.zeros(count, np.int64)
+    addresses: NDArray[Any] = np.zeros(count, np.int64)
     if address is not None:
-        addresses = _numbers(field_array(layout, frames, address)).astype(np.int64)
+        addresses = _numbers(field_array(layout, frames, address))
     last: Column | None = None
     array = pa.nulls(0)
     for each in quantities(layout):
@@ -137,14 +137,14 @@ def readings(layout: Layout, frames: Frames) -> Iterator[tuple[Quantity, Reading
         yield each, _readings(each, array, addresses)
 
 
-def _readings(quantity: Quantity, array: pa.Array, addresses: Numbers) -> Readings:
+def _readings(quantity: Quantity, array: pa.Array, addresses: NDArray[Any]) -> Readings:
     if pa.types.is_list(array.type):
         frame = _frames_of_elements(array)
         array = array.flatten()
         key = addresses[frame]
         if pa.types.is_struct(array.type):
             if quantity.key is quantity.column.fields[0]:
-                key = _numbers(array.field(0)).astype(np.int64)
+                key = _numbers(array.field(0))
             array = array.field(quantity.column.fields.index(quantity.slot))
     else:
         frame = _whole(array)
