@@ -112,7 +112,9 @@ def _verdicts(rule: ChangeRule) -> Iterator[str]:
     for axis in ("wire", "conversation"):
         ours = [effect for effect in effects if effect.axis == axis]
         said = {
-            str(ends): _said(each for each in ours if ends_of(comparison.pair, each) == ends)
+            str(ends): _said(
+                each for each in ours if ends_of(comparison.pair, each) in (ends, None)
+            )
             for ends in all_ends(comparison.pair)
         }
         alike = len(set(said.values())) == 1

@@ -7,53 +7,16 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from framegen.comparison.accepted import accepted_breaks, ignored_breaks
 from framegen.comparison.comparison import Comparison
+from framegen.comparison.due import due
 from framegen.comparison.report import FORMATS
+from framegen.comparison.report.verdict import UNCERTAIN, USUAL_FAILURES, exit_status
 from framegen.comparison.report.view import View
 
 from tests.comparison.edits import edition
-from tests.factories import DEMO, data_of
+from tests.comparison.houses import DATA, DOOR, LIMIT, REASON, WINDOW, house
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from framegen.comparison.effect import Effect
-
-DATA = data_of(DEMO)
-WAY = "station -> gateway"
-DOOR = {
-    "id": 0x77,
-    "direction": WAY,
-    "summary": "A door is open.",
-    "cite": "manual, section 9",
-    "length": 1,
-    "fields": {"door": {"type": "u8", "about": "Which door."}},
-}
-WINDOW = {
-    **DOOR,
-    "summary": "A window is open.",
-    "length": 3,
-    "fields": {
-        "room": {"type": "u8", "about": "Where."},
-        "window": {"type": "u16", "about": "Which window."},
-    },
-}
-LIMIT = {"id": 0x77, "direction": WAY, "name": "DoorOpened", "why": "Up to 1.0.0 it was that."}
-REASON = "No station has it."
-
-
-def house(
-    messages: dict[str, Any],
-    reserved: Sequence[dict[str, Any]] = (),
-    breaks: dict[str, str] | None = None,
-) -> dict[str, Any]:
-    """Return a spec with more messages, more reservations, and accepted breaks."""
-    entry = {"version": "9.0.0", "changes": ["It."], "breaks": breaks or {}}
-    return {
-        **DATA,
-        "messages": {**DATA["messages"], **messages},
-        "reserved": [*DATA.get("reserved", ()), *reserved],
-        "history": [entry] if breaks else [],
-    }
 
 
 def effects(old: dict[str, Any], new: dict[str, Any]) -> list[Effect]:
@@ -164,11 +127,20 @@ WITHOUT_NAME = {key: value for key, value in LIMIT.items() if key != "name"}
 WITHOUT_WAY = {key: value for key, value in LIMIT.items() if key != "direction"}
 OTHER_WAY = {**LIMIT, "direction": "gateway -> station"}
 OTHER_ID = {**LIMIT, "id": 0x76}
+# The reservation that these tests add, behind those of the greenhouse.
+AFRESH = ("reserved", len(DATA.get("reserved", ())))
+NAME_ALONE = {"name": "DoorOpened", "why": LIMIT["why"]}
 
 
 def reuses(reserved: dict[str, Any], new: dict[str, Any]) -> list[Effect]:
     found = Comparison(edition(house({}, [reserved])), edition(new)).effects
-    return [each for each in found if each.old is not None and each.old[0] == "reserved"]
+    return [each for each in found if each.old == AFRESH and each.new is not None]
+
+
+def dropped(reserved: dict[str, Any], new: dict[str, Any]) -> list[str]:
+    """Return the axes on which a reservation that is gone is told of."""
+    found = Comparison(edition(house({}, [reserved])), edition(new)).effects
+    return [each.axis for each in found if each.old == AFRESH and each.new is None]
 
 
 @pytest.mark.parametrize(
@@ -207,3 +179,45 @@ def test_a_message_that_had_its_id_all_along_uses_nothing_again() -> None:
 def test_the_reuse_is_accepted_where_the_message_is() -> None:
     found = reuses(LIMIT, house({"WindowOpened": WINDOW}, breaks={"messages.WindowOpened": REASON}))
     assert [each.accepted for each in found] == [REASON]
+
+
+@pytest.mark.parametrize(
+    ("reserved", "messages", "kept", "axes"),
+    [
+        (LIMIT, {}, [LIMIT], []),
+        (LIMIT, {}, [], ["wire", "programs"]),
+        (WITHOUT_NAME, {}, [], ["wire"]),
+        (NAME_ALONE, {}, [], ["programs"]),
+        # What is reserved is said otherwise.
+        (LIMIT, {}, [WITHOUT_NAME, NAME_ALONE], []),
+        (LIMIT, {}, [WITHOUT_NAME], ["programs"]),
+        (LIMIT, {}, [NAME_ALONE], ["wire"]),
+        (LIMIT, {}, [WITHOUT_WAY], []),
+        (LIMIT, {}, [OTHER_WAY], ["wire"]),
+        (WITHOUT_WAY, {}, [LIMIT], ["wire"]),
+        (WITHOUT_WAY, {}, [LIMIT, OTHER_WAY], ["wire"]),
+        (LIMIT, {}, [OTHER_ID], ["wire"]),
+        # What has it again is not free.
+        (LIMIT, {"DoorOpened": DOOR}, [], []),
+        (LIMIT, {"WindowOpened": WINDOW}, [], ["programs"]),
+        (LIMIT, {"WindowOpened": {**WINDOW, "was": "DoorOpened"}}, [], []),
+        # No end of that way is left.
+        ({**WITHOUT_NAME, "direction": "door -> gateway"}, {}, [], []),
+    ],
+)
+def test_a_reservation_that_is_dropped_is_told(
+    reserved: dict[str, Any], messages: dict[str, Any], kept: list[dict[str, Any]], axes: list[str]
+) -> None:
+    assert dropped(reserved, house(messages, kept)) == axes
+
+
+def test_a_dropped_reservation_is_no_patch_until_it_is_accepted() -> None:
+    for breaks in ({}, {"reserved": REASON}, {f"reserved[{AFRESH[1]}]": REASON}):
+        comparison = Comparison(edition(house({}, [LIMIT])), edition(house({}, breaks=breaks)))
+        assert due(comparison.effects, comparison.changes) == "major"
+        view = View(comparison)
+        status = exit_status(view.effects, None, USUAL_FAILURES)
+        assert status == (0 if breaks else UNCERTAIN)
+        shown = FORMATS["text"](view)
+        assert "is gone: id 119 (station -> gateway), name DoorOpened" in shown
+        assert "    do: Keep it as long as any end still sends what had it.\n" in shown

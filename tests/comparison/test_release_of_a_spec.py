@@ -12,6 +12,7 @@ from framegen.comparison import comparison
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.listing import working_edition
 from framegen.comparison.programs import program_effects
+from framegen.comparison.report.verdict import BREAKS, UNCERTAIN
 from framegen.writing import disk
 
 from tests import bad_specs
@@ -221,6 +222,63 @@ def test_a_candidate_promises_nothing() -> None:
     assert main(["release"]) == 0
     versions = [each["version"] for each in data_of(SPEC)["history"]]
     assert versions == ["2.0.0", "2.0.0-rc.1", "1.1.0-rc.1", "1.0.0"]
+
+
+# ------------------------------------------------------------------ editions before the newest
+
+GLOW = BLINK.replace("Blink", "Glow").replace("id: 10", "id: 9").replace("02 0A 01", "02 09 01")
+SIGNED = {"under": "LampGlow", "replace": "type: u8", "with": "type: i8"}
+MISREAD = "messages.LampGlow: old host of 1.0.0 -> new lamp: LampFade is read as LampGlow\n"
+
+
+@pytest.fixture
+def freed() -> None:
+    """Remove a message, and release that; then drop what was reserved for it, and release that."""
+    change(WITHOUT_FADE)
+    assert main(["release", "--accept", "Nobody has it."]) == 0
+    change({"remove": "reserved:"})
+    assert (main(["check"]), main(["diff"]), main(["release"])) == (0, UNCERTAIN, 2)
+    assert main(["release", "--accept", "Nobody has it."]) == 0
+    assert data_of(SPEC)["protocol"]["version"] == "3.0.0"
+
+
+@pytest.mark.usefixtures("freed")
+def test_an_id_of_an_edition_before_the_newest_is_not_used_again_unawares(capsys: Capture) -> None:
+    change({"after": "LampRead:", "add": GLOW}, SIGNED)
+    capsys.readouterr()
+    assert (main(["check"]), main(["diff"]), main(["release"])) == (0, BREAKS, 2)
+    said = capsys.readouterr()
+    assert (
+        "  breaks: wire, old host of 1.0.0 -> new lamp: LampFade is read as LampGlow\n" in said.out
+    )
+    assert MISREAD in said.err
+    # Who names an edition compares with that alone.
+    assert (main(["diff", "lamps-3.0.0"]), main(["diff", "lamps-1.0.0"])) == (0, BREAKS)
+    assert main(["release", "--accept", "Lamps of 1.0.0 were recalled."]) == 0
+    breaks = data_of(SPEC)["history"][0]["breaks"]
+    assert breaks == {"messages.LampGlow": "Lamps of 1.0.0 were recalled."}
+    # What was released so is not asked for again.
+    change(WORDS)
+    assert (main(["diff"]), main(["release"])) == (0, 0)
+    assert data_of(SPEC)["protocol"]["version"] == "4.0.1"
+
+
+@pytest.mark.usefixtures("freed")
+def test_a_message_that_is_back_under_another_name_says_so() -> None:
+    change({"after": "LampRead:", "add": GLOW})
+    assert (main(["diff"]), main(["release"])) == (UNCERTAIN, 2)
+    change({"under": "LampGlow", "after": "id:", "add": "was: LampFade"})
+    assert (main(["diff"]), main(["release"])) == (0, 0)
+    assert data_of(SPEC)["protocol"]["version"] == "3.1.0"
+
+
+@pytest.mark.usefixtures("freed")
+def test_a_kept_edition_that_cannot_be_read_is_named_and_stops_nothing(capsys: Capture) -> None:
+    FIRST.write_text("framegen: 99\n", encoding="utf-8")
+    change(NEW)
+    capsys.readouterr()
+    assert (main(["diff"]), main(["release"])) == (0, 0)
+    assert capsys.readouterr().err.count(f"not compared: {FIRST.as_posix()}: ") == 2
 
 
 # ------------------------------------------------------------------ what is refused

@@ -188,8 +188,8 @@ def test_a_guess_is_no_fact_in_a_title() -> None:
 def test_a_unit_that_may_be_another_is_told_with_the_way_to_settle_it() -> None:
     field = ("messages", "VentsOpen", "fields", "ramp_s")
     plain = with_(HOUSE, *field, {"type": "u8", "about": "How long."})
-    specs = (with_(plain, *field, "unit", each) for each in ("knots", "kn"))
-    shown = FORMATS["text"](View(Comparison(*map(edition, specs))))
+    old, new = (edition(with_(plain, *field, "unit", each)) for each in ("knots", "kn"))
+    shown = FORMATS["text"](View(Comparison(old, new)))
     assert "ramp_s = 1 knots is read as 1 kn, which may be another unit" in shown
     assert "`breaks` of the `history`" in shown
 

@@ -28,8 +28,8 @@ def words(html: str) -> str:
 
 
 def view(old: str, new: str) -> View:
-    editions = [edition_of(Source(f"{at}.yaml", text)) for at, text in enumerate((old, new))]
-    return View(Comparison(*editions))
+    before, after = (edition_of(Source(f"{at}.yaml", text)) for at, text in enumerate((old, new)))
+    return View(Comparison(before, after))
 
 
 def test_the_newest_version_comes_first() -> None:

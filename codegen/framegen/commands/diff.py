@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable
 
-    from framegen.comparison.edition import Edition
+    from framegen.comparison.comparison import Comparison
     from framegen.comparison.report.view import View
 
 FORMATS = ("text", "json", "markdown", "github")
@@ -32,10 +32,11 @@ wire          frames that the other end refuses or misreads: every message of ei
               encoded at its edges, and read with the other edition
 conversation  replies, reports, times, and the line
 programs      what was written for the old library
-uncertain     a name that changed, until the spec says `was: OldName`
+uncertain     a name that changed, until the spec says `was: OldName`; a reservation that is gone
 version       the version of the spec was not raised as it should be
 never         nothing of this
 Of a spec that is gone, the wire and programs break.
+Without OLD, or with a revision, older editions in spec/released count where they misread frames.
 What breaks on purpose, as `breaks` in the history of the spec says, is shown and does not count."""
 _EXIT_CODES = """\
 0  nothing that counts
@@ -81,6 +82,7 @@ def _failures(text: str) -> list[str]:
 
 def run(arguments: Namespace) -> int:
     """Print a report of each pair of editions. Return the exit code that --fail-on gives it."""
+    from framegen.comparison.comparison import Comparison  # noqa: PLC0415
     from framegen.comparison.editions import find_editions  # noqa: PLC0415
     from framegen.comparison.report import FORMATS as RENDERERS  # noqa: PLC0415
     from framegen.comparison.report import gone  # noqa: PLC0415
@@ -89,30 +91,33 @@ def run(arguments: Namespace) -> int:
     editions = find_editions(arguments.old, arguments.new)
     statuses: list[int] = []
     between = "" if arguments.format == "json" else "\n"
-    for pair in editions.pairs:
-        report, status = _report(*pair, RENDERERS[arguments.format], fail_on)
+    unread: list[str] = []
+    for old, new in editions.pairs:
+        comparison = Comparison(old, new, editions.kept(old))
+        report, status = _report(comparison, RENDERERS[arguments.format], fail_on)
         print(between * bool(statuses) + report, end="")
         statuses.append(status)
+        unread += comparison.found_in_kept.unread
     for each in editions.gone:
         print(between * bool(statuses) + gone.FORMATS[arguments.format](each), end="")
         statuses.append(gone.exit_status(fail_on))
     sys.stdout.flush()
-    for why in editions.left_out:
+    for why in (*editions.left_out, *unread):
         print(f"not compared: {why}", file=sys.stderr)
     return min((status for status in statuses if status), default=0)
 
 
 def _report(
-    old: Edition, new: Edition, render: Callable[[View], str], fail_on: frozenset[str]
+    comparison: Comparison, render: Callable[[View], str], fail_on: frozenset[str]
 ) -> tuple[str, int]:
     """Return the report on two editions, and its exit code."""
-    from framegen.comparison.comparison import Comparison  # noqa: PLC0415
     from framegen.comparison.report.verdict import exit_status  # noqa: PLC0415
     from framegen.comparison.report.view import View  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 
-    view = View(Comparison(old, new))
-    disliked = next((each for each in (old, new) if each.compiled.tolerated), None)
+    view = View(comparison)
+    both = comparison.old, comparison.new
+    disliked = next((each for each in both if each.compiled.tolerated), None)
     try:
         _refuse_strangers(view)
         return render(view), exit_status(view.effects, view.version_finding, fail_on)

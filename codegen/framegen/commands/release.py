@@ -13,6 +13,7 @@ from framegen.pluralize import pluralize
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from framegen.comparison.comparison import Comparison
     from framegen.comparison.release import Release
 
 SUMMARY = "Give a spec the version that is due, say in it what changed, and keep that edition."
@@ -44,7 +45,12 @@ def run(arguments: Namespace) -> int:
     from framegen.checks.breaks import missing  # noqa: PLC0415
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.comparison.comparison import Comparison  # noqa: PLC0415
-    from framegen.comparison.listing import RELEASED, edition_of, released  # noqa: PLC0415
+    from framegen.comparison.listing import (  # noqa: PLC0415
+        RELEASED,
+        edition_of,
+        kept_before,
+        released,
+    )
     from framegen.comparison.release import release  # noqa: PLC0415
     from framegen.compile import compile_leniently  # noqa: PLC0415
     from framegen.language.load import read_source  # noqa: PLC0415
@@ -67,7 +73,8 @@ def run(arguments: Namespace) -> int:
         spec = replace(lenient, findings=left)
     if print_findings([spec]):
         return 1
-    comparison = None if before is None else Comparison(before, edition_of(spec.source))
+    kept = [] if before is None else kept_before(file.parent, before)
+    comparison = None if before is None else Comparison(before, edition_of(spec.source), kept)
     made = release(spec, comparison, editions, arguments.version, arguments.accept)
     root = project_root(file)
     folder = file.parent.resolve().relative_to(root).as_posix()
@@ -77,7 +84,7 @@ def run(arguments: Namespace) -> int:
         _show(paths, spec.source.text, made.text)
     else:
         _write(root, paths, file, (spec.source.text, made.text))
-    _tell(made, None if comparison is None else comparison.old.version)
+    _tell(made, comparison)
     return 0
 
 
@@ -124,8 +131,11 @@ def _as_before(old: bytes, text: str) -> bytes:
     return mark + data if old.startswith(mark) else data
 
 
-def _tell(made: Release, old: str | None) -> None:
-    parts = [f"version {made.version}" + (f", after {old}" if old else ", the first one")]
+def _tell(made: Release, comparison: Comparison | None) -> None:
+    after = "the first one" if comparison is None else f"after {comparison.old.version}"
+    for why in () if comparison is None else comparison.found_in_kept.unread:
+        print(f"not compared: {why}", file=sys.stderr)
+    parts = [f"version {made.version}, {after}"]
     if made.breaks:
         parts.append(f"{pluralize(len(made.breaks), 'break')} accepted")
     if made.reserved:

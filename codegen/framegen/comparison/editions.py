@@ -12,6 +12,7 @@ from framegen.comparison.listing import (
     earlier_specs,
     edition_of,
     folder_of,
+    kept_before,
     released,
     specs_at,
     specs_beside,
@@ -50,11 +51,20 @@ class Gone:
 
 @dataclass
 class Editions:
-    """Pairs of editions, the older first; specs without an older one, and those without a newer."""
+    """Pairs of editions, the older first; specs without an older one, and those without a newer.
+
+    `folder` is that of the specs whose kept editions count, unless one edition was named to be
+    compared with.
+    """
 
     pairs: list[tuple[Edition, Edition]] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
     gone: list[Gone] = field(default_factory=list)
+    folder: Path | None = field(default=None, compare=False)
+
+    def kept(self, old: Edition) -> list[Listed]:
+        """Return the editions that are kept from before an older one of these pairs."""
+        return [] if self.folder is None else kept_before(self.folder, old)
 
 
 @dataclass(frozen=True)
@@ -71,7 +81,8 @@ def find_editions(old: str | None = None, new: str | None = None) -> Editions:
 
     Without `old`, it is the newest one released, or else the last commit; without `new`, the spec
     as it lies here. A spec of the project that is named alone is the new one. Words that name no
-    protocol stand for every spec of the project.
+    protocol stand for every spec of the project. What lies here is held against kept editions
+    too, unless `old` names one edition.
     """
     if old is not None and old == new:
         raise Unusable(
@@ -83,11 +94,13 @@ def find_editions(old: str | None = None, new: str | None = None) -> Editions:
         if not isinstance(after, _Given):
             return _of_all(before, after)
         edition = edition_of(after.source)
-        return Editions([(_beside(before, edition, after.file), edition)])
+        folder = after.file.parent if _lies_here(after.file) else None
+        return Editions([(_beside(before, edition, after.file), edition)], folder=folder)
     edition = edition_of(before.source)
     if not isinstance(after, _Given):
         if after is None and _lies_here(before.file):
-            return Editions([(older_edition(before.file, edition.spec.protocol.name), edition)])
+            older = older_edition(before.file, edition.spec.protocol.name)
+            return Editions([(older, edition)], folder=before.file.parent)
         return Editions([(edition, _beside(after, edition, before.file))])
     if before.place == after.place:
         raise Unusable(f"a comparison of nothing: both are {after.source.name}", hint=_NAME_TWO)
@@ -243,7 +256,8 @@ def _of_all(old: Revision | None, new: Revision | None) -> Editions:
         all_specs()
         raise NotInRevision("neither of the two has a spec", hint=_NAME_TWO)
     known, errors = partners(earlier, later), list[Unusable]()
-    found = Editions()
+    spec = _any_spec() if new is None else None
+    found = Editions(folder=None if spec is None else spec.parent)
     for each in later:
         if each in known:
             found.pairs.append((known[each].edition, each.edition))

@@ -46,7 +46,8 @@ class Effect:
     sentence. `ends` says between whom: `old host, new controller`; of a program it is empty.
     `breaks` is False where only what is new is not understood by who does not know it yet.
     `certain` is False where a name that changed may be another thing. `accepted` is the reason for
-    which the history of the spec accepts it.
+    which the history of the spec accepts it. `editions` are the kept ones that show it, where the
+    one that is compared does not. `remedy` says what to do, besides what changes explain.
     """
 
     axis: Axis
@@ -59,6 +60,8 @@ class Effect:
     certain: bool = True
     witness: Witness | None = None
     accepted: str = ""
+    editions: tuple[str, ...] = ()
+    remedy: str = ""
 
     @property
     def path(self) -> KeyPath:

@@ -11,6 +11,7 @@ from framegen.comparison.edition import Edition
 from framegen.comparison.partners import Listed
 from framegen.comparison.revision import NotInRevision, Revision
 from framegen.compile import compile_leniently, placed
+from framegen.console import visible
 from framegen.language.load import read_source
 from framegen.language.version import Version
 from framegen.model.layout import LONGEST
@@ -61,6 +62,22 @@ def released(folder: Path, name: str) -> list[Path]:
         if version is not None and file.stem != str(version):
             versions[file] = version
     return sorted(versions, key=versions.__getitem__, reverse=True)
+
+
+def kept_before(folder: Path, old: Edition) -> list[Listed]:
+    """Return the editions that are kept from before another, or from its time, the newest first.
+
+    What leads up to a version promises nothing.
+    """
+    name, version = old.spec.protocol.name, Version.parse_or_none(old.version)
+    found: list[Listed] = []
+    for file in released(folder, name):
+        its = Version.parse_or_none(file.stem.removeprefix(f"{name}-"))
+        is_before = its is not None and its.is_final and (version is None or its <= version)
+        if is_before and visible(file.as_posix()) != old.label:
+            read = partial(working_edition, file)
+            found.append(Listed(file.as_posix(), file.name, read, name))
+    return found
 
 
 def specs_here() -> list[Listed]:

@@ -10,6 +10,7 @@ from framegen.comparison.accepted import places
 from framegen.comparison.due import due, next_version, version_finding
 from framegen.comparison.entry import sentences
 from framegen.comparison.removed import reservations
+from framegen.comparison.report.words import between
 from framegen.compile import compile_spec
 from framegen.language.version import NoVersion, Version
 from framegen.reading.source import Source
@@ -109,7 +110,7 @@ def _accepted(effects: Sequence[Effect], reason: str | None) -> dict[str, str]:
             first.setdefault(dotted(place), effect)
     paths = [*first]
     if reason is None or not reason.strip():
-        shown = [f"  {path}: {_without_name(first[path])}" for path in paths[:_NAMED]]
+        shown = [f"  {path}: {_said(first[path])}" for path in paths[:_NAMED]]
         more = [f"  and {len(paths) - _NAMED} more"] if len(paths) > _NAMED else []
         what = "nothing says why this breaks" if reason is None else "the reason is empty"
         raise Unusable(
@@ -125,9 +126,10 @@ def _accepted(effects: Sequence[Effect], reason: str | None) -> dict[str, str]:
     }
 
 
-def _without_name(effect: Effect) -> str:
-    """Return what an effect says, without the name that its path ends with."""
-    return effect.text.removeprefix(f"{effect.path[-1]}: " if effect.path else "")
+def _said(effect: Effect) -> str:
+    """Return what an effect says, without the name that its path ends with, and of which ends."""
+    text = effect.text.removeprefix(f"{effect.path[-1]}: " if effect.path else "")
+    return f"{between(effect)}: {text}" if effect.editions else text
 
 
 class _Edits:

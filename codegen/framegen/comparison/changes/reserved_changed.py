@@ -31,7 +31,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="reserved-changed",
     title="A reserved id or name says something else",
-    subject="document",
+    subject="message",
     why=(
         "What is reserved is never given to another message, so that nobody takes one for the "
         "other."

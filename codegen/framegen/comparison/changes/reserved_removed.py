@@ -22,7 +22,7 @@ def _look(both: Both) -> Iterator[Change]:
 RULE = ChangeRule(
     id="reserved-removed",
     title="A reserved id or name is gone",
-    subject="document",
+    subject="message",
     why=(
         "What is reserved is never given to another message, so that nobody takes one for the "
         "other."

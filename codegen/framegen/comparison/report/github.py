@@ -43,7 +43,7 @@ def workflow_commands(view: View) -> Iterator[str]:
 def _about(view: View, effect: Effect) -> object:
     """Return what an annotation is about: how bad it is, of which message, and between whom."""
     ends = None if effect.axis == "programs" else str(ends_of(view.pair, effect))
-    return standing(effect), ends, effect.path[:2]
+    return standing(effect), ends, effect.editions, effect.path[:2]
 
 
 def _annotation(view: View, effects: Sequence[Effect]) -> str:
@@ -51,7 +51,9 @@ def _annotation(view: View, effects: Sequence[Effect]) -> str:
     axes = " and ".join(dict.fromkeys(each.axis for each in effects))
     who = between(first)
     title = f"{axes}, {who}" if who else axes
-    text = "\n".join(dict.fromkeys(line for each in effects for line in _lines(each)))
+    lines = [line for each in effects for line in _lines(each)]
+    lines += [f"do: {remedy}" for remedy in view.remedies(effects)]
+    text = "\n".join(dict.fromkeys(lines))
     # What is gone is shown where it would stand.
     at = _place(view, first.new or (first.old or ())[:1])
     level = _LEVELS[standing(first)]

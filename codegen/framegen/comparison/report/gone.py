@@ -42,6 +42,8 @@ def _json(gone: Gone) -> str:
             "old": "",
             "new": None,
             "accepted": "",
+            "editions": [],
+            "remedy": "",
             "because": [],
             "witness": None,
         }

@@ -12,8 +12,9 @@ edition has no such thing; places are `file:line:column`.
     verdicts   of each axis and each two ends: `axis`, `ends` (null for programs), and `counts` of
                effects by standing (breaks, uncertain, accepted, adds) and outcome
     effects    `axis`, `standing`, `outcome`, `text`, `ends`, `old`, `new`, `accepted` (the reason,
-               or ""), `because` (indices of changes), and `witness`, a frame or null: `sender` (old
-               or new), `message`, `hex`, `values`, `outcome`, `reading`
+               or ""), `because` (indices of changes), `editions` (the kept ones that show it, where
+               the old one does not), `remedy` (or ""), and `witness`, a frame or null: `sender`
+               (old or new), `message`, `hex`, `values`, `outcome`, `reading`
     changes    `rule`, `text`, `old`, `new`, `old_place`, `new_place`, `has_effect`
     tried      of each message of each edition: `sender`, `message`, `direction`, `counts` of frames
                by outcome, `all`: false where there would have been more to try out
@@ -100,6 +101,8 @@ def _effect(view: View, effect: Effect) -> dict[str, Any]:
         "old": _path(effect.old),
         "new": _path(effect.new),
         "accepted": effect.accepted,
+        "editions": [*effect.editions],
+        "remedy": effect.remedy,
         "because": [changes.index(each) for each in explain(effect, changes)],
         "witness": None if effect.witness is None else _witness(effect.witness),
     }

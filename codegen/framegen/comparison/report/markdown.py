@@ -34,8 +34,11 @@ def render(view: View) -> str:
     breaking = [effect for effect in view.effects if effect.breaks]
     if breaking:
         blocks += ["### What breaks", "\n".join(_breaks(breaking))]
+    remedies = view.remedies(breaking)
+    if remedies:
+        blocks += ["### What to do", "\n".join(_items(remedies, "remedy", "remedies"))]
     if view.sentences:
-        blocks += ["### What changed", "\n".join(_changes(view))]
+        blocks += ["### What changed", "\n".join(_items(view.sentences, "change"))]
         blocks += _for_history(view)
     return "\n\n".join(blocks) + "\n"
 
@@ -86,11 +89,11 @@ def _breaks(effects: list[Effect]) -> Iterator[str]:
         yield f"\nAnd {pluralize(len(effects) - _MOST, 'effect')} more."
 
 
-def _changes(view: View) -> Iterator[str]:
-    for sentence in view.sentences[:_MOST]:
+def _items(sentences: Sequence[str], noun: str, plural: str = "") -> Iterator[str]:
+    for sentence in sentences[:_MOST]:
         yield f"- {_prose(sentence)}"
-    if len(view.sentences) > _MOST:
-        yield f"- and {pluralize(len(view.sentences) - _MOST, 'change')} more"
+    if len(sentences) > _MOST:
+        yield f"- and {pluralize(len(sentences) - _MOST, noun, plural)} more"
 
 
 def _prose(text: str) -> str:

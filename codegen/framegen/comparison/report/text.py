@@ -93,22 +93,25 @@ def _group(view: View, group: Sequence[Section], explained: set[str]) -> Iterato
             yield f"    do: {rule.do}"
     if len(group) > 1:
         yield f"  of {first.title}, and of the others alike:"
-    frames: set[bytes] = set()
+    shown: set[bytes | str] = set()
     for effect in first.effects:
-        yield from _effect(effect, first.title, frames)
+        yield from _effect(effect, first.title, shown)
 
 
-def _effect(effect: Effect, title: str, frames: set[bytes]) -> Iterator[str]:
-    """Yield the lines of an effect; a frame that an effect before it has shown is not repeated."""
+def _effect(effect: Effect, title: str, shown: set[bytes | str]) -> Iterator[str]:
+    """Yield the lines of an effect; a frame or a remedy that was shown before is not repeated."""
     who = between(effect)
     where = f"{effect.axis}, {who}" if who else effect.axis
     yield f"  {STANDING_WORDS[standing(effect)]}: {where}: {effect_text(effect, title)}"
-    if effect.witness is not None and effect.witness.data not in frames:
-        frames.add(effect.witness.data)
+    if effect.witness is not None and effect.witness.data not in shown:
+        shown.add(effect.witness.data)
         yield f"    {hex_of(effect.witness.data)}"
         yield f"    {call_of(effect.witness)}"
     if effect.accepted:
         yield f"    accepted: {visible(effect.accepted)}"
+    elif effect.remedy and effect.remedy not in shown:
+        shown.add(effect.remedy)
+        yield f"    do: {visible(effect.remedy)}"
 
 
 def _without_effect(view: View) -> Iterator[str]:

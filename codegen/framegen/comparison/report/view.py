@@ -14,13 +14,14 @@ from framegen.comparison.edges import MOST
 from framegen.comparison.entry import sentences
 from framegen.comparison.explained import explain, is_documentation
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
+from framegen.comparison.report.titles import shortened_list
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
 from framegen.console import visible
 from framegen.language.version import NoVersion
 from framegen.reading.findings import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from framegen.comparison.accepted import Accepted
     from framegen.comparison.changes.change import Change, ChangeRule
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
     from framegen.comparison.pair import Pair
     from framegen.comparison.report.ends import Ends
     from framegen.reading.yamltree import KeyPath
+
+# What a rule says where there is nothing to do.
+NOTHING = "Nothing."
 
 
 @dataclass(frozen=True)
@@ -188,6 +192,22 @@ class View:
     def sentences(self) -> list[str]:
         """The changes as the history of the spec tells them; its examples follow them."""
         return sentences(self.comparison, examples=False)
+
+    def remedies(self, effects: Iterable[Effect]) -> list[str]:
+        """Return what to do about what breaks and is not accepted: of each kind of change once."""
+        told: dict[str, None] = {}
+        found: dict[ChangeRule, dict[str, None]] = {}
+        for effect in effects:
+            if effect.breaks and not effect.accepted:
+                if effect.remedy:
+                    told[effect.remedy] = None
+                    continue
+                for change in explain(effect, self.comparison.changes):
+                    rule = rule_of(change)
+                    if rule is not None and rule.do != NOTHING:
+                        found.setdefault(rule, {})[change.text] = None
+        of_rules = (f"{shortened_list([*texts])}. {rule.do}" for rule, texts in found.items())
+        return [*told, *of_rules]
 
     def places(self, change: Change) -> str:
         """Return where a change is, in both editions: `old.yaml:9:5 -> spec/new.yaml:9:5`."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.report.titles import shortened_list
 from framegen.console import visible
 from framegen.pluralize import pluralize
 
@@ -36,8 +37,17 @@ def effect_text(effect: Effect, title: str) -> str:
 
 
 def between(effect: Effect) -> str:
-    """Return the ends of an effect: of a frame, who sends it to whom."""
-    return effect.ends.replace(", ", " -> " if effect.witness else " with ")
+    """Return the ends of an effect: of a frame, who sends it to whom; of kept editions, which."""
+    ends = [_with_editions(end, effect) for end in effect.ends.split(", ") if end]
+    if not ends and effect.editions:
+        return f"those of {shortened_list(effect.editions)}"
+    return (" -> " if effect.witness else " with ").join(ends)
+
+
+def _with_editions(end: str, effect: Effect) -> str:
+    if not effect.editions or not end.startswith("old "):
+        return end
+    return f"{end} of {shortened_list(effect.editions)}"
 
 
 def _plain(value: Any) -> str:

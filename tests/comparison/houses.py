@@ -1,0 +1,47 @@
+"""Editions of the greenhouse: with more messages, with reservations, and with accepted breaks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from tests.factories import DEMO, data_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+DATA = data_of(DEMO)
+WAY = "station -> gateway"
+DOOR = {
+    "id": 0x77,
+    "direction": WAY,
+    "summary": "A door is open.",
+    "cite": "manual, section 9",
+    "length": 1,
+    "fields": {"door": {"type": "u8", "about": "Which door."}},
+}
+WINDOW = {
+    **DOOR,
+    "summary": "A window is open.",
+    "length": 3,
+    "fields": {
+        "room": {"type": "u8", "about": "Where."},
+        "window": {"type": "u16", "about": "Which window."},
+    },
+}
+LIMIT = {"id": 0x77, "direction": WAY, "name": "DoorOpened", "why": "Up to 1.0.0 it was that."}
+REASON = "No station has it."
+
+
+def house(
+    messages: dict[str, Any],
+    reserved: Sequence[dict[str, Any]] = (),
+    breaks: dict[str, str] | None = None,
+) -> dict[str, Any]:
+    """Return a spec with more messages, more reservations, and accepted breaks."""
+    entry = {"version": "9.0.0", "changes": ["It."], "breaks": breaks or {}}
+    return {
+        **DATA,
+        "messages": {**DATA["messages"], **messages},
+        "reserved": [*DATA.get("reserved", ()), *reserved],
+        "history": [entry] if breaks else [],
+    }
