@@ -11,6 +11,7 @@ GENERATOR = Path(__file__).parent.parent / "codegen" / "framegen"
 
 # From the bottom up. The parts of one layer do not import each other.
 LAYERS = [
+    {"visible"},
     {
         "__version__",
         "colour",

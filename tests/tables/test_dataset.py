@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import json
 import multiprocessing
 import os
 import shutil
@@ -263,6 +264,81 @@ def test_a_manifest_that_makes_no_sense_is_none(captures: Path, tmp_path: Path) 
     assert rows_in(tmp_path / "dataset") == rows_of(captures)
 
 
+# JSON that is no manifest of a piece, and what a manifest may be changed to.
+NO_MANIFESTS: list[Any] = ["", 7, True, [], [[]], {}, {"rows": {}}, {"library": 7}]
+CHANGES = [
+    {"rows": 5},
+    {"rows": []},
+    {"rows": {"BatteryVoltage": "3"}},
+    {"rows": {"BatteryVoltage": True}},
+    {"sizes": None},
+    {"sizes": 7},
+    {"capture": 7},
+    {"start": "0"},
+    {"end": None},
+    {"stamp": "now"},
+    {"direction": 1},
+]
+
+
+@pytest.mark.parametrize("wrong", [*NO_MANIFESTS, *CHANGES], ids=str)
+def test_a_damaged_manifest_is_a_broken_piece(wrong: Any, tmp_path: Path) -> None:
+    (tmp_path / "line.bin").write_bytes(conversation(3))
+    (tmp_path / "other.bin").write_bytes(conversation(3))
+    folder = tmp_path / "dataset"
+    pieces = scan([tmp_path / "line.bin", tmp_path / "other.bin"])
+    done = [archive(piece, folder) for piece in pieces]
+    (file,) = (folder / "_pieces" / "capture=line.bin").glob("*.json")
+    said = json.loads(file.read_text(encoding="utf-8"))
+    file.write_text(json.dumps({**said, **wrong} if wrong in CHANGES else wrong), encoding="utf-8")
+    broken, whole = (archive(piece, folder) for piece in pieces)
+    assert broken.error is not None
+    assert broken.error.startswith(f"{file}: it is damaged")
+    assert broken.error.endswith("remove it, and the piece is done again")
+    assert whole.rows == done[1].rows
+    # The way out that it names.
+    file.unlink()
+    assert archive(pieces[0], folder).rows == done[0].rows
+    assert len(files_in(folder / "BatteryVoltage")) == 2
+
+
+def test_a_damaged_manifest_of_another_piece_is_replaced(tmp_path: Path) -> None:
+    (tmp_path / "line.bin").write_bytes(conversation(60))
+    folder = tmp_path / "dataset"
+    archived(tmp_path / "line.bin", folder)
+    for file in (folder / "_pieces" / "capture=line.bin").glob("*.json"):
+        file.write_text("[]", encoding="utf-8")
+    (whole,) = archived(tmp_path / "line.bin", folder, size=1 << 20)
+    assert whole.error is None
+    assert rows_in(folder) == {
+        (name, "line.bin"): table.to_pylist()
+        for name, table in read(tmp_path / "line.bin").filled.items()
+    }
+
+
+@pytest.mark.parametrize("wrong", NO_MANIFESTS, ids=str)
+def test_a_dataset_that_does_not_tell_its_protocol_is_refused(wrong: Any, tmp_path: Path) -> None:
+    (tmp_path / "line.bin").write_bytes(conversation(3))
+    (piece,) = scan(tmp_path / "line.bin")
+    file = tmp_path / "dataset" / "_pieces" / "library.json"
+    file.parent.mkdir(parents=True)
+    file.write_text(json.dumps(wrong), encoding="utf-8")
+    report = archive(piece, tmp_path / "dataset")
+    problem = "it is damaged, and does not tell whose captures the dataset holds"
+    assert report.error == f"{file}: {problem}: remove it if they are of busservo"
+    file.unlink()
+    assert archive(piece, tmp_path / "dataset").is_new
+
+
+def test_a_manifest_without_end_is_none(tmp_path: Path) -> None:
+    (tmp_path / "line.bin").write_bytes(conversation(3))
+    archived(tmp_path / "line.bin", tmp_path / "dataset")
+    (file,) = (tmp_path / "dataset" / "_pieces" / "capture=line.bin").glob("*.json")
+    file.write_text("[" * 100_000, encoding="utf-8")
+    (report,) = archived(tmp_path / "line.bin", tmp_path / "dataset")
+    assert report.is_new
+
+
 # --- What is stopped -----------------------------------------------------------------------------
 
 
@@ -396,6 +472,20 @@ def test_a_report_says_what_became_of_a_piece() -> None:
         "line.bin[0:1500000]: 4 rows, done before",
         "line.bin[0:1500000]: error: /c/line.bin: No such file or directory",
     ]
+
+
+def test_a_name_that_controls_the_screen_is_escaped_when_it_is_printed(tmp_path: Path) -> None:
+    names = {
+        "a\x1b[31m.bin": r"a\x1b[31m.bin",
+        "a\nb.bin": r"a\nb.bin",
+        "\u202ea.bin": r"\u202ea.bin",
+    }
+    for name, shown in names.items():
+        piece = Piece(f"/c/{name}", name, 0, 7, "raw", None, (7, 1))
+        report = archive(piece, tmp_path / "dataset")
+        assert str(piece) == f"{shown}[0:7]"
+        assert str(report) == f"{shown}[0:7]: error: /c/{shown}: No such file or directory"
+        assert report.error == f"/c/{name}: No such file or directory"
 
 
 NAMES = ["ü ß.bin", "a=b&c%20.bin", "x" * 120 + "ö" * 60, "x" * 121 + "線" * 40, "a\udcff.bin"]

@@ -164,10 +164,45 @@ def test_a_file_that_cannot_be_read_is_a_piece_that_says_so(
         piece.read()
 
 
-def test_links_to_folders_are_not_followed(tmp_path: Path) -> None:
-    written(tmp_path, ["a/line.bin"])
-    (tmp_path / "a" / "again").symlink_to(tmp_path)
-    assert captures_of(scan(tmp_path)) == ["a/line.bin"]
+# Where a link in the folder that is scanned stands and leads to, and what is found: by the folder,
+# and by a pattern.
+LINKS = {
+    "its own folder": ("again", ".", [], []),
+    "a folder beside the file": ("b", "a", [], ["b/line.bin"]),
+    "the folder above": ("a/up", "..", [], []),
+    "a folder outside": ("a", "../outside", [], []),
+    "a file in the folder": ("other.bin", "a/line.bin", ["other.bin"], []),
+    "a file outside": ("a/other.bin", "../../outside/line.bin", [], []),
+    "a file outside by a link inside": ("a/other.bin", "../b.bin", [], []),
+    "itself": ("a/loop.bin", "loop.bin", ["a/loop.bin"], []),
+    "nowhere": ("a/gone.bin", "absent", ["a/gone.bin"], []),
+}
+
+
+@pytest.mark.parametrize("name", LINKS)
+def test_links_are_followed_to_files_within_what_is_scanned(name: str, tmp_path: Path) -> None:
+    place, target, by_folder, by_pattern = LINKS[name]
+    written(tmp_path, ["in/a/line.bin", "outside/line.bin"])
+    if place == "a":
+        (tmp_path / "in" / "a" / "line.bin").unlink()
+        (tmp_path / "in" / "a").rmdir()
+    elif target == "../b.bin":
+        (tmp_path / "in" / "b.bin").symlink_to("../outside/line.bin")
+    (tmp_path / "in" / place).symlink_to(target)
+    own = [] if place == "a" else ["a/line.bin"]
+    assert captures_of(scan(tmp_path / "in")) == sorted(own + by_folder)
+    found = captures_of(scan(tmp_path / "in" / "*" / "line.bin"))
+    assert found == sorted(own + by_pattern or ["*/line.bin"])
+
+
+def test_a_link_that_is_named_is_followed(tmp_path: Path) -> None:
+    written(tmp_path, ["outside/line.bin"])
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "line.bin").symlink_to("../outside/line.bin")
+    (tmp_path / "in" / "folder").symlink_to("../outside")
+    assert captures_of(scan(tmp_path / "in" / "line.bin")) == ["line.bin"]
+    assert captures_of(scan(tmp_path / "in" / "folder")) == ["line.bin"]
+    assert scan(tmp_path / "in") == []
 
 
 def test_nothing_is_no_piece(tmp_path: Path) -> None:

@@ -5,7 +5,8 @@ What is printed may hold names that others chose (of ports, of files, in a spec)
 control the terminal. A stream may be closed or full, or its reader may be gone: status and error
 are then the same whether or not Python buffers the output.
 
-The Python target copies this file into each library, so it imports the standard library alone.
+The Python target copies this file into each library: besides the standard library, it imports only
+what stands beside it there as well.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ import argparse
 import errno
 import io
 import os
-import re
 import sys
 from contextlib import contextmanager, suppress
+
+from .visible import visible, visible_lines
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -25,29 +27,25 @@ if TYPE_CHECKING:
 
     Result = TypeVar("Result")
 
+__all__ = [
+    "DONE",
+    "INTERRUPTED",
+    "READER_GONE",
+    "UNUSABLE",
+    "Parser",
+    "Screen",
+    "complain",
+    "run",
+    "table",
+    "visible",
+    "write_as_it_is",
+]
+
 DONE, UNUSABLE = 0, 2
 # The widest line of a table.
 _WIDTH = 100
 # What a shell reports for a program that SIGINT or SIGPIPE ended.
 INTERRUPTED, READER_GONE = 130, 141
-
-# Controls, overrides of direction, characters of no width, and halves of a pair of surrogates,
-# as which Python reads the bytes of a name that are no text. No tab and no line feed.
-_HIDDEN = (
-    r"\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f"
-    r"\ud800-\udfff\ufe00-\ufe0f\ufeff\ufff9-\ufffb\U000e0000-\U000e0fff"
-)
-_IN_TEXT = re.compile(f"[{_HIDDEN}]")
-_IN_LINE = re.compile(rf"[\t\n{_HIDDEN}]")
-
-
-def visible(text: str) -> str:
-    r"""Escape what could control a terminal, on one line: an escape character as `\x1b`."""
-    return _IN_LINE.sub(_escape, text)
-
-
-def _escape(found: re.Match[str]) -> str:
-    return found[0].encode("unicode_escape").decode("ascii")
 
 
 def complain(program: str, message: str, hint: str = "") -> None:
@@ -182,7 +180,7 @@ class Screen:
 
     def write(self, text: str) -> int:
         """Write text, with escapes in place of what is invisible or not in the encoding."""
-        self.write_as_it_is(_IN_TEXT.sub(_escape, text))
+        self.write_as_it_is(visible_lines(text))
         return len(text)
 
     def write_as_it_is(self, text: str) -> None:

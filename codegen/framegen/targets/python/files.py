@@ -19,6 +19,7 @@ SHARED = {
     "_recording/file.py": "recording_file.py",
     "_recording/form.py": "recording_form.py",
     "_frame/pluralize.py": "pluralize.py",
+    "_frame/visible.py": "visible.py",
     **{
         f"_explanation/{name}.py": f"explanation/{name}.py"
         for name in (

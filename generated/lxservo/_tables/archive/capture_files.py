@@ -27,20 +27,23 @@ class _Root:
     """What one path means: the files, and the folder below which they are named."""
 
     def __init__(self, path: Path) -> None:
-        fixed = [*path.parts]
-        found = [path]
+        folder, pattern = path, ""
         if not path.exists() and has_magic(str(path)):
             begin = next(at for at, part in enumerate(path.parts) if has_magic(part))
-            fixed, pattern = fixed[:begin], str(Path(*fixed[begin:]))
-            # What is not found is looked for as it was written, and missed.
-            found = sorted(Path(*fixed).glob(pattern)) or found
-        self.files = [file for each in found for file in _files(each, is_given=True)]
-        folder = Path(*fixed)
+            folder, pattern = Path(*path.parts[:begin]), str(Path(*path.parts[begin:]))
         self.folder = folder if folder.is_dir() else folder.parent
+        within = self.folder.resolve()
+        matching = sorted(folder.glob(pattern)) if pattern else []
+        # What is not found is looked for as it was written, and missed.
+        found = [each for each in matching if not _leads_out(each, within)] or [path]
+        self.files = [file for each in found for file in _files(each, within, is_given=True)]
 
 
-def _files(path: Path, *, is_given: bool = False) -> Iterator[Path]:
-    """Yield a file, or those in a folder; what cannot be looked at, too, so that it is reported."""
+def _files(path: Path, within: Path, *, is_given: bool = False) -> Iterator[Path]:
+    """Yield a file, or those in a folder; what cannot be looked at, too, so that it is reported.
+
+    A link that leads out of `within` is neither.
+    """
     try:
         if not path.is_dir():
             # Of what is found, neither pipes nor devices are read.
@@ -54,9 +57,28 @@ def _files(path: Path, *, is_given: bool = False) -> Iterator[Path]:
     if any(each.name == MANIFESTS for each in inside):
         return
     for each in inside:
-        is_linked_folder = each.is_symlink() and each.is_dir()
-        if not each.name.startswith(".") and not is_linked_folder:
-            yield from _files(each)
+        if not each.name.startswith(".") and not _is_skipped_link(each, within):
+            yield from _files(each, within)
+
+
+def _is_skipped_link(path: Path, within: Path) -> bool:
+    """Tell whether this is a link to a folder, of which there may be no end, or leads out."""
+    return path.is_symlink() and (_is_folder(path) or _leads_out(path, within))
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
+
+
+def _leads_out(path: Path, within: Path) -> bool:
+    """Tell whether links on the way to what is there lead out of a folder."""
+    try:
+        return path.exists() and not path.resolve().is_relative_to(within)
+    except OSError:
+        return False
 
 
 def _common(folders: Sequence[Path]) -> Path | None:

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 
 import pyarrow as pa
 
+from ..._frame.visible import visible
 from ...recordings import RecordingError
 from ..files.parquet import ParquetFiles
-from .manifest import Manifest
+from .manifest import Manifest, ManifestError
 
 if TYPE_CHECKING:
     import os
@@ -39,7 +40,7 @@ class Report:
 
     def __str__(self) -> str:
         if self.error is not None:
-            return f"{self.piece}: error: {self.error}"
+            return f"{self.piece}: error: {visible(self.error)}"
         rows = f"{self.piece}: {sum(self.rows.values())} rows"
         if not self.is_new:
             return f"{rows}, done before"
@@ -63,7 +64,7 @@ def archive(piece: Piece, folder: str | os.PathLike[str]) -> Report:
         is_new = rows is None
         if rows is None:
             rows = _written(piece, manifest)
-    except (OSError, RecordingError, pa.ArrowException) as error:
+    except (OSError, RecordingError, ManifestError, pa.ArrowException) as error:
         done = _rows_done(manifest)
         if done is not None:
             # Another has written it at the same time, and removed what is not needed any more.
@@ -90,7 +91,7 @@ def _written(piece: Piece, manifest: Manifest) -> dict[str, int]:
 def _rows_done(manifest: Manifest) -> dict[str, int] | None:
     try:
         return manifest.rows
-    except OSError:
+    except (OSError, ManifestError):
         return None
 
 
@@ -98,4 +99,4 @@ def _said(piece: Piece, error: Exception) -> str:
     """Return what went wrong, and where."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or piece.path}: {error.strerror}"
-    return f"{piece.path}: {error}"
+    return str(error) if isinstance(error, ManifestError) else f"{piece.path}: {error}"

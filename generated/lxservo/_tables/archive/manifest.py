@@ -22,13 +22,29 @@ from ..schema import schemas
 from .capture_files import MANIFESTS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
     from .pieces import Piece
 
 _LONGEST_NAME = 200
 _LIBRARY = __name__.partition(".")[0]
+
+
+# What a manifest says of its piece, and what it says once the piece is done.
+_PIECE = {
+    "capture": (str,),
+    "start": (int,),
+    "end": (int,),
+    "form": (str,),
+    "direction": (str, type(None)),
+    "stamp": (list, type(None)),
+}
+_DONE = {"rows": (dict,), "sizes": (dict,)}
+
+
+class ManifestError(ValueError):
+    """A file that is in the place of a manifest, and is none; the text says what to do."""
 
 
 class Manifest:
@@ -53,8 +69,16 @@ class Manifest:
 
     @property
     def rows(self) -> dict[str, int] | None:
-        """The rows of each table, if the piece is done and its files are there."""
-        said = _read(self._own) or {}
+        """The rows of each table, if the piece is done and its files are there.
+
+        Raises ManifestError.
+        """
+        said = _read(self._own)
+        if said is None:
+            return None
+        if not _is_of_a_piece(said):
+            problem = "it is damaged, and does not tell what is done: remove it"
+            raise ManifestError(f"{self._own}: {problem}, and the piece is done again")
         rows: dict[str, int] | None = said.get("rows")
         # A computer that lost its power may have kept the manifest without the files.
         if rows is None or said["sizes"] != {table: _size(self._file(table)) for table in rows}:
@@ -93,11 +117,17 @@ class Manifest:
         return self._folder / table / self._capture / f"{self._name}.parquet"
 
     def _refuse_others(self, unfinished: Path) -> None:
-        """Raise FileExistsError for a dataset of another protocol: its tables are not these."""
+        """Raise FileExistsError for a dataset of another protocol: its tables are not these.
+
+        Raises ManifestError if it does not tell of which it is.
+        """
         path = self._folder / MANIFESTS / "library.json"
         said = _read(path)
         if said is None:
             _write(unfinished, path, {"library": _LIBRARY})
+        elif not _has(said, {"library": (str,)}):
+            problem = "it is damaged, and does not tell whose captures the dataset holds"
+            raise ManifestError(f"{path}: {problem}: remove it if they are of {_LIBRARY}")
         elif said["library"] != _LIBRARY:
             problem = f"it holds captures of {said['library']}: name another folder"
             raise FileExistsError(errno.EEXIST, problem, str(self._folder))
@@ -106,7 +136,8 @@ class Manifest:
         """Yield the manifests of what this piece takes the place of."""
         for path in sorted(self._manifests.glob("*.json")):
             other = _read(path)
-            if path != self._own and (other is None or self._takes_place_of(other)):
+            is_readable = _is_of_a_piece(other)
+            if path != self._own and (not is_readable or self._takes_place_of(other)):
                 yield path
 
     def _takes_place_of(self, other: dict[str, Any]) -> bool:
@@ -147,12 +178,27 @@ def _write(unfinished: Path, target: Path, said: dict[str, Any]) -> None:
     part.replace(target)
 
 
-def _read(manifest: Path) -> dict[str, Any] | None:
-    """Return what a manifest says; None if it is not there, or cannot be read."""
-    with suppress(FileNotFoundError, ValueError):
-        said: dict[str, Any] = json.loads(manifest.read_text(encoding="utf-8"))
-        return said
+def _read(manifest: Path) -> Any:
+    """Return what a manifest says, whatever that is; None if it is not there, or no JSON."""
+    with suppress(FileNotFoundError, ValueError, RecursionError):
+        return json.loads(manifest.read_text(encoding="utf-8"))
     return None
+
+
+def _is_of_a_piece(said: Any) -> bool:
+    """Tell whether this is what a manifest says of a piece, begun or done."""
+    if not _has(said, _PIECE):
+        return False
+    if not _DONE.keys() & said.keys():
+        return True
+    return _has(said, _DONE) and all(type(count) is int for count in said["rows"].values())
+
+
+def _has(said: Any, kinds: Mapping[str, tuple[type, ...]]) -> bool:
+    """Tell whether this is a mapping that has values of these kinds."""
+    if not isinstance(said, dict):
+        return False
+    return all(name in said and type(said[name]) in among for name, among in kinds.items())
 
 
 def _file_name(capture: str) -> str:

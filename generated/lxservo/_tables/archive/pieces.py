@@ -9,6 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..._frame.visible import visible
 from ...recordings import RecordingError
 from ..files.part import part_of
 from ..reader import BLOCK, batches
@@ -74,7 +75,7 @@ class Piece:
             raise RecordingError("the file has changed since it was scanned: scan again")
 
     def __str__(self) -> str:
-        return f"{self.capture}[{self.start}:{self.end}]"
+        return f"{visible(self.capture)}[{self.start}:{self.end}]"
 
 
 def stamp_of(path: str) -> tuple[int, int]:
@@ -97,6 +98,9 @@ def scan(
     about every `size` bytes, where any decoder holds nothing; text recordings are one piece each.
     `form` and `direction` are as in `read`. A file that cannot be read, or is not there, is a piece
     whose work says so.
+
+    Links are followed to files of the folder alone, and not to folders: a link that leads out of
+    what is scanned is no capture of it, unless it is named itself.
 
     Captures are named below the folder that is scanned, or that holds all that is scanned.
     """
