@@ -125,6 +125,48 @@ def test_what_the_other_end_sends_is_not_sent(browser: Browser, site: Path) -> N
         assert made.host.written == b""
 
 
+def test_what_is_beyond_the_limits_is_not_sent(browser: Browser, site: Path) -> None:
+    """It is refused in the client's words, until somebody chooses other limits."""
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
+        live = made.open()
+        live.connect()
+        # Whoever only presses Send moves nothing.
+        live.tab.locator("#line-send").click()
+        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+        asked = made.host.written
+        values = {"time_ms": "100", "targets": "1:500,2:1200"}
+        live.send("ServoMove", **values)
+        bounds = "targets[1].position: 1200 is outside the limits 0..1000"
+        way_out = "limits=(500, 2500) is for PWM servo boards, limits=None for any"
+        assert live.reply("ServoMove is not sent.") == (
+            f"ServoMove is not sent. {bounds}; {way_out}"
+        )
+        live.send("ServoMove", time_ms="100", targets="1:5000")
+        assert live.reply("ServoMove is not sent. targets[0].position: 5000").endswith(
+            "is outside the limits 0..1000; limits=None sends anything"
+        )
+        assert made.host.written == asked
+        live.count("sent", 1)
+        live.tab.get_by_label("Limits of what is sent").select_option(
+            "(500, 2500): PWM servo boards"
+        )
+        assert live.tab.locator("#line-reply").inner_text() == ""
+        live.send("ServoMove", **values)
+        live.reply("ServoMove is sent.")
+        live.send("ServoMove", time_ms="100", targets="1:300")
+        live.reply(
+            "ServoMove is not sent. targets[0].position: 300 is outside the limits 500..2500"
+        )
+        live.tab.get_by_label("Limits of what is sent").select_option("None: anything")
+        live.send("ServoMove", time_ms="100", targets="1:5000")
+        live.reply("ServoMove is sent.")
+        moves = [((1, 500), (2, 1200)), ((1, 5000),)]
+        live.count("sent", 3)
+        assert made.host.written == asked + b"".join(
+            busservo.ServoMove(100, targets).encode() for targets in moves
+        )
+
+
 @pytest.mark.parametrize("one_by_one", [False, True])
 @pytest.mark.parametrize("seed", range(3))
 def test_nothing_on_a_bad_line_is_lost(

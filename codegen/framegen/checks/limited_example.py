@@ -25,9 +25,10 @@ def _look(model: Model) -> Iterator[Problem]:
             for path, limits in message.limited.items():
                 outer, _, inner = path.partition(".")
                 given = values[outer]
+                # A field that is absent has no value.
                 for item in given if isinstance(given, list) else [given]:
                     value = item[inner] if inner else item
-                    if not _inside(limits, value):
+                    if value is not None and not _inside(limits, value):
                         here = ("messages", name, "examples", number, "values", outer)
                         what = f"`{inner or outer}` is {value}, outside all limits"
                         yield Problem(here, what, "correct the example, or widen the limits")

@@ -11,6 +11,7 @@ from framegen.model.data import model_data
 from framegen.model.envelope import derive_envelope
 from framegen.model.exchanges import exchanges
 from framegen.model.layout import derive_message
+from framegen.model.limits import sending_limits
 from framegen.model.roles import kinds, settle
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from framegen.model.envelope import Envelope
     from framegen.model.exchanges import Exchange
     from framegen.model.layout import MessageLayout
+    from framegen.model.limits import SendingLimits
     from framegen.model.roles import Kind, Roles
     from framegen.model.slots import Number
 
@@ -157,6 +159,11 @@ class Model:
     def exchanges_by_request(self) -> dict[str, Exchange]:
         """The exchanges of the client, by the name of their request."""
         return {each.request.name: each for each in self.exchanges}
+
+    @cached_property
+    def limits(self) -> SendingLimits | None:
+        """The limits of what the client sends, if any field has limits."""
+        return sending_limits(each.request for each in self.exchanges)
 
     @cached_property
     def answers(self) -> dict[str, list[str]]:

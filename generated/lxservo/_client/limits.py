@@ -87,8 +87,7 @@ class Limits:
 def placed(message: Message, path: str, place: int) -> str:
     """Return the place of a value in a message: `items[1].level`, or just `level`."""
     name, dot, inner = path.partition(".")
-    items = message.SHAPE.items
-    listed = items is not None and items.name == name
+    listed = isinstance(getattr(message, name), tuple)
     return f"{name}[{place}]{dot}{inner}" if listed else name
 
 

@@ -123,18 +123,13 @@ class ClientView:
     @property
     def limits(self) -> str:
         """The limits of what is sent, as expressions."""
-        limited = {
-            each.request.name: each.request.limited
-            for each in self.model.exchanges
-            if each.request.limited
-        }
-        if not limited:
+        limits = self.model.limits
+        if limits is None:
             return "LIMITS = Limits()"
-        limits = next(each for fields in limited.values() for each in fields.values())
         others = [Text(name, after=f": {_bounds(each)}") for name, each in limits.others.items()]
         fields = [
             Bracketed(f"{name}: (", [literal(path) for path in paths], ")", lone=",")
-            for name, paths in limited.items()
+            for name, paths in limits.fields.items()
         ]
         items: list[Part] = [_bounds(limits.usual)]
         items += [Bracketed("others={", others, "}")] if others else []

@@ -169,7 +169,14 @@ function showLine(protocol, codec) {
       reply("One question at a time: the reply to the one before is still waited for.");
       return;
     }
-    const question = session.sent([...bytes], performance.now());
+    let question = null;
+    try {
+      question = session.sent([...bytes], performance.now(), settings.limits());
+    } catch (error) {
+      if (!(error instanceof Unusable)) throw error;
+      reply(`${message} is not sent. ${error.message}`, "no");
+      return;
+    }
     reply(question ? `${message} is sent; ${question.exchange.reply} is waited for.`
       : `${message} is sent. ${wordsOfExchange(message, kindOf(message), data)}`);
     tick(performance.now());
@@ -277,6 +284,7 @@ function showLine(protocol, codec) {
   byId("line-connect").addEventListener("click", () => connect(line.choose));
   byId("line-close").addEventListener("click", () => line.close());
   byId("line-send").addEventListener("click", send);
+  byId("line-limits").addEventListener("change", () => reply(""));
   byId("line-download").addEventListener("click", () => withRecording(saveFile));
   byId("line-load").addEventListener("click", () => withRecording((file) => window.workbench.openFile(file)));
   byId("line-clear").addEventListener("click", clear);

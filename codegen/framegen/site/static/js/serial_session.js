@@ -12,7 +12,7 @@ const ECHO_MS = 250;
 // answers of makeReplies, `unanswered(question, isEnded)` the questions that have none. `direction` is what
 // is listened to, null for both ends of the line.
 function makeSession({ codec, protocol, direction, baud, localEcho, timeout, show, answered, unanswered }) {
-  const data = protocol.line, stream = codec.makeStream({ direction });
+  const data = protocol.line, stream = codec.makeStream({ direction }), limits = makeLimits(data);
   const replies = makeReplies(data, baud, timeout), echo = localEcho ? makeLocalEcho() : null;
   const counts = { bytes: 0, frames: 0, noise: 0, errors: 0, sent: 0, echoes: 0 };
   const senders = new Map(protocol.directions.map(({ key, sender }) => [key, sender]));
@@ -63,9 +63,11 @@ function makeSession({ codec, protocol, direction, baud, localEcho, timeout, sho
       return read(others, now);
     },
 
-    // A frame was handed to the line; the question that it asks, or null where nothing answers it.
-    sent(bytes, now) {
+    // A frame is about to be handed to the line; the question that it asks, or null where nothing answers
+    // it. Throws Unusable for what the Python client does not send within these bounds, null for any.
+    sent(bytes, now, bounds = limits.usual) {
       const event = codec.decodeFrame(bytes, data.sent);
+      limits.check(event, bounds);
       counts.sent += 1;
       if (echo) echo.sent(bytes, now + (1000 * bytes.length * data.bitsPerByte) / baud + ECHO_MS);
       show({ at: now, isSent: true, event, names: [event.message], sender: senders.get(data.sent) });

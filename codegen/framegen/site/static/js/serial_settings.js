@@ -5,7 +5,8 @@
 function makeLineSettings(data) {
   const [baud, timeout, listen, echo] = ["baud", "timeout", "listen", "echo"]
     .map((name) => document.getElementById(`line-${name}`));
-  const numbers = [baud, timeout];
+  const numbers = [baud, timeout], chooser = document.getElementById("line-limits");
+  const { choices } = makeLimits(data);
   const isWhole = (field) => field.validity.valid && Number.isInteger(field.valueAsNumber);
 
   // What the port is opened with.
@@ -22,6 +23,14 @@ function makeLineSettings(data) {
       localEcho: echo.checked,
       timeout: timeout.valueAsNumber,
     };
+  }
+
+  // The limits of what is sent, which may change while the line is open.
+  const limits = () => (choices.length ? choices[chooser.selectedIndex].bounds : null);
+
+  function offerLimits() {
+    chooser.replaceChildren(...choices.map(({ text }) => new Option(text)));
+    chooser.closest("p").hidden = !choices.length;
   }
 
   function show() {
@@ -51,6 +60,7 @@ function makeLineSettings(data) {
 
   for (const field of [...numbers, echo]) field.addEventListener("input", show);
   if (data.received === null) listen.value = "any";
+  offerLimits();
   show();
-  return { ofPort, ofSession, problem, disable };
+  return { ofPort, ofSession, limits, problem, disable };
 }

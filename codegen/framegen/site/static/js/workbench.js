@@ -179,7 +179,7 @@ window.workbench = (() => {
   function openAddress(isFirst) {
     const { text, direction: way, message, words } = readAddress(location.search, protocol, codec.kinds);
     direction.value = way;
-    encoder.open(message || codec.kinds[0].name, words);
+    encoder.open(message || protocol.line.first, words);
     if (text !== null || !isFirst) field.value = text ?? "";
     file = null;
     source.hidden = true;
