@@ -29,6 +29,7 @@ _HOMES = {
     "Device": "device",
     "Direction": "_frame.direction",
     "DisconnectedError": "_serial.link_errors",
+    "DoubtfulReplyError": "_serial.link_errors",
     "EchoError": "_serial.link_errors",
     "EncodeError": "_frame.errors",
     "Event": "_codec.decoder",

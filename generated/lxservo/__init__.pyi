@@ -31,6 +31,7 @@ from ._frame.protocol import PROTOCOL_VERSION as PROTOCOL_VERSION
 from ._serial.link_errors import AbsentError as AbsentError
 from ._serial.link_errors import ClosedError as ClosedError
 from ._serial.link_errors import DisconnectedError as DisconnectedError
+from ._serial.link_errors import DoubtfulReplyError as DoubtfulReplyError
 from ._serial.link_errors import EchoError as EchoError
 from ._serial.link_errors import IncompleteReplyError as IncompleteReplyError
 from ._serial.link_errors import NoReplyError as NoReplyError
@@ -107,6 +108,7 @@ __all__ = [
     "Device",
     "Direction",
     "DisconnectedError",
+    "DoubtfulReplyError",
     "EchoError",
     "EncodeError",
     "Event",

@@ -69,8 +69,15 @@ def test_a_reply_that_the_wire_can_have_carried_is_the_answer_at_once() -> None:
     assert line.counters.impossible == line.counters.unsolicited == 0
 
 
-def test_of_an_impossible_reply_and_a_second_one_the_second_is_the_answer() -> None:
+def on_a_wire() -> Session:
+    """Return a line that has kept its rate so far."""
     line = session()
+    answered(line, -1.0, 7500)
+    return line
+
+
+def test_of_an_impossible_reply_and_a_second_one_the_second_is_the_answer() -> None:
+    line = on_a_wire()
     request = ask(line, 0.0)
     say(line, TOO_SOON, BatteryVoltage(1))
     assert not request.done
@@ -116,13 +123,13 @@ def test_a_duplicate_behind_a_reply_never_becomes_the_next_answer() -> None:
     assert line.counters.unsolicited == 1
 
 
-def test_of_several_replies_that_are_read_at_once_the_last_is_the_answer() -> None:
-    line = session()
+def test_of_several_replies_that_are_read_at_once_none_is_the_answer() -> None:
+    line = on_a_wire()
     request = ask(line, 0.0)
     # As where this process was stopped: it reads all that has come meanwhile, the late one too.
     say(line, 1.0, BatteryVoltage(1), ActionGroupCompleted(8, 1), BatteryVoltage(2))
-    assert request.reply == BatteryVoltage(2)
-    assert line.counters.unsolicited == 1
+    assert not request.done
+    assert (line.counters.unsolicited, line.counters.retries) == (2, 1)
     assert line.reports.take() == ActionGroupCompleted(8, 1)
 
 
@@ -136,7 +143,7 @@ def test_what_came_before_the_question_was_sent_is_not_even_held() -> None:
 
 
 def test_the_frames_before_a_question_take_their_time_as_well() -> None:
-    line = session()
+    line = on_a_wire()
     move = ServoMove(100, [(servo, 500) for servo in range(1, 7)])
     line.submit(move)
     line.submit(BatteryVoltageRead())
@@ -200,9 +207,8 @@ def test_a_surplus_reply_ends_what_was_learnt() -> None:
     request = ask(line, 4.0)
     say(line, 4.001, BatteryVoltage(2))
     assert not request.done
-    say(line, 4.002, BatteryVoltage(3))
     settle(line)
-    assert request.reply == BatteryVoltage(3)
+    assert request.reply == BatteryVoltage(2)
 
 
 def test_another_line_is_learnt_anew() -> None:
@@ -252,8 +258,10 @@ def test_after_a_reply_that_never_came_the_next_is_held() -> None:
     request = ask(line, 2 * now)
     say(line, 2 * now + 0.1, BatteryVoltage(1))  # much too late, but possible
     assert not request.done
+    # Which of the two is its own, nothing shows: test_doubtful_replies has the rest.
     say(line, 2 * now + 0.12, BatteryVoltage(2))
-    assert request.reply == BatteryVoltage(2)
+    assert not request.done
+    assert line.outgoing(2 * now + 0.12) == [request.message.encode()]
 
 
 def test_after_a_reply_that_never_came_the_next_alone_is_the_answer() -> None:

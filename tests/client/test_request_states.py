@@ -62,6 +62,12 @@ def tried_again(line: Session) -> Request:
     return request
 
 
+def tried_again_in_doubt(line: Session) -> Request:
+    request = held(line)
+    answer(line, IN_TIME, 1)
+    return request
+
+
 def replaced(line: Session) -> Request:
     line.submit(ServoMove(0, [(each, 0) for each in range(80)]), latest=True)
     line.outgoing(0.0)
@@ -96,6 +102,7 @@ STORIES = [
     (given_up, (State.PENDING, Step.FINISH), State.DONE),
     (held_twice, (State.HELD, Step.HOLD), State.HELD),
     (dropped, (State.HELD, Step.DROP), State.PENDING),
+    (tried_again_in_doubt, (State.PENDING, Step.RETRY), State.WAITING),
     (given_up_while_held, (State.HELD, Step.FINISH), State.DONE),
     (answered, (State.HELD, Step.FINISH), State.DONE),
 ]

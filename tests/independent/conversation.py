@@ -3,7 +3,8 @@
 A call is right if its value answers a question that the board received after the call began. Any
 other must be excused: by a fault that happened during it or during the call before. So the second
 next call after a fault is right. A stale value is excused only if its reply was complete no earlier
-than question and reply can have fitted on the wire, and never twice in a row for one fault.
+than question and reply can have fitted on the wire, if the right one had not come as well, and
+never twice in a row for one fault.
 """
 
 from __future__ import annotations
@@ -122,11 +123,22 @@ class Conversation:
                 assert any(at >= possible_at for at in arrived), (
                     f"impossible: {described}, {arrived}"
                 )
+                assert not self._answered(place), f"the right one had come as well: {described}"
             since, before_was_stale = call.began, stale
 
     def _fresh(self, call: Call) -> bool:
         number = self.board.questions - (self.board.questions - (call.number or 0)) % NUMBERS
         return call.before < number
+
+    def _answered(self, place: int) -> bool:
+        """Return whether an answer to a call had come before it ended."""
+        call, following = self.calls[place], self.calls[place + 1 : place + 2]
+        last = following[0].before if following else self.board.questions
+        return any(
+            at < call.ended
+            for number in range(call.before + 1, last + 1)
+            for at in self.board.arrivals(reply_to(call.requested, number))
+        )
 
     def _arrived(self, call: Call) -> list[float]:
         """Return when replies with this number were complete, until the call ended."""

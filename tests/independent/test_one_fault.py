@@ -51,6 +51,7 @@ FAULTS: dict[str, Script] = {
     "dropped": faults.dropped,
     "late, but in time": faults.late(0.2),
     "later than its time": faults.late(0.4),
+    "later than twice its time, behind the next": faults.late(0.55),
     "later than twice its time": faults.late(0.7),
     "later than four times its time": faults.late(1.4),
     "cut in the header": faults.cut(1),
@@ -181,7 +182,9 @@ def test_a_duplicate_shifts_nothing(read: str) -> None:
         run = Run(READS[read], faults.duplicated(), bench, reads=80)
         run.check(READS[read])
         assert (run.talk.stale, run.talk.failed) == ([], [])
-        assert run.counters.unsolicited == 1
+        # Where the adapter hands over both at once, neither is taken, and the read is repeated.
+        at_once = bench.latency > 0.01 and READS[read] is None
+        assert (run.counters.unsolicited, run.counters.retries) == (1 + at_once, at_once)
         assert run.counters.replies == 80
 
 

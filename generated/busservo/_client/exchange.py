@@ -19,6 +19,7 @@ class Unaddressed:
 
     __slots__ = ()
     field: str = ""
+    senders: tuple[str, ...] = ()
 
     def of(self, _request: Message) -> int | None:
         """Return the address that a request goes to; None where there are none."""
@@ -38,6 +39,7 @@ class Unfailing:
 
     __slots__ = ()
     refusal: type[Message] | None = None
+    field: str = ""
 
     def error(self, _request: Message, _reply: Message) -> Exception | None:
         """Return the error that a reply tells of; None where it is as wanted."""
@@ -70,6 +72,7 @@ class Exchange:
         "counter",
         "echoed",
         "failures",
+        "is_query",
         "kinds",
         "lasts",
         "method",
@@ -111,8 +114,18 @@ class Exchange:
         # The messages that answer it, or refuse it.
         self.kinds = tuple(kind for kind in (reply, failures.refusal) if kind is not None)
         self.origin = Origin(self.kinds, None)
+        # Whether its reply says anything new, so that it may be asked again. What a reply confirms,
+        # and no more, would be done twice.
+        self.is_query = reply is not None and not self._known.issuperset(reply.__match_args__)
         # The sizes of these, where they do not depend on the request.
         self._sizes: tuple[int, int] | None = None
+
+    @property
+    def _known(self) -> set[str]:
+        """The fields of a reply that repeat the request, or tell whether that was carried out."""
+        counter = () if self.counter is None else self.counter[:1]
+        repeated = (reported for _, reported in self.echoed)
+        return {*repeated, *self.address.senders, self.failures.field, *counter}
 
     def check(self, request: Message) -> None:
         """Raise EncodeError if no reply has room for the answer to `request`."""

@@ -10,10 +10,10 @@ A reply must be possible. It cannot be complete before the question and itself h
 on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
 came twice, or much too late; or the line is no wire of the stated rate, as it must be where that
 device was never asked for such a reply before. Otherwise it is **held** for one reply time. If a
-second one comes, that is the answer, and the first is unsolicited. If none comes, what is known of
-the line decides: see Pace. Of several replies that are read at once, the last is the answer. And
-after a reply that is possible, but sooner than is usual on this line, the next question of its kind
-waits a moment, so that the right one, if there is another, is not taken for the reply to that.
+second one comes on a line that keeps its rate, that is the answer, and the first is unsolicited. If
+none comes, what is known of the line decides: see Pace. And after a reply that is possible, but
+sooner than is usual on this line, the next question of its kind waits a moment, so that the right
+one, if there is another, is not taken for the reply to that.
 
 After a question has timed out, or was cancelled, or the line was lost, its reply may still come
 **late**, and would look like the reply to the next question of the same kind. So the next waits,
@@ -22,6 +22,11 @@ more. That time begins when the question is given up, which may be long after it
 whole machine has paused, and the reply with it. If it has not come by then, it may come yet, so the
 reply to the next is held, too. All that is kept for each device: one that is silent delays no
 question to another, once nobody on this line has ever taken so long.
+
+Of two replies to one question that differ, **none is chosen** if either may be its own: neither
+came too soon, or both were read at once. A question is **in doubt** then, as it is where the only
+reply behind one that was lost is later than is usual on this line. All that has come is dropped,
+and Session asks again, or ends with what has come.
 """
 
 from __future__ import annotations
@@ -53,6 +58,8 @@ _ADDRESSES: dict[type[Message], Unaddressed] = {
 # Those of them that a device may also send without being asked.
 _REPORTS = frozenset(kind for each in EXCHANGES.values() for kind in each.reports)
 _NEVER = float("inf")
+# How often a question is asked again because nothing tells which reply is its own.
+_DOUBTS = 2
 # How much longer a device may take than any has taken so far, before it keeps others waiting no
 # longer: adapters hand on what they have received only every 16 ms.
 _HESITATION = 0.02
@@ -149,18 +156,49 @@ class ReplyMatcher:
             pending.gathered.append(message)
             return
         if pending.held is not None:
-            self._drop_unsolicited(pending.held[0])
-            pending.after_lost = False
+            self._displace(pending, *pending.held, message)
         pending.held = message, now
         pending.take(Step.HOLD)
+
+    def _displace(self, pending: Request, earlier: Message, at: float, later: Message) -> None:
+        """Drop the reply that is held: it is no answer, the same once more, or as good as this.
+
+        It is none if it came too soon, on a line that keeps to its rate; or if it is an echo.
+        """
+        too_soon = self.pace.keeps_time and self._delay(pending, earlier, at) < 0
+        foreign = too_soon or earlier.encode() == pending.message.encode()
+        if not foreign and earlier != later:
+            pending.rivals.append(earlier)
+        self._drop_unsolicited(earlier)
+        pending.after_lost = False
 
     def weigh(self) -> list[Answer]:
         """Give the replies that are held, if the wire can have carried them: they are answers."""
         answers: list[Answer] = []
         for pending in [*self.pending]:
-            if pending.held is not None:
+            if pending.held is not None and not pending.rivals:
                 answers += self._weighed(pending, *pending.held)
         return answers
+
+    def in_doubt(self) -> list[Request]:
+        """Return the questions of which nothing tells whether what has come is the answer."""
+        return [pending for pending in self.pending if pending.rivals]
+
+    def may_be_repeated(self, pending: Request) -> bool:
+        """Return whether a question may be asked again for being in doubt."""
+        return pending.exchange.is_query and pending.doubts < _DOUBTS
+
+    def set_aside(self, pending: Request) -> tuple[Message, ...]:
+        """Drop all replies to a question in doubt, and return them: one may be its own."""
+        rivals, pending.rivals = pending.rivals, []
+        if pending.held is not None:
+            rivals.append(pending.held[0])
+            self._let_go(pending, "another came that differs, and may be the answer as well")
+        pending.doubts += 1
+        # All of them have come, and only one can have been meant for somebody else's question.
+        pending.owed = max(0, pending.owed - (len(rivals) - 1))
+        pending.is_first = False
+        return tuple(rivals)
 
     def _weighed(self, pending: Request, reply: Message, at: float) -> list[Answer]:
         possible = self._delay(pending, reply, at) >= 0
@@ -189,14 +227,16 @@ class ReplyMatcher:
         reply, at = pending.held
         paced = self.pace.paced
         if self._delay(pending, reply, at) >= 0:
+            if self._may_be_the_lost(pending, reply, at) and self.may_be_repeated(pending):
+                pending.rivals.append(reply)
+                self._let_go(pending, "it is as late as the one that was lost, and may be that")
+                return None
             self._learn(pending, reply, at)
             return self._answer(pending, reply, now)
         self.pace.answered_too_soon(pending.address)
         if not paced or self.pace.is_fast(pending.address):
             return self._answer(pending, reply, now)
-        pending.held = None
-        pending.take(Step.DROP)
-        self._drop(reply, "it came sooner than the wire allows, on a line that keeps its rate")
+        self._let_go(pending, "it came sooner than the wire allows, on a line that keeps its rate")
         return None
 
     # ------------------------------------------------------------------ giving up
@@ -217,7 +257,7 @@ class ReplyMatcher:
         # held.
         reply, _ = held
         self._drop(reply, "what it may answer was given up")
-        self.late.expect(self._origin(reply), pending.attempts, held_until, owed=False)
+        self.late.expect(self._origin(reply), pending.owed, held_until, owed=False)
 
     def end_gathering(self, pending: Request, since: float) -> None:
         """End a question to all: whoever has not answered yet may do so for as long once more."""
@@ -232,8 +272,8 @@ class ReplyMatcher:
         self.pending.clear()
 
     def expect_late(self, request: Request, since: float) -> None:
-        """Record that replies may come for as many attempts as a request has had."""
-        self._expect(request, request.attempts, since)
+        """Record that replies may come for all attempts of a request that none has come for."""
+        self._expect(request, request.owed, since)
 
     def restart(self) -> None:
         """Begin anew on another line, whose pace nobody knows."""
@@ -249,10 +289,26 @@ class ReplyMatcher:
         """Return how much later than possible a reply came; below 0 if sooner."""
         return at - request.left_soonest - self._wire_time.least(len(reply.encode()))
 
+    def _let_go(self, pending: Request, why: str) -> None:
+        """Drop the reply that is held, and go on with the question."""
+        if pending.held is not None:
+            self._drop(pending.held[0], why)
+            pending.held = None
+            pending.take(Step.DROP)
+
+    def _may_be_the_lost(self, pending: Request, reply: Message, at: float) -> bool:
+        """Return whether the only reply behind one that was lost is too late to be its own."""
+        delay = at - pending.left_at - self._wire_time.least(len(reply.encode()))
+        unusual = self.pace.is_unusual(type(reply), pending.address, delay, self._step(pending))
+        return pending.after_lost and unusual
+
+    def _step(self, request: Request) -> float:
+        """Return by how much the time of a reply must differ from others to tell anything."""
+        return self._wire_time.seconds(len(request.message.encode())) / 2
+
     def _learn(self, request: Request, reply: Message, at: float) -> None:
         """Learn from the time of a reply; after one that is too early, wait for the right one."""
-        step = self._wire_time.seconds(len(request.message.encode())) / 2
-        delay = self._delay(request, reply, at)
+        delay, step = self._delay(request, reply, at), self._step(request)
         later = self.pace.answered_in_time(type(reply), request.address, delay, step)
         if later > 0 and step > 0:
             until = at + later + self._wire_time.seconds(len(reply.encode()))
@@ -265,7 +321,7 @@ class ReplyMatcher:
         if self._wire_time.free_at == request.left_at:
             self._wire_time.seen_idle(now)
         # Which of the attempts it answers is unknown: the others may be answered yet.
-        self._expect(request, request.attempts - 1, request.deadline)
+        self._expect(request, request.owed - 1, request.deadline)
         return request, reply
 
     def _origin(self, reply: Message) -> Origin:

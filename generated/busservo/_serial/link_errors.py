@@ -130,6 +130,32 @@ class NoReplyError(ProtocolError, TimeoutError):
         )
 
 
+class DoubtfulReplyError(NoReplyError):
+    """Replies came that differ, and nothing shows which of them is the answer, if one is.
+
+    They are in `replies`. A question that was only to be confirmed is not repeated for that: what
+    it asks for may have been done.
+    """
+
+    def __init__(
+        self, request: Message, replies: Iterable[Message], waited: float, attempts: int = 1
+    ) -> None:
+        self.replies = tuple(replies)
+        kind = type(self.replies[-1]).__name__
+        super().__init__(request, kind, waited, attempts, unsolicited=len(self.replies))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.request, self.replies, self.waited, self.attempts), vars(self)
+
+    def __str__(self) -> str:
+        tries = f" to {self.attempts} requests" if self.attempts > 1 else ""
+        came = " and ".join(f"{reply!r}" for reply in self.replies)
+        return (
+            f"{came} came within {self.waited:.3f} s{tries} of {self.request!r}, and nothing shows "
+            "which is the answer; one may be late, or two devices answer: ask again"
+        )
+
+
 class IncompleteReplyError(ProtocolError):
     """A reply held less than was requested.
 

@@ -19,11 +19,11 @@ class Address(Unaddressed):
     nobody answers, by name.
     """
 
-    __slots__ = ("_names", "_senders", "field")
+    __slots__ = ("_names", "field", "senders")
 
     def __init__(self, field: str, *senders: str, silent: Mapping[str, int] | None = None) -> None:
         self.field = field
-        self._senders = senders
+        self.senders = senders
         self._names = {value: name for name, value in (silent or {}).items()}
 
     def of(self, request: Message) -> int | None:
@@ -33,7 +33,7 @@ class Address(Unaddressed):
 
     def sender(self, reply: Message) -> int | None:
         """Return the address that a reply comes from; None where it does not say."""
-        for name in self._senders:
+        for name in self.senders:
             if name in reply.__match_args__:
                 address: int = getattr(reply, name)
                 return address

@@ -24,7 +24,7 @@ from .._codec.counters import LineCounters
 from .._codec.noise import Noise
 from .._frame.errors import EncodeError
 from .._log import log
-from .._serial.link_errors import NoReplyError
+from .._serial.link_errors import DoubtfulReplyError, NoReplyError
 from .acknowledgements import Acknowledgements
 from .exchanges import EXCHANGES, LIMITS
 from .frame_reader import FrameReader
@@ -217,6 +217,8 @@ class Session:
         for pending in [*self._matcher.pending]:
             if pending.held is not None and now >= self._held_until(pending):
                 self._answer(self._matcher.decide(pending, now))
+            if pending.rivals:
+                self._resolve(pending, now)
             if pending in self._matcher.pending and now >= self._ends_at(pending):
                 self._expire(pending, now)
         if not self._reader.pending:
@@ -306,6 +308,7 @@ class Session:
         request.take(Step.SEND)
         request.left_at = self.wire_time.free_at
         request.attempts += 1
+        request.owed += 1
         request.written = False
         self.counters.sent += 1
         if self._trace is not None:
@@ -328,18 +331,23 @@ class Session:
             else:
                 request.sent = sent  # done once its echo has come
             return frame
-        if request.attempts == 1:
-            request.sent_at = now
-            # A further attempt accepts the late reply to an earlier one.
-            request.left_soonest = self.wire_time.free_soonest
-            request.before = self.counters.snapshot()
-        answer = self.wire_time.seconds(request.reply_size)
-        request.deadline = request.left_at + answer + self._reply_timeout
-        if request.within is not None:
-            request.deadline = request.left_at + request.within
-        self._matcher.sent(request)
-        self._settling.question_sent()
+        self._begin(request, now)
         return frame
+
+    def _begin(self, question: Request, now: float) -> None:
+        """Record when a question was sent, and how long it may take."""
+        if question.attempts == 1:
+            question.sent_at = now
+            question.before = self.counters.snapshot()
+        if question.owed == 1:
+            # A further attempt accepts the late reply to an earlier one.
+            question.left_soonest = self.wire_time.free_soonest
+        answer = self.wire_time.seconds(question.reply_size)
+        question.deadline = question.left_at + answer + self._reply_timeout
+        if question.within is not None:
+            question.deadline = question.left_at + question.within
+        self._matcher.sent(question)
+        self._settling.question_sent()
 
     def _number(self, request: Request, counter: str, numbers: int) -> None:
         """Give a frame its running number."""
@@ -379,10 +387,8 @@ class Session:
         self.counters.timeouts += 1
         if not pending.doubted:
             self._matcher.pace.not_answered(pending.address)
-        if pending.attempts <= pending.retries:
-            self.counters.retries += 1
-            self._matcher.retry(pending)
-            self._queue.put_back(pending)
+        if pending.attempts - pending.doubts <= pending.retries:
+            self._ask_again(pending)
             return
         self._give_up(pending, now)
         waited = now - pending.sent_at
@@ -395,6 +401,23 @@ class Session:
         error = NoReplyError(
             pending.message, kind, waited, pending.attempts, noise, reports, unsolicited
         )
+        pending.finish(error=error)
+
+    def _ask_again(self, pending: Request) -> None:
+        self.counters.retries += 1
+        self._matcher.retry(pending)
+        self._queue.put_back(pending)
+
+    def _resolve(self, pending: Request, now: float) -> None:
+        """Ask once more where nothing tells which reply is the answer, or end with them all."""
+        repeated = self._matcher.may_be_repeated(pending)
+        rivals = self._matcher.set_aside(pending)
+        if repeated:
+            self._ask_again(pending)
+            return
+        self._give_up(pending, now)
+        waited = now - pending.sent_at
+        error = DoubtfulReplyError(pending.message, rivals, waited, pending.attempts)
         pending.finish(error=error)
 
     def _answer(self, answer: Answer | None) -> None:
@@ -445,9 +468,11 @@ class Session:
                 self.acknowledgements.add(event)
                 self.counters.lost_reports = self.reports.lost
                 self.callback_queue.append(event)
-        # Only now, since of several replies the last is the answer.
+        # Only now: of several replies that come at once, none is the answer because it is first.
         for answer in self._matcher.weigh():
             self._answer(answer)
+        for pending in self._matcher.in_doubt():
+            self._resolve(pending, now)
 
     def _flush(self) -> None:
         """End the frame in progress, if there is one."""

@@ -28,6 +28,7 @@ HOMES = {
     "Device": "device",
     "Direction": "_frame.direction",
     "DisconnectedError": "_serial.link_errors",
+    "DoubtfulReplyError": "_serial.link_errors",
     "EchoError": "_serial.link_errors",
     "EncodeError": "_frame.errors",
     "Event": "_codec.decoder",

@@ -58,7 +58,7 @@ class Failures(Unfailing):
     bits, each by name.
     """
 
-    __slots__ = ("_bits", "_field", "_names", "refusal")
+    __slots__ = ("_bits", "_names", "field", "refusal")
 
     def __init__(
         self,
@@ -69,7 +69,7 @@ class Failures(Unfailing):
         bits: Mapping[str, int] | None = None,
     ) -> None:
         self.refusal = refusal
-        self._field = field
+        self.field = field
         self._names = names or {}
         self._bits = bits or {}
 
@@ -77,10 +77,10 @@ class Failures(Unfailing):
         """Return the error that a reply tells of; None where it is as wanted."""
         if type(reply) is self.refusal:
             return RefusedError(request, reply)
-        value = getattr(reply, self._field) if self._field else 0
+        value = getattr(reply, self.field) if self.field else 0
         if not value:
             return None
-        return FailureError(request, reply, self._field, self._meaning(value))
+        return FailureError(request, reply, self.field, self._meaning(value))
 
     def _meaning(self, value: int) -> tuple[str, ...]:
         named = [name for name, each in self._names.items() if each == value]

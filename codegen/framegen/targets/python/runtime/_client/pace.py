@@ -49,6 +49,11 @@ class Pace:
         return self._fast and address not in self._doubtful
 
     @property
+    def keeps_time(self) -> bool:
+        """Whether the times of replies tell anything: the latest answers took their time."""
+        return self.paced or self._possible > 0
+
+    @property
     def slowest(self) -> float | None:
         """How much later than the wire allows replies come at most; None while that is unknown."""
         if self._fast:
@@ -73,6 +78,13 @@ class Pace:
         later = max(latest) - delay if early else 0.0
         latest.append(delay)
         return later
+
+    def is_unusual(
+        self, kind: type[Message], address: int | None, delay: float, step: float
+    ) -> bool:
+        """Return whether a reply came later than all of the latest by more than `step`."""
+        latest = self._delays.get((kind, address), ())
+        return len(latest) >= _ENOUGH and delay > max(latest) + step
 
     def answered_too_soon(self, address: int | None) -> None:
         """Record a request whose only reply came sooner than the wire allows."""

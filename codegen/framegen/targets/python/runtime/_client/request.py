@@ -73,8 +73,8 @@ class Step(str, Enum):
 
     SEND = "its frame is handed over"
     HOLD = "a reply comes that may be its own"
-    DROP = "the held reply turns out to be meant for another"
-    RETRY = "no reply came in time, and it may be sent once more"
+    DROP = "the held reply turns out to be meant for another, or may be"
+    RETRY = "no reply came in time, or only such, and it may be sent once more"
     FINISH = "it is sent and nothing answers it; answered; replaced; failed; or taken back"
 
 
@@ -87,7 +87,7 @@ STATES: dict[State, dict[Step, State]] = {
         Step.FINISH: State.DONE,
     },
     State.HELD: {
-        Step.HOLD: State.HELD,  # of several replies, the last is the answer
+        Step.HOLD: State.HELD,  # another reply takes its place, or makes both doubtful
         Step.DROP: State.PENDING,
         Step.FINISH: State.DONE,
     },
@@ -106,6 +106,7 @@ class Request:
         "before",
         "deadline",
         "doubted",
+        "doubts",
         "echo_due",
         "error",
         "exchange",
@@ -117,12 +118,14 @@ class Request:
         "left_soonest",
         "message",
         "notify",
+        "owed",
         "question",
         "reply",
         "reply_least",
         "reply_room",
         "reply_size",
         "retries",
+        "rivals",
         "sent",
         "sent_at",
         "state",
@@ -161,7 +164,8 @@ class Request:
         # Whether a newer one of its kind replaces it.
         self.latest = latest
         self.state = State.WAITING
-        self.attempts = 0
+        # How often it was sent, and how many of the replies to that may still come.
+        self.attempts = self.owed = 0
         # Whether the port is known to have the frame of the latest attempt.
         self.written = False
         self.sent: Sent | None = None
@@ -169,6 +173,9 @@ class Request:
         self.error: Exception | None = None
         # The reply to it that has come last, and when, until it is believed or not.
         self.held: tuple[Message, float] | None = None
+        # The replies before that which differ from it, and are as good; and how often there were.
+        self.rivals: list[Message] = []
+        self.doubts = 0
         self.gathered: list[Message] = []
         # When it was handed over first, when the last byte of it has left, and its deadline.
         self.sent_at = self.left_at = self.deadline = 0.0
