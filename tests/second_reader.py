@@ -306,7 +306,7 @@ class Reader:
     def scan(self, directions: Sequence[str], data: bytes) -> list[Event]:
         """Read a line that has gone quiet: messages, unknown frames that are proven, and noise.
 
-        At each byte, the smallest frame that is legal there: of a message, the first of equals in
+        At each byte, the longest frame that is legal there: of a message, the first of equals in
         the order of the spec, or of an unknown id with the right checksum; else it is noise.
         """
         events: list[Event] = []
@@ -337,7 +337,7 @@ class Reader:
             found += [
                 ("unknown", size) for size in sizes if self._is_unknown(kind, known, data[:size])
             ]
-        return min(found, key=lambda each: each[1], default=None)
+        return max(found, key=lambda each: each[1], default=None)
 
     def largest(self, directions: Sequence[str]) -> int:
         """Return the size of the largest frame of these directions."""

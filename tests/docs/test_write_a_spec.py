@@ -14,18 +14,8 @@ from framegen.reading.source import Source
 from framegen.render import render
 from pydantic import BaseModel
 
-from tests.docs.reference import ROOT
+from tests.guide_specs import BLOCKS, GUIDE, NAMES, SPECS
 
-GUIDE = (ROOT / "docs" / "write-a-spec.md").read_text("utf-8")
-# A block of another spec than the kiln's begins with its name.
-BLOCKS = re.findall(r"```yaml\n(?:# (\w+)\.yaml\n)?(.*?)```", GUIDE, re.DOTALL)
-NAMES = list(dict.fromkeys(name or "kiln" for name, _ in BLOCKS))
-SPECS = {
-    each: Source(
-        f"spec/{each}.yaml", "\n".join(text for name, text in BLOCKS if (name or "kiln") == each)
-    )
-    for each in NAMES
-}
 SPEC = SPECS["kiln"]
 ALL = "\n".join(spec.text for spec in SPECS.values())
 MODELS = [

@@ -80,16 +80,24 @@ def by_the_reference(model: Model, device: int | None = None) -> Answer:
     """
     held = b""
     line = ReferenceDecoder(model, [model.roles.sent])
-    begins = all(each.frame.header for each in model.candidates([model.roles.sent]))
+    divided = is_divided(model)
 
     def answer(data: bytes) -> list[tuple[float, bytes]]:
         nonlocal held
         held += data
-        events = line.decode_so_far(held) if begins else line.decode(held)
+        events = line.decode(held) if divided else line.decode_so_far(held)
         held = held[sum(len(event.data) for event in events) :]
         return [(0.001, reply) for event in events for reply in _replies(model, event, device)]
 
     return answer
+
+
+def is_divided(model: Model) -> bool:
+    """Tell whether silence divides frames: they have no header, or a longer one may come."""
+    sent = model.sent(model.roles.sent)
+    line = ReferenceDecoder(model, [model.roles.sent])
+    frames = (example.hex for message in sent for example in message.message.examples)
+    return not all(each.frame.header for each in sent) or not all(map(line.decode_so_far, frames))
 
 
 def in_reply_to(exchange: Exchange, requested: dict[str, Any]) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from lxservo_simulator import VirtualBus
 
 from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
-from tests.firmware.devices import VirtualLine, by_the_reference, in_reply_to
+from tests.firmware.devices import VirtualLine, by_the_reference, in_reply_to, is_divided
 from tests.firmware.runs import Run, model_of, run
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
@@ -135,11 +135,11 @@ def generated(name: str, until: ExitStack, *addresses: int) -> Answer:
         if exchange.reply is not None:
             handler = module._HANDLERS[getattr(made, exchange.request.name)]
             setattr(device, handler, _saying(made, exchange))
-    begins = all(each.header for each in compiled.model.envelopes.values())
+    divided = is_divided(compiled.model)
 
     def answer(data: bytes) -> list[tuple[float, bytes]]:
         replies = device.receive(data)
-        if not begins:
+        if divided:
             device.quiet()
         return [(0.001, replies + b"".join(each.encode() for each in device.take()))]
 

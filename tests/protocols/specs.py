@@ -13,6 +13,7 @@ from framegen.model.slots import Items, Number, Packed, Text
 from hypothesis import strategies as st
 
 from tests.factories import compiled_file
+from tests.guide_specs import file_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,6 +32,8 @@ FILES["lxservo"] = FOLDER.parents[1] / "spec" / "lxservo.yaml"
 SPOKEN = tuple(FILES)
 # Nobody speaks it: it has every kind of part and field.
 FILES["everything"] = FOLDER.parent / "specs" / "everything.yaml"
+# One kind of its frames may begin as another, by its checksum.
+FILES["gauges"] = file_of("gauges")
 # Elements of a list that is drawn; one of the largest size is drawn apart.
 FEW = 5
 

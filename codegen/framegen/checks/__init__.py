@@ -8,6 +8,7 @@ from framegen.checks import (
     absent,
     acknowledged,
     breaks,
+    chance_prefix,
     checksum,
     constant_field,
     count_bounds,
@@ -159,6 +160,7 @@ EVIDENCE_RULES: tuple[ModelRule, ...] = (
 REMARKS: tuple[ModelRule, ...] = (
     unshown_value.RULE,
     long_wait.RULE,
+    chance_prefix.RULE,
     twin.RULE,
 )
 RULES: tuple[AnyRule, ...] = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.checks.apart import alike, shared_size, told_by_checksum
 from framegen.checks.rule import ModelRule, Problem
+from framegen.model.apart import alike, shared_size, told_by_checksum
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

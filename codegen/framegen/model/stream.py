@@ -70,9 +70,9 @@ class ReferenceDecoder:
         """
         return self._read(data, quiet=False)
 
-    def weigh(self, data: bytes) -> Verdict:
-        """Judge what `data` begins."""
-        return weigh(self.model, self.directions, data, self.max_frame)
+    def weigh(self, data: bytes, *, quiet: bool = True) -> Verdict:
+        """Judge what `data` begins; of frames that may yet come, only where it is not `quiet`."""
+        return weigh(self.model, self.directions, data, self.max_frame, quiet=quiet)
 
     def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
         events: list[Event] = []
@@ -81,7 +81,7 @@ class ReferenceDecoder:
         at = 0
         while at < len(data):
             rest = data[at:]
-            verdict = self.weigh(rest)
+            verdict = self.weigh(rest, quiet=quiet)
             if verdict.message is not None:
                 frame = rest[: verdict.offset]
                 events.append(Event("message", at, frame, verdict.message))

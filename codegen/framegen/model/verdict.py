@@ -93,14 +93,20 @@ class _Refused(Exception):  # noqa: N818 - says what became of the bytes
 
 
 def weigh(
-    model: Model, directions: Sequence[Direction], data: bytes, max_frame: int | None = None
+    model: Model,
+    directions: Sequence[Direction],
+    data: bytes,
+    max_frame: int | None = None,
+    *,
+    quiet: bool = True,
 ) -> Verdict:
     """Judge what `data` begins, sent in any of `directions`; it may go on behind the frame.
 
     Frames larger than `max_frame` bytes are refused by their length. Of several that it may be, it
-    is the smallest, so that what follows makes no difference; a frame that is legal in several
-    directions belongs to the first. Where it is legal in none, the refusal with the largest offset
-    is given, that of what may still become one before all others.
+    is the longest, since a frame may begin as a shorter one by chance; a frame that is legal in
+    several directions belongs to the first. Where it is legal in none, the refusal with the largest
+    offset is given, that of what may still become one before all others; so it is unless the line
+    is `quiet`, as long as a longer frame may come.
     """
     if data and data[0] not in model.first_bytes:
         return _begins_otherwise(model, tuple(directions))
@@ -110,10 +116,10 @@ def weigh(
         for verdict in _Look(model, candidates, directions, data, max_frame).verdicts()
     ]
     certain = [verdict for verdict in verdicts if verdict.message is not None or verdict.proven]
-    # Of equals, `min` and `max` give the first.
-    if certain:
-        return min(certain, key=lambda each: (each.frame_size, each.message is None))
     waiting = [verdict for verdict in verdicts if verdict.waits(len(data))]
+    # Of equals, `max` gives the first.
+    if certain and (quiet or not waiting):
+        return max(certain, key=lambda each: (each.frame_size, each.message is not None))
     return max(waiting or verdicts, key=lambda verdict: verdict.offset, default=_NOTHING)
 
 

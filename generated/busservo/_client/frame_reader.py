@@ -31,6 +31,13 @@ class FrameReader:
         self.received_at = float("-inf")
         # When the message came that the decoder is in doubt of.
         self._doubted_at = float("-inf")
+        # Whether what is held is known to be a whole frame, which no silence has to end.
+        self.is_whole = False
+
+    @property
+    def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
+        """The message that is held, and those of which it may be the beginning; None if none is."""
+        return self._decoder.undecided
 
     @property
     def pending(self) -> int:
@@ -45,7 +52,9 @@ class FrameReader:
     @property
     def quiet_at(self) -> float | None:
         """When the frame that has begun is given up; None where none has."""
-        return self.received_at + GAP if self._decoder.pending else None
+        if not self._decoder.pending:
+            return None
+        return self.received_at if self.is_whole else self.received_at + GAP
 
     def read(self, data: bytes, now: float) -> Iterable[tuple[float, Events]]:
         """Take in bytes, and return what is whole; a message that was doubted is older than `now`.

@@ -453,6 +453,8 @@ class Session:
     def _read(self, data: bytes, now: float) -> None:
         for at, events in self._reader.read(data, now):
             self._take_in(at, events)
+        undecided = self._reader.undecided
+        self._reader.is_whole = undecided is not None and self._matcher.ends_with(*undecided, now)
 
     def _take_in(self, now: float, events: Sequence[Message | Noise]) -> None:
         for event in events:

@@ -61,6 +61,11 @@ class CarefulDecoder:
         return self._doubted
 
     @property
+    def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
+        """The message that is held, and those of which it may be the beginning: there never is."""
+        return None
+
+    @property
     def pending(self) -> int:
         """How many bytes are held back."""
         if self._doubted is not None:

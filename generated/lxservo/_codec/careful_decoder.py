@@ -11,6 +11,8 @@ GAP = 0.05
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from .._frame.message import Message
 
 
@@ -22,4 +24,9 @@ class CarefulDecoder(StreamDecoder):
     @property
     def doubted(self) -> Message | None:
         """The message that is held back: there never is one."""
+        return None
+
+    @property
+    def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
+        """The message that is held, and those of which it may be the beginning: there never is."""
         return None

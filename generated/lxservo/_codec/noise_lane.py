@@ -95,7 +95,7 @@ class NoiseLane:
             at = next_begun(data, at)
             verdict = known.get(data[at : at + HEAD])
             if verdict is None:
-                verdict = table.weigh(data, at, self._proof.wrong, since)
+                verdict = table.weigh(data, at, self._proof.wrong, since, quiet=quiet)
                 since = 0
                 if verdict.kind is not None or (verdict.proven and not verdict.is_open):
                     if refused:

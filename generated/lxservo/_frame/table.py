@@ -85,13 +85,20 @@ class Table(dict[bytes, "Entry"]):
         self.waits: dict[bytes, int] = {}
 
     def weigh(
-        self, data: bytes, at: int = 0, prove: Prove | None = None, since: int = 0
+        self,
+        data: bytes,
+        at: int = 0,
+        prove: Prove | None = None,
+        since: int = 0,
+        *,
+        quiet: bool = False,
     ) -> Verdict:
         """Judge the frame that begins at `at`; `data` may go on behind it.
 
-        If they may be one of several messages, it is the smallest that is legal; if none is, the
-        refusal at the last byte is returned. `prove` tells wrong checksums, and `since` bytes of
-        the frame were judged before.
+        If they may be one of several messages, it is the longest that is legal; if none is, the
+        refusal at the last byte is returned. As long as a longer frame may come, the verdict is
+        open, unless the line is `quiet`. `prove` tells wrong checksums, and `since` bytes of the
+        frame were judged before.
         """
         head = data[at : at + HEAD]
         verdict = self.verdicts.get(head)
@@ -100,7 +107,8 @@ class Table(dict[bytes, "Entry"]):
         trials = self._trials.get(head) or self._learn(head)
         if len(trials) == 1:
             return trials[0].judged(data, at, prove or wrong_checksum, since)
-        return chosen([each.judged(data, at, prove or wrong_checksum, 0) for each in trials])
+        verdict = chosen([each.judged(data, at, prove or wrong_checksum, 0) for each in trials])
+        return verdict.whole or verdict if quiet else verdict
 
     def begins(self, data: bytes, at: int) -> bool:
         """Return whether a frame may begin at data[at], as far as its header goes."""
@@ -116,14 +124,14 @@ class Table(dict[bytes, "Entry"]):
             frame = as_bytes(frame)
         message = self.find(frame)
         if message is None:
-            raise self.error(frame, self.weigh(frame))
+            raise self.error(frame, self.weigh(frame, quiet=True))
         return message
 
     def find(self, frame: bytes) -> Message | None:
         """Return the message of `frame`, with nothing after it; None if there is none."""
         kind = self._seen(frame)
         if kind is None:
-            verdict = self.weigh(frame)
+            verdict = self.weigh(frame, quiet=True)
             kind = verdict.kind
             if kind is None or verdict.size != len(frame):
                 return None
@@ -149,6 +157,14 @@ class Table(dict[bytes, "Entry"]):
         """Return every message that a whole frame may be."""
         found = (each.judged(frame, 0, wrong_checksum, 0) for each in self._learn(frame[:HEAD]))
         return [each.kind for each in found if each.kind is not None and each.size == len(frame)]
+
+    def awaited(self, data: bytes) -> list[type[Message] | None]:
+        """Return the messages that more bytes may make of these; None stands for unknown ones."""
+        return [
+            each.kind if isinstance(each, Known) else None
+            for each in self._learn(data[:HEAD])
+            if each.judged(data, 0, wrong_checksum, 0).is_open
+        ]
 
     def error(self, frame: bytes, verdict: Verdict) -> DecodeError:
         """Return the error for `frame`, by its verdict."""
@@ -182,24 +198,28 @@ class Table(dict[bytes, "Entry"]):
         return found or [Refused(_NOTHING)]
 
     def _entry(self, trials: Sequence[Trial]) -> Entry | None:
-        """Return the entries of the messages that a head may belong to, the smallest first.
+        """Return the entries of the messages that a head may belong to, those of the longest frame.
 
-        None where only `weigh` can tell: a size is not known, or an unknown frame may be smaller.
+        None where only `weigh` can tell: a size is not known, or an unknown frame may be longer.
         """
+        known = [each for each in trials if isinstance(each, Known)]
+        size = max((each.size for each in trials), default=0)
+        if size not in {each.size for each in known}:
+            return None
+        if any(not each.size and self._may_grow(each, len(trials)) for each in known):
+            return None
         entry: Entry | None = None
-        # The largest first, and of equals the last: each is put in front of the others.
-        for _, each in sorted(enumerate(trials), key=_by_size, reverse=True):
-            if not isinstance(each, Known):
-                if entry is not None:
-                    return None
-                continue
-            if not each.size and (len(trials) > 1 or largest_of([each.kind]) > self.largest):
-                return None
+        # The last first: each is put in front of the others.
+        for each in reversed([each for each in known if each.size == size]):
             kind = each.kind
             proofs = kind.FRAME.provers(kind.IDS) if PROVEN_IN_PLACE else []
             self._proofs[kind] = together(proofs)
             entry = (each.size, *_counted(kind, each.count), kind, _holds(kind), entry)
         return entry
+
+    def _may_grow(self, each: Known, trials: int) -> bool:
+        """Return whether a frame whose count says its size may be another, or be too large."""
+        return trials > 1 or largest_of([each.kind]) > self.largest
 
 
 def largest_of(messages: Sequence[type[Message]]) -> int:
@@ -230,12 +250,11 @@ def measured(entry: Entry, data: bytes, at: int) -> Entry | None:
 def chosen(verdicts: Sequence[Verdict]) -> Verdict:
     """Return the verdict on bytes by those of all that they may be.
 
-    What is decided is so for the smallest frame, so that it makes no difference what has come
-    behind it. Otherwise it is open as long as one of them is.
+    It is open as long as one of them is, so that it makes no difference how they arrive. Of frames
+    that are there, it is the longest: it may begin as a shorter one by chance.
     """
     decided = [each for each in verdicts if not each.is_open and (each.kind or each.proven)]
-    if decided:
-        return min(decided, key=lambda each: (each.size, each.kind is None))
+    whole = max(decided, key=lambda each: (each.size, each.kind is not None), default=None)
     # For one of unknown id alone, nothing is awaited that could not prove it.
     waiting = [
         each
@@ -243,11 +262,11 @@ def chosen(verdicts: Sequence[Verdict]) -> Verdict:
         if each.is_open and (each.proven or each.reason is Reason.TOO_SHORT)
     ]
     if not waiting:
-        return max(verdicts, key=lambda each: each.offset)
+        return whole or max(verdicts, key=lambda each: each.offset)
     last = max(waiting, key=lambda each: each.offset)
     size = min(each.size for each in waiting)
     proven = any(each.proven for each in waiting)
-    return Verdict(None, last.reason, last.offset, size, is_open=True, proven=proven)
+    return Verdict(None, last.reason, last.offset, size, is_open=True, proven=proven, whole=whole)
 
 
 def wrong_checksum(
@@ -255,10 +274,6 @@ def wrong_checksum(
 ) -> Checksum | None:
     """Return the first wrong checksum of the frame at data[at]."""
     return frame.wrong(data[at : at + size], ids)
-
-
-def _by_size(numbered: tuple[int, Trial]) -> tuple[int, int]:
-    return numbered[1].size, numbered[0]
 
 
 def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:

@@ -56,7 +56,9 @@ def _is_fit(permission: Permission, data: bytes, reason: str, after: Request) ->
     if permission.objection(around + after.frame):
         return False
     decoder, quiet = ReferenceDecoder(model, sent), [*[None] * (not after.message.frame.header)]
-    parts = [after.frame, *quiet, data, *quiet, after.frame]
+    # One that may be the beginning of a longer frame is ended by silence.
+    end = [*[None] * (not decoder.decode_so_far(after.frame))]
+    parts = [after.frame, *quiet, data, *quiet, after.frame, *end]
     events = (event for event in decoder.follow(parts) if event is not None)
     return [event.data for event in events if event.message] == [after.frame, after.frame]
 

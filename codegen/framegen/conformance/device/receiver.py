@@ -59,6 +59,11 @@ class Receiver:
         self._echo = self._echo[size:]
         return data[size:]
 
+    @property
+    def holds_a_frame(self) -> bool:
+        """Whether a message is there, and is held as a longer one may begin with it."""
+        return bool(self._held) and self._line.weigh(self._held).message is not None
+
     def flush(self) -> list[Received]:
         """Return the events of the bytes held, now that the line is quiet."""
         return self._taken(self._line.decode(self._held))

@@ -124,7 +124,10 @@ class Session:
     def _read_until(self, moment: float, due: Sequence[Sequence[MessageLayout]] = ()) -> None:
         """Read until then, or until as many replies have arrived as are due."""
         while not (due and _has(due, self._received)) and (left := moment - self.now) > 0:
-            self._read(left)
+            if not self._receiver.holds_a_frame:
+                self._read(left)
+            elif not self._read(min(left, _QUIET)):
+                self._note(self._receiver.flush())
 
     def _read(self, timeout: float) -> bool:
         """Read once, and tell whether anything arrived."""

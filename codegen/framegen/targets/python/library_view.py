@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.language.spec import Distribution
+from framegen.model.apart import begun
 from framegen.model.slots import Number
 from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.command_lines import verbs
@@ -122,6 +123,12 @@ class LibraryView:
     def proven(self) -> bool:
         """Whether every frame has a checksum."""
         return all(frame.checksums for frame in self.model.envelopes.values())
+
+    @property
+    def outgrown(self) -> bool:
+        """Whether a frame that the client receives may be the beginning of a longer one."""
+        received = self.model.roles.received
+        return any(short.direction == received for short, _ in begun(self.model))
 
     @property
     def address(self) -> bool:

@@ -96,7 +96,8 @@ function makeStreams(layout, { weigh, waits }, Event) {
       piece = null;
       while (at < end) {
         if (at > look.base + WINDOW) look = lookAt(block, at);
-        const verdict = weigh(line, look, at, end), type = judged(verdict, line, look, at, end);
+        const verdict = weigh(line, look, at, end, quiet);
+        const type = judged(verdict, line, look, at, end);
         if (type === "begun" && !quiet) break;
         if (type !== "message" && type !== "unknown") {
           const size = noiseFrom(at);

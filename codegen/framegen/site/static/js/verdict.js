@@ -74,19 +74,20 @@ function makeVerdicts(layout) {
 
   // What the bytes from `at` to `limit` begin: a frame; or none, for which reason, and at which
   // offset that shows. "Too short" is what may become a frame. A frame of an id that no message has
-  // has a `claim`, the size that it says it has, and a checksum may prove it.
-  function weigh(line, look, at, limit) {
+  // has a `claim`, the size that it says it has, and a checksum may prove it. Unless the line is
+  // quiet, a frame that is there is none as long as a longer one may come.
+  function weigh(line, look, at, limit, quiet = true) {
     if (at < limit && !line.begins[look.bytes[at]]) return otherwise;
     line.count = 0;
     for (const listener of line.listeners) weighIn(listener, line, look, at, limit);
     if (line.count === 1) return line.found[0];
-    return line.count ? best(line, limit - at) : otherwise;
+    return line.count ? best(line, limit - at, quiet) : otherwise;
   }
 
-  // Of the verdicts of a line on so many bytes, that on the smallest frame, whatever follows it; or
-  // else the one that came furthest, of what may still become a frame if there is any. Of equals, the
-  // first.
-  function best({ found, count }, size) {
+  // Of the verdicts of a line on so many bytes, that on the longest frame, which may begin as a shorter
+  // one by chance; or else the one that came furthest, of what may still become a frame if there is
+  // any. Of equals, the first.
+  function best({ found, count }, size, quiet) {
     let certain = null, waiting = null, furthest = null;
     for (let i = 0; i < count; i++) {
       const each = found[i];
@@ -94,15 +95,15 @@ function makeVerdicts(layout) {
       if (waits(each, size) && (!waiting || each.offset > waiting.offset)) waiting = each;
       if (!furthest || each.offset > furthest.offset) furthest = each;
     }
-    return certain || waiting || furthest;
+    return (quiet || !waiting) && certain ? certain : waiting || furthest;
   }
 
   const sizeOfFrame = ({ frame, claim }) => (frame ? frame.size : claim);
 
-  // Whether a certain frame is smaller than another, or is that of a message, and the other is none.
+  // Whether a certain frame is longer than another, or is that of a message, and the other is none.
   function precedes(one, other) {
     const sizes = sizeOfFrame(one) - sizeOfFrame(other);
-    return sizes < 0 || (sizes === 0 && one.frame !== null && other.frame === null);
+    return sizes > 0 || (sizes === 0 && one.frame !== null && other.frame === null);
   }
 
   // Whether more than so many bytes could still make a certain frame of it.

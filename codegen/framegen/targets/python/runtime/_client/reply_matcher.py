@@ -40,6 +40,7 @@ from .request import Step
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import TypeAlias
 
     from .._codec.counters import LineCounters
@@ -131,6 +132,20 @@ class ReplyMatcher:
         return any((kind, address) in self._asked for kind in kinds for address in addresses)
 
     # ------------------------------------------------------------------ receiving
+
+    def ends_with(
+        self, message: Message, longer: Iterable[type[Message] | None], now: float
+    ) -> bool:
+        """Whether a message answers what is pending, and none of these longer ones may come now."""
+        answers = (each.exchange.answers(each.message, message) for each in self.pending)
+        return any(answers) and not any(self._may_come(kind, now) for kind in longer)
+
+    def _may_come(self, kind: type[Message] | None, now: float) -> bool:
+        """Return whether a message of a class may come now; None is one that nobody knows."""
+        if kind is None or kind not in _ADDRESSES or kind in _REPORTS:
+            return True
+        asked = any(kind in each.exchange.kinds for each in self.pending)
+        return asked or self.late.awaited(Origin((kind,), None), now)
 
     def take(self, message: Message, now: float) -> bool:
         """Take in a message, unless it is a report; whether it was taken."""

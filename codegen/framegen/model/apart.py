@@ -49,6 +49,35 @@ def shared_size(one: MessageLayout, other: MessageLayout) -> int | None:
     return next((size for size in sizes if size in others), None)
 
 
+def begun(model: Model) -> Iterator[tuple[MessageLayout, MessageLayout]]:
+    """Yield pairs of messages, of which a frame of the second may begin with one of the first.
+
+    Neither a byte nor a length tells them apart: only a checksum may.
+    """
+    for one, other in alike(model):
+        short, long = sorted((one, other), key=lambda message: message.least)
+        is_sized = one.frame is other.frame and one.frame.length_part is not None
+        if not is_sized and short.least < long.largest:
+            yield short, long
+
+
+def shares_checksums(short: MessageLayout, long: MessageLayout) -> bool:
+    """Tell whether what proves the shorter of two messages is right in every frame of both."""
+    return {*_proofs(short)} <= {*_proofs(long)}
+
+
+def _proofs(message: MessageLayout) -> Iterator[tuple[object, ...]]:
+    """Yield the checksums of a message's smallest frame: how and where, and what they cover."""
+    frame, size = message.frame, message.least
+    ids = dict(zip((part.name for part in frame.ids), message.ids, strict=True))
+    for part in frame.checksums:
+        pieces = tuple(
+            each if isinstance(each, bytes) else range(size)[slice(*each)]
+            for each in frame.covered(part, ids).pieces
+        )
+        yield part.method, part.size, part.order, part.at % size, pieces
+
+
 def told_by_checksum(one: MessageLayout, other: MessageLayout) -> bool:
     """Tell whether two messages never have the same bytes, as a checksum covers an unsent id."""
     if one.frame is not other.frame:
