@@ -10,6 +10,7 @@ from framegen.explain import explain
 from framegen.language import spec
 from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
 from framegen.model.checksums import CHECKSUMS
+from framegen.model.codec import decode
 from framegen.reading.source import Source
 from framegen.render import render
 from pydantic import BaseModel
@@ -17,6 +18,8 @@ from pydantic import BaseModel
 from tests.guide_specs import BLOCKS, GUIDE, NAMES, SPECS
 
 SPEC = SPECS["kiln"]
+# The remarks that the guide shows, by spec.
+REMARKS = {"gauges": re.findall(r"```text\n(chance-prefix: .*?)```", GUIDE, re.DOTALL)}
 ALL = "\n".join(spec.text for spec in SPECS.values())
 MODELS = [
     model
@@ -37,10 +40,11 @@ def test_the_guide_shows_three_specs() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_an_example_is_a_spec_without_findings_and_remarks(name: str) -> None:
+def test_an_example_is_a_spec_without_findings_and_other_remarks_than_shown(name: str) -> None:
     compiled = compile_spec(SPECS[name])
     assert [finding.render(SPECS[name]) for finding in compiled.findings] == []
-    assert remarks(compiled.model, compiled.tree) == []
+    said = [f"{each.rule}: {each.message}" for each in remarks(compiled.model, compiled.tree)]
+    assert said == [text.partition("\n")[0] for text in REMARKS.get(name, [])]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -55,6 +59,22 @@ def test_the_guide_shows_what_is_said_of_a_wrong_checksum() -> None:
     said = next(each for each in compile_spec(source).findings if ".Status." in each.path)
     [shown] = re.findall(r"```text\n(example: .*?)```", GUIDE, re.DOTALL)
     assert shown == f"example: {said.message}\n  = hint: {said.hint}\n"
+
+
+def test_the_guide_shows_what_is_remarked_on_frames_that_begin_alike() -> None:
+    compiled = compile_spec(SPECS["gauges"])
+    said = remarks(compiled.model, compiled.tree)
+    assert [f"{each.rule}: {each.message}\n  = hint: {each.hint}\n" for each in said] == (
+        REMARKS["gauges"]
+    )
+
+
+def test_the_guide_shows_a_frame_that_begins_with_another() -> None:
+    [shown] = re.findall(r"some pressures begin with a whole fault, such as `([^`]*)`", GUIDE)
+    model = compile_spec(SPECS["gauges"]).model
+    way, frame = model.messages["Fault"].direction, bytes.fromhex(shown)
+    for size, name in (3, "Fault"), (4, "Pressure"):
+        assert decode(model, way, frame[:size]).layout.name == name
 
 
 def test_the_guide_lists_every_checksum() -> None:
