@@ -1,4 +1,4 @@
-"""The client where a frame may be the beginning of a longer one: it waits for silence if it must."""
+"""The client where a frame may be the beginning of another: it waits for silence if it must."""
 
 from __future__ import annotations
 
