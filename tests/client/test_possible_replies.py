@@ -444,7 +444,7 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
     ],
 )
 def test_a_missing_reply_says_what_came_instead(came: bytes, expected: str) -> None:
-    line = session()
+    line = session(now=0.0, settle=0)
     say(line, 0.0, ActionGroupCompleted(1, 1))  # before the question, and none of its business
     request = ask(line, 0.0)
     line.receive(came, 0.2)

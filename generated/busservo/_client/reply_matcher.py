@@ -4,7 +4,8 @@
 No frame says which request it answers. A reply has the class that answers a pending question, comes
 from the device that was asked, where frames say whom they are from, and holds nothing that was not
 requested. A message of such a class that is no reply is **unsolicited**: it is counted, dropped,
-and never taken for anything else, unless it may be a report as well.
+and never taken for anything else; unless it is a report: the protocol says that it may be one, or
+it came by itself, see Unasked.
 
 A reply must be possible. It cannot be complete before the question and itself have had their time
 on the wire. A reply that is complete sooner was meant for somebody else, as when the reply before
@@ -38,6 +39,7 @@ from .exchanges import EXCHANGES
 from .late_replies import LateReplies, Origin
 from .pace import Pace
 from .request import Step
+from .unasked import Unasked
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -74,7 +76,7 @@ class ReplyMatcher:
     """
 
     def __init__(
-        self, wire_time: WireTime, counters: LineCounters, latency: float, name: str
+        self, wire_time: WireTime, counters: LineCounters, latency: float, name: str, now: float
     ) -> None:
         self._wire_time = wire_time
         self._counters = counters
@@ -82,6 +84,9 @@ class ReplyMatcher:
         self._name = name
         self.pace = Pace()
         self.late = LateReplies()
+        self._unasked = Unasked(latency, now)
+        # What was held as a reply, and has turned out to have come by itself.
+        self._reports: list[Message] = []
         # The questions that have been sent, and are not over, in the order in which they were sent.
         self.pending: list[Request] = []
         # The classes of what has been asked for so far, and of whom; None for all, or the only one.
@@ -125,6 +130,9 @@ class ReplyMatcher:
                 request.is_first = not self._was_asked(request)
             if request.shares_wire:
                 self._asked.update((kind, request.address) for kind in request.answered_by.kinds)
+        until = request.deadline + (request.deadline - request.left_at)
+        for kind in request.answered_by.kinds:
+            self._unasked.asked(kind, request.address, until)
         self.pending.append(request)
 
     def _was_asked(self, request: Request) -> bool:
@@ -154,15 +162,26 @@ class ReplyMatcher:
             # What had come before the question was sent, or before its echo, cannot answer it.
             early = now < pending.sent_at or pending.echo_due
             if not early and pending.exchange.answers(pending.message, message):
+                self._unasked.answered(type(message), pending.address, now)
                 self._hold(pending, message, now)
                 return True
         if type(message) not in _ADDRESSES:
             return False
+        origin = self._origin(message)
+        by_itself = self._unasked.came(type(message), origin.address, now)
         if type(message) in _REPORTS:
-            self.late.came(self._origin(message))
+            self.late.came(origin)
+            return False
+        if by_itself and not self.late.awaited(origin, now):
+            self.pace.surplus(origin.address)
             return False
         self._drop_unsolicited(message)
         return True
+
+    def take_reports(self) -> list[Message]:
+        """Take out what was held as a reply, and has turned out to have come by itself."""
+        reports, self._reports = self._reports, []
+        return reports
 
     def _hold(self, pending: Request, message: Message, now: float) -> None:
         """Keep a reply to a question: the latest, or all where those of all are gathered."""
@@ -180,6 +199,11 @@ class ReplyMatcher:
 
         It is none if it came too soon, on a line that keeps to its rate; or if it is an echo.
         """
+        kind = type(earlier)
+        if not pending.after_lost and (kind in _REPORTS or self._unasked.comes(kind)):
+            # Either is of now, and neither is lost.
+            self._reports.append(earlier)
+            return
         too_soon = self.pace.keeps_time and self._delay(pending, earlier, at) < 0
         foreign = too_soon or earlier.encode() == pending.message.encode()
         if not foreign and earlier != later:
@@ -290,9 +314,10 @@ class ReplyMatcher:
         """Record that replies may come for all attempts of a request that none has come for."""
         self._expect(request, request.owed, since)
 
-    def restart(self) -> None:
+    def restart(self, now: float) -> None:
         """Begin anew on another line, whose pace nobody knows."""
         self.pace = Pace()
+        self._unasked.begin(now)
         self._asked.clear()
 
     def _expect(self, request: Request, count: int, since: float) -> None:

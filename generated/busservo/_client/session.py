@@ -98,7 +98,7 @@ class Session:
         self._echo_watch = EchoWatch(name, self.counters)
         self._frames_sent = 0
         self._reader = FrameReader()
-        matcher = ReplyMatcher(self.wire_time, self.counters, self._latency, name)
+        matcher = ReplyMatcher(self.wire_time, self.counters, self._latency, name, now)
         self._matcher = matcher
         self._queue = RequestQueue(self.wire_time, self._settling, matcher, self._latency)
 
@@ -293,7 +293,7 @@ class Session:
         """Begin anew on another line: half a frame of the old one is discarded."""
         self._flush()
         self._reader.restart()
-        self._matcher.restart()
+        self._matcher.restart(now)
         self.acknowledgements.restart()
         self.wire_time.clear()
         self._settling.begin(now)
@@ -465,16 +465,21 @@ class Session:
                 if self._echo is None:
                     self._echo_watch.look_at(event.data)
             elif not self._matcher.take(event, now):
-                self.counters.reports += 1
-                self.reports.add(event)
-                self.acknowledgements.add(event)
-                self.counters.lost_reports = self.reports.lost
-                self.callback_queue.append(event)
+                self._report(event)
+            for report in self._matcher.take_reports():
+                self._report(report)
         # Only now: of several replies that come at once, none is the answer because it is first.
         for answer in self._matcher.weigh():
             self._answer(answer)
         for pending in self._matcher.in_doubt():
             self._resolve(pending, now)
+
+    def _report(self, report: Message) -> None:
+        self.counters.reports += 1
+        self.reports.add(report)
+        self.acknowledgements.add(report)
+        self.counters.lost_reports = self.reports.lost
+        self.callback_queue.append(report)
 
     def _flush(self) -> None:
         """End the frame in progress, if there is one."""
