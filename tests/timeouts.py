@@ -49,7 +49,7 @@ def undoubted() -> Iterator[None]:
     """
     with (
         mock.patch.object(session, "_LATENCY", 0.001),
-        mock.patch.object(probe, "_PAUSE", 0.001),
+        mock.patch.object(probe, "PAUSE", 0.001),
         mock.patch.object(firmware_session, "_QUIET", 0.001),
     ):
         yield

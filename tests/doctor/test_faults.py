@@ -156,6 +156,7 @@ CASES = {
         | {
             "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
             "rate": (FAILED, "that are no reply", "at which rate the device is set"),
+            "look-alike": (UNKNOWN, "not recognised", "at which rate the device is set"),
         },
     ),
     "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),

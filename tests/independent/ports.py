@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from tests.independent.board import Board
+    from tests.independent.strangers import Stranger
 
 CHUNK = 4096
 
@@ -25,8 +26,8 @@ class VirtualPort:
 
     name = "independent board"
 
-    def __init__(self, board: Board) -> None:
-        self.board = board
+    def __init__(self, board: Board | Stranger) -> None:
+        self.board: Board | Stranger = board
         self.now = 0.0
         self._closed = False
 
@@ -70,6 +71,22 @@ class VirtualPort:
     def reopen(self) -> VirtualPort:
         """Return the same port, usable again."""
         self._closed = False
+        return self
+
+
+class StrangersPort(VirtualPort):
+    """The port of a device that prints, which a host opens at any rate."""
+
+    board: Stranger
+
+    def __init__(self, stranger: Stranger) -> None:
+        super().__init__(stranger)
+        self.board = stranger
+
+    def opened(self, rate: float) -> StrangersPort:
+        """Return the same port, open at a rate."""
+        self.reopen()
+        self.board.opened(rate, self.now)
         return self
 
 

@@ -17,7 +17,7 @@ from tests.independent.board import Board
 from tests.independent.ports import PtyPort, TcpPort, VirtualPort
 
 HERE = Path(__file__).parent
-PARTS = ["firmware", "faults", "board", "ports"]
+PARTS = ["firmware", "faults", "board", "ports", "levels", "strangers"]
 # One byte at 9600 baud, 8N1.
 BYTE = 10 / 9600
 # Sent by a host, and what a board of group 8 answers: the first reply is numbered 1.

@@ -21,6 +21,7 @@ from .console import visible, write_as_it_is
 from .exit_codes import DONE, LINE_LOST, NOT_ALL
 from .link import add_port, add_timeout, failures_reported, open_line
 from .numerals import at_least
+from .plain_text import plain_text
 from .progress_thread import shown_progress
 from .usage_error import UsageError
 
@@ -167,12 +168,17 @@ def _as_json(check: Check, result: Result) -> str:
 
 
 def _as_text(check: Check, result: Result) -> str:
-    """Return the state, the check and the observation; below it the bytes, and what to do."""
+    """Return the state, the check and the observation; below it bytes or text, and what to do."""
     state = f"{result.state:8}"
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])
     lines = [f"{state} {check.id:12} {visible(result.seen)}"]
-    lines += [f"{'':8} {'bytes':>12} {format_hex(each)}" for each in result.evidence]
+    for each in result.evidence:
+        text = plain_text(each)
+        if not text:
+            lines.append(f"{'':8} {'bytes':>12} {format_hex(each)}")
+        elif text not in result.seen:
+            lines.append(f"{'':8} {'text':>12} {text}")
     if result.advice:
         lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
     return "\n".join(lines)

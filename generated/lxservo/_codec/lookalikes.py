@@ -20,10 +20,12 @@ LOOKALIKES: tuple[Lookalike, ...] = (
 )
 
 
-def recognise(data: bytes | bytearray | memoryview) -> str | None:
+def recognise(data: bytes | bytearray | memoryview, *, by_checksum: bool = False) -> str | None:
     """Return the title of the look-alike whose frames `data` holds; None if it holds few.
 
     At least half of the bytes must be such frames, and none of them a message of this protocol.
-    If the look-alike has a checksum, it proves each frame; if it has none, its commands do.
+    If the look-alike has a checksum, it proves each frame; if it has none, its commands do, unless
+    all are to be proven `by_checksum`.
     """
-    return most_likely(LOOKALIKES, as_bytes(data))
+    among = [each for each in LOOKALIKES if each.checksums or not by_checksum]
+    return most_likely(among, as_bytes(data))

@@ -11,13 +11,13 @@ from ..._frame.protocol import BAUD, LOCAL_ECHO
 from ..._serial.error_mapping import ErrorMapping
 from ..._serial.hid_devices import hid_devices_at_hand
 from ..._serial.serial_port import open_transport, serial_ports
+from .heard import Heard
 from .probe import Probe
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..._codec.noise import Noise
     from ..._frame.message import Message
     from ..._serial.hid_devices import HidDevice
     from ..._serial.link_errors import TransportError
@@ -61,11 +61,11 @@ class Diagnosis:
         self.error: TransportError | None = None
         self.lost = False
         self.probe: Probe | None = None
-        # Unsolicited events, and the round trips at the rate that proved right.
-        self.unsolicited: list[Message | Noise] = []
+        # What came unsolicited, and the round trips at the rate that proved right.
+        self.unsolicited = Heard([])
         self.trips: list[Trip] = []
-        # Noise at other rates.
-        self.strange: list[Noise] = []
+        # What came at other rates, with each.
+        self.strange: list[tuple[float, Heard]] = []
         self._clock = clock
         self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
 

@@ -8,7 +8,8 @@ import math
 from ..._client.exchanges import EXCHANGES
 from ..._client.wire_time import WireTime
 from ..._codec.noise import Noise
-from .trip import Trip, timed_events
+from .heard import PAUSE, Heard
+from .trip import Trip
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -16,13 +17,11 @@ if TYPE_CHECKING:
 
     from ..._frame.message import Message
     from ..._serial.transport import Transport
-    from .trip import Pieces, TimedEvent
+    from .heard import Pieces, TimedEvent
 
     # The time, the sender or None for noise, the bytes, and their meaning; without bytes, a note.
     Entry = tuple[float, str | None, bytes, str]
 
-# A pause that ends what comes: longer than USB adapters keep bytes back for.
-_PAUSE = 0.06
 _POLL_INTERVAL = 0.02
 # A line that never falls silent is left after so long.
 _LONGEST = 1.0
@@ -79,13 +78,13 @@ class Probe:
         self._log.append((self._clock(), command.DIRECTION.sender, frame, repr(command)))
         self._transport.write(frame)
 
-    def listen(self, seconds: float) -> list[Message | Noise]:
-        """Return the unsolicited events of so many seconds, and what follows without a pause."""
+    def listen(self, seconds: float) -> Heard:
+        """Return what comes unsolicited in so many seconds, and what follows without a pause."""
         until = self._clock() + seconds
         pieces = self._collected(until, lambda _: False)
-        events = timed_events(pieces)
-        self._note(events)
-        return [event for _, event in events]
+        heard = Heard(pieces)
+        self._note(heard.events)
+        return heard
 
     def close(self) -> None:
         """Close the port."""
@@ -97,7 +96,7 @@ class Probe:
         last, ended = -math.inf, False
         while True:
             now = self._clock()
-            paused = now - last >= _PAUSE
+            paused = now - last >= PAUSE
             if (paused and (ended or now >= until)) or now >= until + _LONGEST:
                 return pieces
             data = self._transport.read(_POLL_INTERVAL)

@@ -3,41 +3,16 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from itertools import accumulate
-
 from ..._client.exchanges import EXCHANGES
 from ..._codec.decoder import StreamDecoder
-from ..._codec.event_bytes import bytes_of
 from ..._codec.noise import Noise
 from ..._frame.direction import RECEIVED
+from .heard import Heard
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from ..._frame.message import Message
-
-    # Bytes, and events, each with the time at which they had come.
-    Pieces = list[tuple[float, bytes]]
-    TimedEvent = tuple[float, Message | Noise]
-
-
-def timed_events(pieces: Pieces, left_out: range = range(0)) -> list[TimedEvent]:
-    """Return the events in bytes that came in pieces, each with the time at which it was complete.
-
-    The bytes in `left_out` are skipped.
-    """
-    data = b"".join(piece for _, piece in pieces)
-    ends = [*accumulate(len(piece) for _, piece in pieces)]
-    decoder = StreamDecoder(RECEIVED)
-    # All at once, so that consecutive noise is one piece.
-    events = decoder.feed(data[: left_out.start] + data[left_out.stop :])
-    found: list[TimedEvent] = []
-    end = 0
-    for event in [*events, *decoder.flush()]:
-        end += len(bytes_of(event))
-        at = end + len(left_out) * (end > left_out.start)
-        found.append((pieces[bisect_left(ends, at)][0], event))
-    return found
+    from .heard import Pieces
 
 
 class Trip:
@@ -55,7 +30,8 @@ class Trip:
         self.received = b"".join(data for _, data in pieces)
         # Where the question itself came back: an adapter echoes what passes on its one wire.
         self.echo = self._find_echo()
-        self.events = timed_events(pieces, self.echo)
+        self.heard = Heard(pieces, self.echo)
+        self.events = self.heard.events
 
     @property
     def echoed(self) -> bool:

@@ -1,4 +1,4 @@
-"""A hint for a capture that is mostly noise: its bytes may be of a protocol that looks alike."""
+"""A hint for a capture that is mostly noise: it may be of a protocol that looks alike, or text."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import sys
 
 from .._codec.event_bytes import bytes_of
 from .._codec.lookalikes import recognise
+from .plain_text import plain_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -28,8 +29,11 @@ def beginning(recording: Recording, form: str, direction: Direction | None) -> b
 
 
 def hint(begun: bytes) -> None:
-    """Say on the error stream which protocol the bytes look like, if one is known."""
+    """Say on the error stream which protocol the bytes look like, or that they are text."""
     found = recognise(begun)
+    text = plain_text(begun)
     if found is not None:
         title = found.removeprefix("The ")
         print(f"hint: most of it is noise; it looks like the {title}", file=sys.stderr)
+    elif text:
+        print(f"hint: most of it is noise; it is text: {text}", file=sys.stderr)

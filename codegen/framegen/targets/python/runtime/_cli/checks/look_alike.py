@@ -1,43 +1,69 @@
-"""Check: what comes is this protocol, and none that is easily taken for it."""
+"""Check: what comes is recognised as this protocol, and as none that is easily taken for it."""
 
 from __future__ import annotations
 
 from ..._codec.lookalikes import recognise
-from ..._codec.noise import Noise, UnknownFrame
+from ..._codec.noise import UnknownFrame
 from ..._frame.direction import RECEIVED
 from ..._frame.errors import Reason
 from ..._frame.heads import HEAD, claimed, has_ids
+from ..._frame.pluralize import pluralize
 from ...messages import MESSAGES
+from ..plain_text import plain_text
 from .check import Check
+from .likely_cause import OTHER_DEVICE, likely_cause
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from ..._codec.noise import Noise
+    from ..._frame.message import Message
     from .diagnosis import Diagnosis
     from .result import Result
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    answers = [event for trip in diagnosis.trips for _, event in trip.events]
-    came = [*answers, *diagnosis.unsolicited, *diagnosis.strange]
-    if not came:
+    heard = [*(trip.heard for trip in diagnosis.trips), diagnosis.unsolicited]
+    runs = [run for each in heard for run in each.runs]
+    strange = [(rate, run) for rate, each in diagnosis.strange for run in each.runs]
+    messages = [message for each in heard for message in each.messages]
+    if not (runs or strange or messages):
         return unknown("nothing came that could be looked at")
-    noise = [each for each in came if isinstance(each, Noise)]
-    streams = [trip.received for trip in diagnosis.trips if trip.noise]
-    for data in [*streams, *(each.data for each in noise)]:
-        title = recognise(data)
-        if title is not None:
-            return failed(
-                f"frames of another protocol came: {title}",
-                "the page on look-alikes in the reference tells them apart: another device or plug",
-                data,
-            )
-    for each in noise:
-        likeness = _likeness(each)
-        if likeness:
-            advice = "an unknown edition of the device, or bytes that were lost: send a report in"
-            return failed(likeness, advice, each.data)
-    return passed("what came is this protocol")
+    is_answered = any(trip.replies for trip in diagnosis.trips)
+    for run in [*runs, *(run for _, run in strange)]:
+        other = _of_another(run, is_answered=is_answered)
+        if other is not None:
+            return other
+    frames = sum(len(message.encode()) for message in messages)
+    noise = [_joined(run) for run in runs]
+    # A reply proves it; a frame that nobody asked for may have come about by chance.
+    if is_answered or frames > sum(map(len, noise)):
+        return _recognised(messages, noise)
+    return _not_recognised(noise, [(rate, _joined(run)) for rate, run in strange])
+
+
+def _joined(run: list[Noise]) -> bytes:
+    return b"".join(each.data for each in run)
+
+
+def _of_another(run: list[Noise], *, is_answered: bool) -> Result | None:
+    """Return the result for noise that is of another protocol, or another edition of this one.
+
+    Where a frame of this protocol may have been cut, only a checksum proves another protocol.
+    """
+    data = _joined(run)
+    title = recognise(data, by_checksum=is_answered or _is_cut(data))
+    if title is not None:
+        return failed(
+            f"frames of another protocol came: {title}",
+            "the page on look-alikes in the reference tells them apart: another device or plug",
+            data,
+        )
+    likeness = [_likeness(each) for each in run]
+    if not all(likeness):
+        return None
+    advice = "an unknown edition of the device, or bytes that were lost: send a report in"
+    return failed(likeness[0], advice, *(each.data for each in run))
 
 
 def _likeness(noise: Noise) -> str:
@@ -47,10 +73,46 @@ def _likeness(noise: Noise) -> str:
     data = noise.data
     if noise.reason is not Reason.LENGTH_MISMATCH or len(data) < (claimed(data) or HEAD):
         return ""
-    kinds = [kind for kind in MESSAGES if kind.DIRECTION is RECEIVED and has_ids(kind, data)]
+    kinds = _kinds(data)
     if not kinds:
         return ""
     return f"a frame of {kinds[0].__name__} came with {claimed(data)} bytes, which none has"
+
+
+def _is_cut(data: bytes) -> bool:
+    """Tell whether it begins as a message may, and ends before that would."""
+    return claimed(data) > len(data) and (len(data) < HEAD or bool(_kinds(data)))
+
+
+def _kinds(data: bytes) -> list[type[Message]]:
+    return [kind for kind in MESSAGES if kind.DIRECTION is RECEIVED and has_ids(kind, data)]
+
+
+def _recognised(messages: list[Message], noise: list[bytes]) -> Result:
+    """Return the result for what is this protocol, and say what of it is not."""
+    names = dict.fromkeys(type(message).__name__ for message in messages)
+    count = pluralize(len(messages), "whole frame")
+    seen = f"what came is this protocol: {count} ({', '.join(names)})"
+    if noise:
+        seen += f"; not recognised: {pluralize(sum(map(len, noise)), 'other byte')}"
+    text = next(filter(None, map(plain_text, noise)), "")
+    return passed(f"{seen}, among them text: {text}" if text else seen, *noise)
+
+
+def _not_recognised(noise: list[bytes], strange: list[tuple[float, bytes]]) -> Result:
+    """Return the result for what may be anything, with its likely cause."""
+    text = next(filter(None, map(plain_text, noise)), "")
+    if not text:
+        for rate, data in strange:
+            text = plain_text(data)
+            if text:
+                seen = f"not recognised: at {rate:g} baud, text came: {text}"
+                return unknown(seen, OTHER_DEVICE, data)
+    shown = noise or [data for _, data in strange]
+    # The longest shows most.
+    cause = likely_cause(max(shown, key=lambda data: (bool(plain_text(data)), len(data))))
+    came = f"{pluralize(sum(map(len, shown)), 'byte')} came, and no whole frame"
+    return unknown(f"not recognised: {came}: {cause.seen}", cause.advice, *shown)
 
 
 CHECK = Check("look-alike", "what comes is this protocol", ("opening",), _look)

@@ -7,7 +7,9 @@ import sys
 from pathlib import Path
 
 from ..._serial.link_errors import ClosedError, DisconnectedError, TransportError
+from ..plain_text import plain_text
 from .check import Check
+from .likely_cause import OTHER_DEVICE
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
@@ -70,7 +72,7 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
         if trip is None:
             continue
         if trip.replies:
-            diagnosis.strange += [each for trip in diagnosis.trips for each in trip.noise]
+            diagnosis.strange += [(diagnosis.baud, each.heard) for each in diagnosis.trips]
             diagnosis.trips = [trip]
             return failed(
                 f"{unanswered} at {diagnosis.stated}, but is at {rate}",
@@ -79,7 +81,7 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
                 trip.replies[0][1].encode(),
             )
         tried.append(str(rate))
-        diagnosis.strange += trip.noise
+        diagnosis.strange.append((rate, trip.heard))
     diagnosis.connect()
     if tried:
         unanswered += f", nor at {', '.join(tried)} baud"
@@ -88,6 +90,10 @@ def _searched(diagnosis: Diagnosis, question: Message) -> Result:
     seen = f"{unanswered}: {sum(map(len, found))} bytes came"
     if all(trip.echoed and not trip.noise for trip in diagnosis.trips if trip.received):
         return failed(f"{seen}, which are the question itself", _SILENT, *found)
+    noise = [each.data for trip in diagnosis.trips for each in trip.noise]
+    text = plain_text(b"".join(noise))
+    if text:
+        return failed(f"{seen}, and they are text: {text}", OTHER_DEVICE, *noise)
     advice = (
         "see at which rate the device is set, that the grounds are joined, and the checks below"
     )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from ..._codec.noise import Noise
+from ..plain_text import plain_text
 from .check import Check
+from .likely_cause import OTHER_DEVICE
 from .result import failed, passed
 
 TYPE_CHECKING = False
@@ -15,19 +16,23 @@ _LISTENING = 0.3
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    diagnosis.unsolicited = diagnosis.connected().listen(_LISTENING)
-    noise = [each.data for each in diagnosis.unsolicited if isinstance(each, Noise)]
+    diagnosis.unsolicited = heard = diagnosis.connected().listen(_LISTENING)
+    noise = [each.data for run in heard.runs for each in run]
     if noise:
+        count = sum(map(len, noise))
+        text = plain_text(b"".join(noise))
+        if text:
+            return failed(f"{count} bytes of text came unsolicited: {text}", OTHER_DEVICE, *noise)
         return failed(
-            f"{sum(map(len, noise))} bytes that are no frame came unsolicited",
+            f"{count} bytes that are no frame came unsolicited",
             "see that the rate is right, that the grounds are joined, and that the plug is the "
             "device's",
             *noise,
         )
-    reports = [repr(each) for each in diagnosis.unsolicited if not isinstance(each, Noise)]
-    if reports:
-        frames = (each.encode() for each in diagnosis.unsolicited if not isinstance(each, Noise))
-        return passed(f"unsolicited reports came, as they may: {', '.join(reports[:3])}", *frames)
+    if heard.messages:
+        reports = ", ".join(map(repr, heard.messages[:3]))
+        frames = (each.encode() for each in heard.messages)
+        return passed(f"unsolicited reports came, as they may: {reports}", *frames)
     return passed(f"nothing came within {_LISTENING:g} s")
 
 
