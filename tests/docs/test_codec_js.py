@@ -227,6 +227,19 @@ ENVELOPES: dict[str, dict[str, Any]] = {
         "command": {"is": "id", "type": "u8"},
         "parameters": {"is": "body"},
     },
+    "a checksum that covers one behind it": {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "sum": {"is": "checksum", "type": "u8", "method": "sum", "covers": ["command", "crc"]},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+        "crc": {
+            "is": "checksum",
+            "type": "u16",
+            "method": "crc-16/modbus",
+            "covers": ["command", "parameters"],
+        },
+    },
     "an id of two bytes before a length of two": {
         "header": {"is": "constant", "bytes": "55 55"},
         "command": {"is": "id", "type": "u16"},

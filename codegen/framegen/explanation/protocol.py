@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 from functools import cached_property
 
-from .checksum import checksum
+from .checksum import checksum, in_turn
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -265,8 +265,8 @@ class Envelope:
 
     @cached_property
     def checksums(self) -> tuple[Slot, ...]:
-        """The numbers worked out from other parts."""
-        return tuple(slot for slot in self.slots if slot.role == "checksum")
+        """The numbers worked out from other parts, in turn."""
+        return in_turn(slot for slot in self.slots if slot.role == "checksum")
 
     def right(self, part: Slot, frame: bytes, unsent: Sequence[int] = ()) -> bytes:
         """Return a checksum as a whole frame should have it; `unsent` are the ids not in it."""
@@ -280,7 +280,7 @@ class Envelope:
         mended = bytearray(frame)
         for part in self.checksums:
             at = _from_front(part.at, len(frame))
-            mended[at : at + part.size] = self.right(part, frame, unsent)
+            mended[at : at + part.size] = self.right(part, bytes(mended), unsent)
         return bytes(mended)
 
     def length_of(self, data: bytes) -> int:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framegen.explanation.checksum import in_turn
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import (
     AddressPart,
@@ -118,14 +119,8 @@ class Envelope:
 
     @cached_property
     def checksums(self) -> tuple[Number, ...]:
-        """The numbers worked out from other parts, in turn: one that another covers comes first."""
-        left, found = [*self._of_role("checksum")], list[Number]()
-        while left:
-            names = {each.name for each in left}
-            free = (each for each in left if not names & {*each.of} - {each.name})
-            found.append(next(free, left[0]))
-            left.remove(found[-1])
-        return tuple(found)
+        """The numbers worked out from other parts, in turn."""
+        return in_turn(self._of_role("checksum"))
 
     @property
     def proven(self) -> bool:

@@ -107,7 +107,10 @@ def _said(model: Model, name: str) -> dict[str, Any]:
 
 
 def _envelope(frame: Envelope) -> dict[str, Any]:
-    """Return an envelope; `ids` identify a message together, those not sent among them."""
+    """Return an envelope; `ids` identify a message together, those not sent among them.
+
+    `turns` are its checksums in the order in which they are worked out.
+    """
     return {
         "name": frame.name,
         "header": list(frame.header),
@@ -116,6 +119,7 @@ def _envelope(frame: Envelope) -> dict[str, Any]:
         "uncounted": frame.uncounted,
         "proves": frame.proves_unknown,
         "slots": [slot_data(slot, frame) for slot in frame.slots],
+        "turns": [slot.name for slot in frame.checksums],
         "ids": [slot_data(slot) for slot in frame.ids],
     }
 

@@ -27,9 +27,9 @@ function makeEncode({ kindOf, frameWith, slotsIn, layOut, due }, { checksumOf })
       if (follows.length) bytes.set(follows, at);
       else if (slot.role !== "checksum") bytes.set(written(path, slot, values.get(path)), at);
     }
-    for (const { at, slot } of placed.filter((each) => each.slot.role === "checksum")) {
+    for (const slot of kind.envelope.checksums) {
       const value = checksumOf(kind.envelope, slot, kind.ids, frame.size, lookAt(bytes), 0);
-      bytes.set(writeNumber(slot, value), at);
+      bytes.set(writeNumber(slot, value), slot.at < 0 ? frame.size + slot.at : slot.at);
     }
     return bytes;
   };

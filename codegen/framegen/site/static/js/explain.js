@@ -6,22 +6,22 @@ function makeExplain(layout, { judge, checksumOf, rowOf, rowsOf, isField }) {
   const { protocol } = layout, Reason = protocol.reasons, nearby = makeClosest(layout);
   const { closest, lengthOf, layOutAt, headOf } = nearby;
 
-  // The checksums that a whole frame should have, by slot; `ids` are those of its message.
-  function checksumsOf(envelope, bytes, ids) {
-    return envelope.checksums.map((slot) => ({ slot, bytes: writeNumber(slot,
-      checksumOf(envelope, slot, ids, bytes.length, lookAt(bytes), 0)) }));
+  // A checksum that a whole frame should have; `ids` are those of its message.
+  function rightOf(envelope, slot, bytes, ids) {
+    return writeNumber(slot, checksumOf(envelope, slot, ids, bytes.length, lookAt(bytes), 0));
   }
 
   // A whole frame with the checksums that it should have.
   function sealed(envelope, bytes, ids) {
     const mended = Uint8Array.from(bytes);
-    for (const right of checksumsOf(envelope, bytes, ids)) {
-      mended.set(right.bytes, right.slot.at < 0 ? bytes.length + right.slot.at : right.slot.at);
+    for (const slot of envelope.checksums) {
+      const right = rightOf(envelope, slot, mended, ids);
+      mended.set(right, slot.at < 0 ? bytes.length + slot.at : slot.at);
     }
     return mended;
   }
 
-  const tools = { judge, checksumsOf, sealed, isField };
+  const tools = { judge, rightOf, sealed, isField };
   const refusals = makeRefusals(layout, tools, nearby);
   const { hintsOn } = makeHints(layout, tools, nearby, refusals, makeLookalikes(layout, tools, nearby));
 

@@ -4,7 +4,7 @@
 // So many of the frames inside other bytes are shown.
 const MOST_WITHIN = 8;
 
-function makeHints(layout, { judge, checksumsOf, sealed }, nearby, { largest }, { lookalikes, recognise }) {
+function makeHints(layout, { judge, sealed }, nearby, { largest }, { lookalikes, recognise }) {
   const { protocol, kinds } = layout, Reason = protocol.reasons, { layOutEnvelope } = nearby;
   const hint = (text, frame = new Uint8Array(0)) => ({ text, frame });
   const the = (title) => `the ${title.replace(/^The /, "")}`;

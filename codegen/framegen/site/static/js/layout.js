@@ -50,7 +50,7 @@ function preparedEnvelope(frame) {
     ...frame, slots, head, tail, bodyAt: slots[body].at, begins: new Set(frame.begins),
     tailSize: tail.reduce((sum, { size }) => sum + size, 0),
     lengthSlot: slots.find(({ role }) => role === "length"),
-    checksums: slots.filter(({ role }) => role === "checksum"),
+    checksums: frame.turns.map((name) => slots.find((slot) => slot.name === name)),
     headIds: head.filter(({ role }) => role === "id"),
     // What is looked at in a frame of unknown id, besides its checksums.
     around: slots.filter(({ role }) => role === "constant" || role === "address"),

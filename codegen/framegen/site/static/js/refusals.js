@@ -6,7 +6,7 @@ const pluralized = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"
 const listed = (names, last = "and") => (names.length > 1
   ? `${names.slice(0, -1).join(", ")} ${last} ${names[names.length - 1]}` : names[0]);
 
-function makeRefusals(layout, { checksumsOf, isField }, nearby) {
+function makeRefusals(layout, { rightOf, isField }, nearby) {
   const { protocol: { reasons: Reason }, kinds, sizeOf, frameOf } = layout;
   const { sent, lengthOf, leastLength, layOutAt, layOutEnvelope, headOf } = nearby;
 
@@ -83,8 +83,8 @@ function makeRefusals(layout, { checksumsOf, isField }, nearby) {
   function checksumDue(refused) {
     const { envelope, kind, bytes } = refused, { slot, path, at, size } = placedAt(refused);
     const whole = bytes.slice(0, (lengthIn(refused) || 0) + envelope.uncounted);
-    const right = checksumsOf(envelope, whole, kind ? kind.ids : []).find((each) => each.slot === slot);
-    return `${path} is ${toHex(bytes.slice(at, at + size))}; the ${slot.means} is ${toHex(right.bytes)}`;
+    const right = rightOf(envelope, slot, whole, kind ? kind.ids : []);
+    return `${path} is ${toHex(bytes.slice(at, at + size))}; the ${slot.means} is ${toHex(right)}`;
   }
 
   const constantDue = ({ path, slot }) => `${path} is always ${toHex(slot.bytes)}`;
