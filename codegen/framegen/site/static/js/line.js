@@ -24,7 +24,8 @@ function makeLine({ protocol, kinds, envelopes, sizeOf, frameOf, idNumber }, dir
     return { kinds: among.kinds, next, sizes: new Map() };
   }
 
-  const listeners = [...envelopes.values()].filter((each) => known.has(each)).map((envelope) => ({
+  const roomy = (envelope) => known.has(envelope) && envelope.least <= largest;
+  const listeners = [...envelopes.values()].filter(roomy).map((envelope) => ({
     envelope,
     messages: branch({ envelope, kinds: carried.filter((kind) => kind.envelope === envelope
       && (envelope.lengthSlot || sizeOf(kind, kind.counts.low) <= maxFrame)) }, envelope.headIds),

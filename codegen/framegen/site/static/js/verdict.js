@@ -115,7 +115,6 @@ function makeVerdicts(layout) {
 
   // The same for frames of one envelope: a verdict for each message that may be meant.
   function weighIn({ envelope, messages }, line, look, at, limit) {
-    if (envelope.least > line.largest) return;
     let size = -1, meant = messages, idsLeft = envelope.headIds.length, frames = null;
     for (const slot of envelope.head) {
       const wrong = misfit(slot, slot.at, fixed(slot), look, at, limit);
