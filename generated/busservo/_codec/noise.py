@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from .._frame.bytes_like import format_hex
 from .._frame.errors import Reason
-from .._frame.protocol import BODY_AT, read_command
+from .._frame.protocol import BODY_AT, COMMAND_NAME, read_command
 
 
 class Noise:
@@ -64,7 +64,7 @@ class UnknownFrame(Noise):
     @property
     def numbers(self) -> dict[str, int]:
         """What says who it is from and which message it is, by name."""
-        return {"command": self.command}
+        return {COMMAND_NAME: self.command}
 
     @property
     def parameters(self) -> bytes:

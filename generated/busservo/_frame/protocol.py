@@ -11,6 +11,10 @@ LENGTH_END = 3
 COMMAND_AT = 3
 COMMAND_END = 4
 BODY_AT = 4
+# What these parts are called.
+HEADER_NAME = "header"
+LENGTH_NAME = "length"
+COMMAND_NAME = "command"
 # How many bytes of a frame its length does not count.
 UNCOUNTED = 2
 # The byte order, in the notation of the struct module.

@@ -6,9 +6,12 @@ from .protocol import (
     BODY_AT,
     COMMAND_AT,
     COMMAND_END,
+    COMMAND_NAME,
     HEADER,
+    HEADER_NAME,
     LENGTH_AT,
     LENGTH_END,
+    LENGTH_NAME,
     read_command,
     read_length,
 )
@@ -53,9 +56,9 @@ def unknown_parts(frame: bytes) -> list[Cell]:
 def _head(frame: bytes) -> list[Cell]:
     """Return the parts that stand in front of the parameters."""
     parts = [
-        (0, HEADER, "header", ""),
-        (LENGTH_AT, frame[LENGTH_AT:LENGTH_END], "length", str(read_length(frame))),
-        (COMMAND_AT, frame[COMMAND_AT:COMMAND_END], "command", str(read_command(frame))),
+        (0, HEADER, HEADER_NAME, ""),
+        (LENGTH_AT, frame[LENGTH_AT:LENGTH_END], LENGTH_NAME, str(read_length(frame))),
+        (COMMAND_AT, frame[COMMAND_AT:COMMAND_END], COMMAND_NAME, str(read_command(frame))),
     ]
     return [(data, name, says) for _, data, name, says in sorted(parts)]
 
