@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import io
 import itertools
 import json
 import re
@@ -61,6 +62,38 @@ def greenhouse(folder: Path) -> Iterator[ModuleType]:
 def lib() -> Any:
     """Return the same, for Hypothesis, which takes no fixtures."""
     return importlib.import_module("greenhouse")
+
+
+def test_what_an_end_sends_to_two_others_is_read_back(greenhouse: ModuleType) -> None:
+    """A recording says who has sent a line, and not to whom."""
+    recordings: Any = importlib.import_module("greenhouse.recordings")
+    sent = [
+        (layout.direction, bytes.fromhex(example["hex"]))
+        for name, layout in LAYOUT.messages.items()
+        for example in SPEC["messages"][name]["examples"]
+    ]
+    lines = (f"{frame.hex(' ')}  # 0.5 s, {way.sender}: a\n" for way, frame in sent)
+    entries = [*recordings.read(io.BytesIO("".join(lines).encode()))]
+    assert [each.event.encode() for each in entries] == [frame for _, frame in sent]
+    assert [each.direction.value for each in entries] == [way.key for way, _ in sent]
+    raw = recordings.read(
+        io.BytesIO(b"\0"), form="raw", direction=greenhouse.Direction(sent[0][0].key)
+    )
+    assert [each.direction.value for each in raw] == [sent[0][0].key]
+
+
+def test_parts_of_frames_are_called_as_the_author_calls_them(greenhouse: ModuleType) -> None:
+    unknown = greenhouse.UnknownFrame(bytes.fromhex("C3 5A A5 FF 00 01 2A"), None)
+    assert unknown.numbers == {"kind": 255}
+    message = greenhouse.VentsOpen.decode(bytes.fromhex(example_of("VentsOpen")))
+    parts: Any = importlib.import_module("greenhouse._frame.parts")
+    names = [name for _, name, _ in parts.message_parts(message)]
+    assert names[:3] == [name for name in SPEC["frame"] if name != "payload"]
+
+
+def example_of(name: str) -> str:
+    hex_: str = SPEC["messages"][name]["examples"][0]["hex"]
+    return hex_
 
 
 # ------------------------------------------------------------------ values, both ways

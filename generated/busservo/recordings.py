@@ -97,7 +97,7 @@ def _streamed(decoded: Iterable[list[Event]], direction: Direction | None) -> It
     offset = 0
     for events in decoded:
         for event in events:
-            yield Entry(event, _sender(event, direction), offset)
+            yield Entry(event, _sender(event, direction), offset, direction=direction)
             offset += len(bytes_of(event))
 
 

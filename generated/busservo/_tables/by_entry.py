@@ -10,7 +10,6 @@ import numpy as np
 
 from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
-from .._recording.entry import SENDERS
 from ..messages import MESSAGES
 from .events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
 from .layout import DIRECTIONS, REASON_NUMBERS
@@ -18,14 +17,13 @@ from .layout import DIRECTIONS, REASON_NUMBERS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .._frame.direction import Direction
     from .._frame.message import Message
     from ..recordings import Entry
     from .events import Seconds
 
 _KINDS: dict[type[object], int] = {kind: number for number, kind in enumerate(MESSAGES)}
-_DIRECTIONS: dict[str | None, int] = {
-    sender: DIRECTIONS.index(direction) for sender, direction in SENDERS.items()
-}
+_DIRECTIONS: dict[Direction | None, int] = {way: at for at, way in enumerate(DIRECTIONS)}
 _DIRECTIONS[None] = UNKNOWN_SENDER
 
 
@@ -66,7 +64,7 @@ class _Rows:
         self.data.append(bytes_of(entry.event))
         self.offset.append(entry.offset)
         self.what.append(what)
-        self.direction.append(_DIRECTIONS[entry.sender])
+        self.direction.append(_DIRECTIONS[entry.direction])
         self.time.append(np.nan if time is None else time)
         self.clock.append(np.nan if time is None or began is None else began + time)
 

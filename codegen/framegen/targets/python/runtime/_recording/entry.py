@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .._codec.decoder import Event
+from .._codec.noise import Noise
 from .._frame.direction import Direction
 
 TYPE_CHECKING = False
@@ -12,6 +13,8 @@ else:
     from .._frame.typing_later import typing
 
 SENDERS = {direction.sender: direction for direction in Direction}
+WAYS = {who: [way for way in Direction if way.sender == who] for who in SENDERS}
+"""The directions in which each end sends: several where it talks to several others."""
 
 
 class RecordingError(ValueError):
@@ -23,11 +26,12 @@ class Entry:
 
     `time` is seconds from the beginning of the recording, and `began` when that was, in seconds
     since 1970; None if it does not say. `sender` is the name of the end that has sent it, None if
-    it is unknown. `line` is the number of its line, None for input without lines, and `offset`
-    counts the bytes of all events before it.
+    it is unknown, and `direction` the way that it went, None if that is unknown. `line` is the
+    number of its line, None for input without lines, and `offset` counts the bytes of all events
+    before it.
     """
 
-    __slots__ = ("began", "event", "line", "offset", "sender", "time")
+    __slots__ = ("began", "direction", "event", "line", "offset", "sender", "time")
 
     def __init__(
         self,
@@ -38,6 +42,7 @@ class Entry:
         line: int | None = None,
         time: float | None = None,
         began: float | None = None,
+        direction: Direction | None = None,
     ) -> None:
         self.event: Event = event
         self.sender = sender
@@ -45,11 +50,16 @@ class Entry:
         self.line = line
         self.time = time
         self.began = began
+        self.direction: Direction | None = direction or self._only_way()
 
-    @property
-    def direction(self) -> Direction | None:
-        """The direction of its sender; None if it is unknown."""
-        return None if self.sender is None else SENDERS[self.sender]
+    def _only_way(self) -> Direction | None:
+        """Return the way that the sender sends such an event; None where there are several."""
+        if self.sender is None:
+            return None
+        if not isinstance(self.event, Noise):
+            return self.event.DIRECTION
+        ways = WAYS[self.sender]
+        return ways[0] if len(ways) == 1 else None
 
     @property
     def place(self) -> str:

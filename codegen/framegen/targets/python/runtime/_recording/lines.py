@@ -12,13 +12,13 @@ from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._frame.errors import Reason
-from .entry import SENDERS, Entry, RecordingError
+from .entry import SENDERS, WAYS, Entry, RecordingError
 from .file import EITHER, NOISE
 from .form import LONGEST_LINE, TIMED_LINE
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
     from typing import Any
 
     from .._frame.direction import Direction
@@ -98,12 +98,13 @@ def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> li
     Bytes recorded as noise stay noise, even if they would be a message by themselves; save for a
     frame whose command was not known then.
     """
-    direction = None if sender is None else SENDERS[sender]
-    message: Any = None if is_noise else table_for(direction).find(data)
-    if message is not None:
-        return [message]
-    decoder = StreamDecoder(direction)
-    events = [*decoder.feed(data), *decoder.flush()]
+    ways: Sequence[Direction | None] = [None] if sender is None else WAYS[sender]
+    for way in () if is_noise else ways:
+        message: Any = table_for(way).find(data)
+        if message is not None:
+            return [message]
+    # Of several ends that it may have been sent to, to the one that understands most of it.
+    events = min((_streamed(data, way) for way in ways), key=_noise_in)
     if not is_noise:
         return events
     reason = _REASONS.get(what)
@@ -111,3 +112,12 @@ def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> li
         return events
     reasons = [event.reason for event in events if isinstance(event, Noise)]
     return [Noise(data, reason or (reasons or [Reason.BAD_HEADER])[0])] if data else []
+
+
+def _streamed(data: bytes, direction: Direction | None) -> list[Event]:
+    decoder = StreamDecoder(direction)
+    return [*decoder.feed(data), *decoder.flush()]
+
+
+def _noise_in(events: Iterable[Event]) -> int:
+    return sum(len(event.data) for event in events if isinstance(event, Noise))
