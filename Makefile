@@ -93,9 +93,10 @@ format: $(TO_LINT)  ## Mend what ruff can mend
 	$(IN)/ruff check --fix
 	$(IN)/ruff format
 
-fuzz: $(TO_TEST)  ## Search for new counterexamples, for long, and change the specs in every way
+fuzz: $(TO_TEST)  ## Search for new counterexamples, for long; change the specs, and cross them
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
 	CONTRACT=all $(IN)/python -m pytest tests/all/test_contract.py
+	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest -n $(WORKERS) tests/test_crossed.py
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)

@@ -113,6 +113,29 @@ class Desk:
                 if key in spot.message:
                     spot.message[key] = in_words(spot.message[key], old, new)
 
+    def rename_part(self, parts: Data, old: str, new: str) -> None:
+        """Give a part of a frame another name, wherever other parts name it."""
+        _put(parts, {new if name == old else name: part for name, part in parts.items()})
+        for part in parts.values():
+            for key in ("counts", "covers"):
+                if key in part:
+                    part[key] = [new if each == old else each for each in part[key]]
+
+    def rename_message(self, old: str, new: str, *, said: bool) -> None:
+        """Give a message another name, wherever it is named."""
+        messages = {new if name == old else name: each for name, each in self.messages.items()}
+        _put(self.messages, messages)
+        message = messages[new]
+        if said:
+            before = message.get("was", [])
+            message["was"] = [old, *([before] if isinstance(before, str) else before)]
+        for each in messages.values():
+            for key in ("reply", "refusal", "acknowledged"):
+                if each.get(key) == old:
+                    each[key] = new
+            if "reports" in each:
+                each["reports"] = [new if name == old else name for name in each["reports"]]
+
 
 def in_words(text: str, old: str, new: str) -> str:
     """Return a text with one name instead of another."""

@@ -117,13 +117,7 @@ def constant_added(desk: Desk) -> None:
 def _renamed(kind: str, said: bool, desk: Desk) -> None:
     parts, old = desk.part(_is(kind))
     new = desk.fresh("part")
-    named = {new if name == old else name: part for name, part in parts.items()}
-    parts.clear()
-    parts.update(named)
-    for part in parts.values():
-        for key in ("counts", "covers"):
-            if key in part:
-                part[key] = [new if each == old else each for each in part[key]]
+    desk.rename_part(parts, old, new)
     if said:
         parts[new]["was"] = old
 

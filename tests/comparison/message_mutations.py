@@ -80,31 +80,14 @@ def moved(desk: Desk) -> None:
     reordered(desk.messages, names)
 
 
-def _rename(desk: Desk, old: str, *, said: bool) -> None:
-    new = desk.fresh("Renamed")
-    messages = {new if name == old else name: each for name, each in desk.messages.items()}
-    desk.messages.clear()
-    desk.messages.update(messages)
-    message = messages[new]
-    if said:
-        before = message.get("was", [])
-        message["was"] = [old, *([before] if isinstance(before, str) else before)]
-    for each in messages.values():
-        for key in ("reply", "refusal", "acknowledged"):
-            if each.get(key) == old:
-                each[key] = new
-        if "reports" in each:
-            each["reports"] = [new if name == old else name for name in each["reports"]]
-
-
 def _renamed(said: bool, desk: Desk) -> None:
-    _rename(desk, desk.pick(desk.messages), said=said)
+    desk.rename_message(desk.pick(desk.messages), desk.fresh("Renamed"), said=said)
 
 
 def _renamed_and_renumbered(said: bool, desk: Desk) -> None:
     name = desk.pick(desk.messages)
     _renumber(desk, desk.messages[name])
-    _rename(desk, name, said=said)
+    desk.rename_message(name, desk.fresh("Renamed"), said=said)
 
 
 def replaced(desk: Desk) -> None:

@@ -1,7 +1,9 @@
-// Answers questions in the line language (framegen.conformance.language) with the codec of a page, or
-// with the module that others import:
+// Answers questions in the line language (framegen.conformance.language) with the codec of a page, with
+// the module that others import, or with the scripts alone, about the protocol of the last line
+// `protocol JSON`:
 //     node answer.js site/reference/busservo/decoder.html
 //     node answer.js site/reference/busservo/downloads/busservo.mjs
+//     node answer.js codec.js
 "use strict";
 
 const fs = require("fs");
@@ -14,10 +16,16 @@ function ofPage(page) {
   const text = fs.readFileSync(page, "utf8");
   const [, data] = /<script type="application\/json" id="protocol">(.*?)<\/script>/s.exec(text);
   const scripts = [...text.matchAll(/<script>(.*?)<\/script>/gs)].map(([, script]) => script);
-  const script = scripts.find((each) => each.includes("function makeCodec"));
-  const { makeCodec, Unusable } = vm.runInThisContext(`${script}\n({ makeCodec, Unusable })`);
-  const { kinds, decodeFrame, encode, makeStream } = makeCodec(JSON.parse(data));
-  return { kinds, decode: decodeFrame, encode, makeStream, Unusable };
+  return ofScripts(scripts.find((each) => each.includes("function makeCodec")))(JSON.parse(data));
+}
+
+// What makes the codec of a protocol.
+function ofScripts(text) {
+  const { makeCodec, Unusable } = vm.runInThisContext(`${text}\n({ makeCodec, Unusable })`);
+  return (protocol) => {
+    const { kinds, decodeFrame, encode, makeStream } = makeCodec(protocol);
+    return { kinds, decode: decodeFrame, encode, makeStream, Unusable };
+  };
 }
 
 // The same of a module.
@@ -119,7 +127,15 @@ function eventLine(event) {
 let codec;
 
 async function main(file) {
-  codec = file.endsWith(".mjs") ? await ofModule(file) : ofPage(file);
+  if (file.endsWith(".js")) {
+    const make = ofScripts(fs.readFileSync(file, "utf8"));
+    answers.protocol = (...words) => {
+      codec = make(JSON.parse(words.join(" ")));
+      return [];
+    };
+  } else {
+    codec = file.endsWith(".mjs") ? await ofModule(file) : ofPage(file);
+  }
   readline.createInterface({ input: process.stdin }).on("line", (question) => {
     const [verb, ...words] = question.split(" ");
     const lines = Object.hasOwn(answers, verb) ? answers[verb](...words) : ["unsupported"];
