@@ -368,6 +368,11 @@ class LibraryView:
         return struct_order(self.byte_order)
 
     @property
+    def header_name(self) -> str:
+        """What the part is called that begins a plain frame."""
+        return self.model.frame.head[0].name
+
+    @property
     def header(self) -> str:
         header = self.model.frame.header
         pieces = [header[at : at + _BYTES] for at in range(0, len(header), _BYTES)]
