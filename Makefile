@@ -105,7 +105,7 @@ bench:  ## Measure the library against its peers
 
 docs: $(READY)  ## Build the site: make docs SITE=html BASE=https://where.it/will/be
 	rm -rf $(SITE)
-	$(IN)/framegen docs --out $(SITE) $(if $(BASE),--base '$(BASE)')
+	$(IN)/framegen docs --strict --out $(SITE) $(if $(BASE),--base '$(BASE)')
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
@@ -58,9 +59,18 @@ def project_root(spec: Path) -> Path:
     return folder.parent if folder.name == FOLDER else folder
 
 
+def near(folder: Path) -> Path:
+    """Return a folder relative to the current one, where that is shorter."""
+    try:
+        relative = Path(os.path.relpath(folder))
+    except ValueError:  # on another drive
+        return folder
+    return min(relative, folder, key=lambda path: len(str(path)))
+
+
 def guides_folder(spec: Path) -> Path | None:
     """Return the folder of the guides of a project, if it has a README that lists them."""
-    folder = project_root(spec) / GUIDES
+    folder = near(project_root(spec)) / GUIDES
     return folder if (folder / "README.md").is_file() else None
 
 

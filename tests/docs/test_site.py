@@ -15,7 +15,7 @@ from tests.factories import compiled_file
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder that `make docs` builds."""
-    assert "\t$(IN)/framegen docs --out $(SITE) " in (ROOT / "Makefile").read_text("utf-8")
+    assert "\t$(IN)/framegen docs --strict --out $(SITE) " in (ROOT / "Makefile").read_text("utf-8")
     return project_on_disk(tmp_path_factory.mktemp("build") / "site")
 
 

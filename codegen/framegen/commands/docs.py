@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -17,6 +18,7 @@ EXAMPLES = (
     ("framegen docs SPEC.yaml --open", "the reference of another spec"),
     ("framegen docs --out site", "build it in site/, ready to be served"),
     ("framegen docs --out site --base https://example.org/", "to be published there"),
+    ("framegen docs --out site --strict", "the same in a build that fails if a link is dead"),
 )
 
 
@@ -33,13 +35,20 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="ADDRESS",
         help="where the site will be: adds whole addresses, a sitemap and a page for broken links",
     )
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="write nothing where a guide loses a picture, or a link of it leads nowhere",
+    )
     add_force(parser)
 
 
 def run(arguments: Namespace) -> int:
-    """Build the pages, and print where their index is. 1 where a spec has findings."""
+    """Build the pages, and print where their index is. 1 where a spec has findings.
+
+    What gets lost of the guides is said on the error stream, and is a finding if that was asked.
+    """
     from tempfile import mkdtemp  # noqa: PLC0415
-    from webbrowser import open as open_in_browser  # noqa: PLC0415
 
     from framegen.commands.spec_argument import compiled, print_findings, spec_file  # noqa: PLC0415
     from framegen.output import Output  # noqa: PLC0415
@@ -47,7 +56,7 @@ def run(arguments: Namespace) -> int:
     from framegen.render import snippets  # noqa: PLC0415
     from framegen.site.project import read_project  # noqa: PLC0415
     from framegen.site.publication import base_address  # noqa: PLC0415
-    from framegen.site.site import render_site  # noqa: PLC0415
+    from framegen.site.site import Site, lost, rendered  # noqa: PLC0415
     from framegen.writing import write  # noqa: PLC0415
 
     base = base_address(arguments.base)
@@ -55,16 +64,35 @@ def run(arguments: Namespace) -> int:
     specs = {file: compiled(file) for file in files}
     if print_findings([*specs.values()]):
         return 1
-    folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     docs = None if arguments.spec else guides_folder(files[0])
-    project = read_project(specs, docs, base)
+    site = Site(read_project(specs, docs, base), snippets())
+    pages = rendered(site)
+    if _print_lost([*lost(site, pages)], strict=arguments.strict):
+        return 1
+    folder: Path = arguments.out or Path(mkdtemp(prefix="framegen-docs-"))
     # All pages are one output: which of the specs they come from, each of them says.
-    pages = render_site(project, snippets())
-    site = Output("site.manifest", "", pages, data=project.files)
-    for notice in write(folder, [site], force=arguments.force).notices:
+    output = Output("site.manifest", "", pages, data=site.project.files)
+    for notice in write(folder, [output], force=arguments.force).notices:
         print(notice, file=sys.stderr)
     index = folder / "index.html"
     print(index)
-    if arguments.open and not open_in_browser(index.resolve().as_uri()):
-        print("no browser was found; open the file yourself", file=sys.stderr)
+    if arguments.open:
+        _open(index)
     return 0
+
+
+def _print_lost(found: list[str], *, strict: bool) -> bool:
+    """Print what gets lost of the guides, and return whether that is a reason to write nothing."""
+    for each in found:
+        print(f"{each}\n", file=sys.stderr)
+    if found:
+        what = "nothing was written" if strict else "`--strict` makes it an error"
+        print(f"{pluralize(len(found), 'finding')} in the guides: {what}", file=sys.stderr)
+    return strict and bool(found)
+
+
+def _open(index: Path) -> None:
+    from webbrowser import open as open_in_browser  # noqa: PLC0415
+
+    if not open_in_browser(index.resolve().as_uri()):
+        print("no browser was found; open the file yourself", file=sys.stderr)

@@ -130,20 +130,14 @@ def _remark(found: Survey | Written) -> None:
 
 
 def _sum_up(outputs: Sequence[Output], specs: Sequence[Compiled], root: Path, what: str) -> None:
+    from framegen.project import near  # noqa: PLC0415
+
     files = pluralize(sum(len(output.files) + 1 for output in outputs), "file")
     source = specs[0].source.name if len(specs) == 1 else pluralize(len(specs), "spec")
     # Paths are shown as they are below the root: so it is said where that is another folder.
-    below = "" if os.path.realpath(root) == os.path.realpath(Path()) else f" below {_near(root)}"
+    is_here = os.path.realpath(root) == os.path.realpath(Path())
+    below = "" if is_here else f" below {visible(near(root).as_posix())}"
     _tell(f"{files} from {source}{below}: {what}")
-
-
-def _near(root: Path) -> str:
-    """Name a folder relative to the current one, where that is shorter."""
-    try:
-        relative = os.path.relpath(root)
-    except ValueError:  # on another drive
-        return visible(str(root))
-    return visible(min(Path(relative).as_posix(), str(root), key=len))
 
 
 def _tell(text: str) -> None:

@@ -48,6 +48,13 @@ class Navigation:
             found.append(SidebarSection(title, "", (*guides.values(),), (*groups.values(),)))
         return found
 
+    @property
+    def targets(self) -> frozenset[str]:
+        """What the plan may list: each guide, and the README of each reference."""
+        folders = (each.reference.folder for each in self.references.newest)
+        readmes = (f"reference/{folder}/README.md" for folder in folders)
+        return frozenset([*readmes, *(guide.path for guide in self.guides)])
+
     def link(self, guide: Guide) -> Link:
         """Return the link to a guide, with what the plan says of it."""
         entry = self.entries.get(guide.path)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from framegen.console import visible
 from framegen.reading.yamltree import Unusable
 from framegen.site.editions.released import read_released
-from framegen.site.guides.linked_files import linked_files
+from framegen.site.guides.linked_files import linked_files, pictures
 from framegen.site.guides.plan import README, Plan
 
 if TYPE_CHECKING:
@@ -30,7 +30,8 @@ class Project:
 
     Paths are below the folder of the guides. `base` is the address where the site will be, for
     links that must be whole; "" where nobody knows it. `version` is that of the project, if it
-    has any. `released` are the released editions of each protocol, the newest first.
+    has any. `released` are the released editions of each protocol, the newest first. `folder` is
+    that of the guides, as it was given.
     """
 
     specs: Sequence[Compiled]
@@ -39,6 +40,7 @@ class Project:
     base: str = ""
     version: str = ""
     released: Mapping[str, Sequence[Edition]] = field(default_factory=dict)
+    folder: str = "docs"
 
 
 def read_project(
@@ -56,12 +58,9 @@ def read_project(
         return Project([*specs.values()], base=base, released=editions)
     guides = {path: _text(docs / path) for path in _guides(docs)}
     guides |= _listed(docs, Plan(guides[README]))
-    files = {
-        file.relative_to(docs).as_posix(): file.read_bytes()
-        for file in sorted((docs / "images").glob("*"))
-    }
-    files |= linked_files(guides, docs)
-    return Project([*specs.values()], guides, files, base, _version(docs.parent), editions)
+    files = pictures(docs) | linked_files(guides, docs)
+    version, folder = _version(docs.parent), docs.as_posix()
+    return Project([*specs.values()], guides, files, base, version, editions, folder)
 
 
 def _refuse_twins(names: Mapping[Path, str]) -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
-from urllib.parse import quote
 
 from framegen import __version__
 from framegen.site.escape import script_json
 from framegen.site.guides.guide import Guide, page_of
 from framegen.site.guides.linked_files import is_linked, link_to
+from framegen.site.guides.lost import lost_in, lost_in_plan
 from framegen.site.guides.mentions import Mention, Mentions
 from framegen.site.guides.plan import README, Entry, Plan, Section
 from framegen.site.guides.rule_pages import rule_pages
@@ -26,7 +26,7 @@ from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.search.index import SearchIndex
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from markupsafe import Markup
 
@@ -40,7 +40,12 @@ _PREVIEW = "images/preview.png"
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
     """Render every page of a site, and the texts to download, by path below its root."""
-    site = Site(project, snippets)
+    return rendered(Site(project, snippets))
+
+
+def rendered(site: Site) -> dict[str, str]:
+    """Render the same of a site that may be asked for more."""
+    project = site.project
     refuse_twins(site.guides, site.pages)
     files = {page.path: render_page(site, page) for page in site.pages} | site.collection.files
     if project.base:
@@ -51,6 +56,17 @@ def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
         files["sitemap.xml"] = sitemap(project.base, listed)
         files["robots.txt"] = robots(project.base)
     return files
+
+
+def lost(site: Site, files: Mapping[str, str]) -> Iterator[str]:
+    """Yield what of the guides is not in the rendered files: where, what, and the way out."""
+    if site.plan is not None:
+        readme = Guide(README, site.plan.readme, site.published)
+        yield from lost_in_plan(
+            readme, site.plan, site.navigation.targets, files, site.project.folder
+        )
+    for guide in site.guides:
+        yield from lost_in(guide, files, site.project.folder)
 
 
 @dataclass(frozen=True)
@@ -119,7 +135,7 @@ class Site:
     def guides(self) -> list[Guide]:
         """The guides, those of the plan first and in its order."""
         found = [
-            Guide(path, text, self._published)
+            Guide(path, text, self.published)
             for path, text in self.project.guides.items()
             if path != README
         ]
@@ -127,10 +143,9 @@ class Site:
         return sorted(found, key=lambda guide: places.get(guide.path, len(places)))
 
     @cached_property
-    def _published(self) -> dict[str, str]:
+    def published(self) -> dict[str, str]:
         """What a link of a guide may lead to: files by path below the guides, and their pages."""
-        found = {path: path for path in self.project.files}
-        found |= {link_to(path): quote(path) for path in self.project.files if is_linked(path)}
+        found = {link_to(path) if is_linked(path) else path: path for path in self.project.files}
         found |= {path: page_of(path) for path in self.project.guides}
         for pages in self.references:
             view, above = pages.reference, f"reference/{pages.reference.folder}/"
@@ -216,7 +231,7 @@ class Site:
         )
         shown = [specimen(each) for each in self.references if first.startswith(each.folder)]
         return {
-            "introduction": None if plan is None else Introduction(plan, self._published),
+            "introduction": None if plan is None else Introduction(plan, self.published),
             "specimen": next(iter(shown), None),
         }
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import posixpath
-import re
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
-from urllib.parse import quote, unquote
+from urllib.parse import quote
 
 from markupsafe import Markup, escape
 
 from framegen.site.guides.highlight import code_block
+from framegen.site.guides.links import is_elsewhere, name_of
 from framegen.site.guides.markdown import parser, plain_text, slugs
 
 if TYPE_CHECKING:
@@ -21,9 +20,7 @@ if TYPE_CHECKING:
 
     from markdown_it.token import Token
 
-# The folder of the guides, by which other files of the project know it.
-_FOLDER = "docs"
-# Files outside of it become pages in here.
+# Files outside of the folder of the guides become pages in here.
 _OUTSIDE = "project"
 # Words of code that are longer may be broken, on a small display.
 _WHOLE = 24
@@ -97,30 +94,36 @@ class Guide:
         """Show a picture of the site. One from elsewhere becomes a link: pages load nothing."""
         source = str(image.attrGet("src"))
         address = self._address(source)
-        is_outside = re.match(r"https?:|//", source, re.IGNORECASE) is not None
-        if address is not None and not is_outside:
+        loads = is_elsewhere(source) and not source.startswith("data:")
+        if address is not None and not loads:
             image.attrSet("src", address)
             return
         image.type = "html_inline"
-        words = Markup("{}") if in_link or not is_outside else Markup('<a href="{1}">{0}</a>')
+        words = Markup("{}") if in_link or not loads else Markup('<a href="{1}">{0}</a>')
         image.content = str(words.format(plain_text(image) or source, source))
 
     def _address(self, link: str) -> str | None:
-        path, mark, anchor = link.partition("#")
-        if re.match(r"[a-z]+:", path) or not path:
+        if link.startswith("#") or is_elsewhere(link):
             return link
-        place = posixpath.join(_FOLDER, posixpath.dirname(self.path), path)
-        file = posixpath.normpath(place)
-        below = file.startswith(f"{_FOLDER}/")
-        name = file.removeprefix(f"{_FOLDER}/") if below else f"../{file}"
+        found = self.leads_to(link)
+        if found is None:
+            return None
+        page, anchor = found
+        return f"{'../' * self.page.count('/')}{quote(page)}{anchor and f'#{anchor}'}"
+
+    def leads_to(self, link: str) -> tuple[str, str] | None:
+        """Return the page or file of the site that a link leads to, and the anchor there."""
+        path, _, anchor = link.partition("#")
+        if not path:
+            return self.page, anchor
+        name = name_of(path, self.path)
         # A section may have become a page of its own.
         section = self.published.get(f"{name}#{anchor}")
         if section is not None:
-            return f"{'../' * self.page.count('/')}{section}"
-        page = self.published.get(name)
-        if page is None and unquote(name) in self.published:
-            page = quote(self.published[unquote(name)])
-        return None if page is None else f"{'../' * self.page.count('/')}{page}{mark}{anchor}"
+            return section, ""
+        # The README of a folder stands for it.
+        page = self.published.get(name) or self.published.get(f"{name}/README.md")
+        return None if page is None else (page, anchor)
 
 
 def _align(token: Token) -> None:

@@ -1,41 +1,50 @@
-"""The files that guides link to, such as recordings: they are part of the site, as they are."""
+"""The files that guides link to or show, such as recordings: they are part of the site as is."""
 
 from __future__ import annotations
 
-import re
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
-from urllib.parse import quote, unquote
 
 from framegen.console import visible
 from framegen.project import FOLDER as SPECS
 from framegen.reading.yamltree import Unusable
-from framegen.site.guides.markdown import parse
+from framegen.site.guides.links import FOLDER as GUIDES
+from framegen.site.guides.links import is_elsewhere, links_of, name_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
 # Below the root of the site.
 FOLDER = "files"
+# Those that are shown lie in a folder of their own, whether a guide shows them or not.
+PICTURES = "images"
 _MAX_BYTES = 10_000_000
-# Cheaper than to parse every guide for links that few of them have.
-_MAY_LINK = re.compile(r"\.\./")
+
+
+def pictures(docs: Path) -> dict[str, bytes]:
+    """Read the folder of pictures, by path below the folder of the guides."""
+    files = sorted(docs.joinpath(PICTURES).rglob("*"))
+    named = {file.relative_to(docs).as_posix(): file for file in files if file.is_file()}
+    return {name: file.read_bytes() for name, file in named.items() if not _is_hidden(name)}
 
 
 def linked_files(guides: Mapping[str, str], docs: Path) -> dict[str, bytes]:
-    """Read the files of a project that guides link to, by path below the root of the site.
+    """Read the files of a project that guides link to or show, by path below the root of the site.
 
-    Markdown and specs are no files: the first stays with the sources of the project, and the second
-    has pages. Beside a file comes the Markdown that tells what it holds, `line.md` for `line.bin`.
-    Raises Unusable for a file that is too large.
+    Markdown and specs are no files: the first is a page or stays with the sources of the project,
+    and the second has pages. Beside a file comes the Markdown that tells what it holds, `line.md`
+    for `line.bin`. Raises Unusable for a file that is too large.
     """
     root = docs.parent
     found: dict[str, bytes] = {}
-    for link in sorted({link for text in guides.values() for link in _links(text)}):
-        for path in (link, link.with_suffix(".md")):
-            if _is_there(root / path, root):
-                found[f"{FOLDER}/{path}"] = _content(root / path)
+    for link in sorted({link for guide, text in guides.items() for link in _files(guide, text)}):
+        # Among the guides, Markdown is a page of its own.
+        is_below = link.parts[0] == GUIDES
+        for path in (link,) if is_below else (link, link.with_suffix(".md")):
+            file = docs / path.relative_to(GUIDES) if is_below else root / path
+            if _is_there(file, root):
+                found[f"{FOLDER}/{path}"] = _content(file)
     return found
 
 
@@ -45,25 +54,29 @@ def is_linked(path: str) -> bool:
 
 
 def link_to(path: str) -> str:
-    """Return the address of such a file from the folder of the guides, as they link to it."""
-    return f"../{quote(path.removeprefix(f'{FOLDER}/'))}"
+    """Return the name of such a file from the folder of the guides, as they link to it."""
+    below = path.removeprefix(f"{FOLDER}/")
+    return below.removeprefix(f"{GUIDES}/") if below.startswith(f"{GUIDES}/") else f"../{below}"
 
 
-def _links(text: str) -> Iterator[PurePosixPath]:
-    """Yield the links to files of the project that are not in the folder of the guides."""
-    if not _MAY_LINK.search(text):
-        return
-    for token in parse(text):
-        for each in token.children or ():
-            path = unquote(str(each.attrGet("href") or "").partition("#")[0])
-            steps = PurePosixPath(path).parts[1:]
-            if path.startswith("../") and steps and _is_file(steps):
-                yield PurePosixPath(*steps)
+def _files(guide: str, text: str) -> Iterator[PurePosixPath]:
+    """Yield what a guide links to or shows of the project, but for pages and pictures."""
+    for link in links_of(text):
+        path = link.target.partition("#")[0]
+        if link.kind != "html" and path and not is_elsewhere(path):
+            name = name_of(path, guide)
+            below = name.removeprefix("../") if name.startswith("../") else f"{GUIDES}/{name}"
+            if _is_file(PurePosixPath(below)):
+                yield PurePosixPath(below)
 
 
-def _is_file(steps: Sequence[str]) -> bool:
-    hidden = any(step.startswith(".") for step in steps)
-    return not hidden and steps[0] != SPECS and not steps[-1].endswith(".md")
+def _is_file(path: PurePosixPath) -> bool:
+    shown = path.parts[:1] == (SPECS,) or path.parts[:2] == (GUIDES, PICTURES)
+    return not (shown or path.suffix == ".md" or _is_hidden(path.as_posix()))
+
+
+def _is_hidden(path: str) -> bool:
+    return any(step.startswith(".") for step in path.split("/"))
 
 
 def _is_there(file: Path, root: Path) -> bool:
