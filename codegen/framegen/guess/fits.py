@@ -96,6 +96,14 @@ def checksum_fits(frames: Sequence[bytes], ended: int) -> list[ChecksumFit]:
     return [fit for fit in fits if _is_believed(fit, frames)]
 
 
+def likely_checksums(frames: Sequence[bytes], ended: int) -> list[ChecksumFit]:
+    """Return those in one piece that are right for all of a few frames, which may be chance."""
+    if len(frames) * 8 >= _ENOUGH_BITS:
+        return []
+    fits = _fitting(sorted(frames, key=len), ended, _MOST_IN_FRONT, _in_one_piece)
+    return [fit for fit in fits if _varies(fit, frames)]
+
+
 def _fitting(
     frames: Sequence[bytes],
     ended: int,
@@ -135,10 +143,13 @@ def _is_worth_it(fit: ChecksumFit, frames: Sequence[bytes]) -> bool:
 
 def _is_believed(fit: ChecksumFit, frames: Sequence[bytes]) -> bool:
     right = sum(map(fit.holds, frames))
-    # Where all frames have the same checksum, it may as well be a constant.
-    values = {frame[len(frame) - fit.behind - fit.size :][: fit.size] for frame in frames}
     return (
         right >= _MOST_FRAMES * len(frames)
         and right * fit.width >= _ENOUGH_BITS
-        and len(values) > 1
+        and _varies(fit, frames)
     )
+
+
+def _varies(fit: ChecksumFit, frames: Sequence[bytes]) -> bool:
+    """Return whether checksums differ: the same in all frames may as well be a constant."""
+    return len({frame[len(frame) - fit.behind - fit.size :][: fit.size] for frame in frames}) > 1

@@ -119,6 +119,13 @@ class Framing:
         return _common([frame[::-1] for frame in self.distinct])[::-1]
 
     @cached_property
+    def gaps(self) -> tuple[bytes, ...]:
+        """What stands between frames, and behind the last; nothing in front of the first."""
+        starts = [start for start, _ in self.places[1:]] + [len(self.data)]
+        ends = (end for _, end in self.places)
+        return tuple(self.data[end:start] for end, start in zip(ends, starts, strict=True))
+
+    @cached_property
     def constant_bits(self) -> float:
         """How little chance it is that all frames begin and end with the same bytes, in bits.
 
@@ -140,6 +147,13 @@ class Framing:
         return Framing(
             self.data,
             tuple((start - by, end - by) for start, end in self.places if start >= by),
+        )
+
+    def taking(self, before: int) -> Framing:
+        """Return the frames with so many bytes more, which stand before them."""
+        return Framing(
+            self.data,
+            tuple((start - before, end) for start, end in self.places if start >= before),
         )
 
 
@@ -229,6 +243,10 @@ def _settled(framing: Framing) -> Framing | None:
     """
     if len(framing.places) < 3:
         return None
+    between = {*framing.gaps[:-1]}
+    if len(between) == 1 and (always := len(next(iter(between)))):
+        # What stands between any two frames is of one of them.
+        framing = framing.taking(always)
     if framing.places[0][0] == 0 and framing.places[-1][1] == len(framing.data):
         return framing
     back = len(framing.ended)

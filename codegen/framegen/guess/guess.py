@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 # Another reading with so many of the bits that agree is no worse.
 _AS_GOOD = 0.67
 
+# So many checksums that may be chance are named.
+_NAMED = 4
+
 
 @dataclass(frozen=True)
 class Conclusion:
@@ -90,10 +93,20 @@ class Guess:
     def _checksum(self) -> Conclusion:
         fits: Sequence[ChecksumFit | HiddenFit] = self.reading.checks or self.reading.hidden
         if not fits:
-            says = "no method of the catalogue is right over any bytes that were tried"
-            return Conclusion("checksum", says, is_decided=False)
+            return self._likely_checksum()
         first, *others = dict.fromkeys(map(_checksum, fits))
         return Conclusion("checksum", first, self.reading.check_is_decided, tuple(others))
+
+    def _likely_checksum(self) -> Conclusion:
+        fits = self.reading.likely_checks
+        if not fits:
+            says = "no method of the catalogue is right over any bytes that were tried"
+            return Conclusion("checksum", says, is_decided=False)
+        count = pluralize(len(self.reading.frames), "different frame")
+        says = f"{count} are too few to tell whether there is one"
+        right = tuple(f"right for all: {each}" for each in map(_checksum, fits[:_NAMED]))
+        more = (f"and {len(fits) - _NAMED} more",) if len(fits) > _NAMED else ()
+        return Conclusion("checksum", says, is_decided=False, others=right + more)
 
     def _ids(self) -> Conclusion:
         ids = self.reading.ids
@@ -126,7 +139,7 @@ def _frames(reading: Reading) -> str:
     least, most = sizes[0], sizes[-1]
     span = pluralize(least, "byte") if least == most else f"{least} to {most} bytes"
     frames = pluralize(len(reading.framing.places), "frame")
-    begun = reading.framing.begun[:4].hex(" ").upper()
+    begun = reading.framing.begun[:4].hex(" ").upper() if reading.beginning_is_decided else ""
     return f"{frames} of {span}" + (f" that begin {begun}" if begun else "")
 
 

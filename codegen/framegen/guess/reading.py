@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.guess.fits import checksum_fits, length_fits
+from framegen.guess.fits import checksum_fits, length_fits, likely_checksums
 from framegen.guess.framing import MOST_BEFORE, Framing, framed_by_header
 from framegen.guess.hidden import hidden_fits
 from framegen.guess.ids import IdFit, id_fit
@@ -31,6 +31,10 @@ _MOST = 0.9
 # Frames that were chosen by a checksum of a byte are many before they are no chance: there are
 # hundreds of methods and ways to cut a line.
 _LEAST_BITS = 64
+# A header is chosen as well, of a few hundred readings.
+_LEAST_BITS_OF_A_HEADER = 40
+# So many bytes of a header, in so many places where no frame begins for each frame, are others.
+_HEADER, _MOST_PASSED = 2, 0.1
 # Fewer frames show nothing.
 _ENOUGH_FRAMES = 3
 # Two sizes may agree with a number by chance.
@@ -62,6 +66,11 @@ class Reading:
     def checks(self) -> list[ChecksumFit]:
         """What the last bytes may be a checksum of, and how."""
         return checksum_fits(self.frames, min(_MOST_BEHIND, len(self.framing.ended)))
+
+    @cached_property
+    def likely_checks(self) -> list[ChecksumFit]:
+        """The same, where there are too few frames to believe it."""
+        return likely_checksums(self.frames, min(_MOST_BEHIND, len(self.framing.ended)))
 
     @cached_property
     def hidden(self) -> list[HiddenFit]:
@@ -150,11 +159,26 @@ class Reading:
 
     @property
     def is_enough(self) -> bool:
-        """Whether it explains so much that it is no chance."""
-        if self.framing.chosen_bits and self.weight < _LEAST_BITS:
+        """Whether it explains so much that it is no chance, and passes over no other frames."""
+        least = _LEAST_BITS if self.framing.chosen_bits else _LEAST_BITS_OF_A_HEADER
+        if self.weight < least or self._passed_over > _MOST_PASSED * len(self.framing.places):
             return False
         share = self.framing.covered / len(self.framing.data)
         return share >= (_NEARLY if self.is_proven else _MOST_UNPROVEN)
+
+    @property
+    def _passed_over(self) -> int:
+        """How often the beginning of frames stands where none begins in this reading.
+
+        Within frames, a single byte says nothing.
+        """
+        header = self.framing.begun[:_HEADER]
+        if not header:
+            return 0
+        inside = self.frames if len(header) == _HEADER else ()
+        return sum(gap.count(header) for gap in self.framing.gaps) + sum(
+            frame.count(header, 1) for frame in inside
+        )
 
     @property
     def length_is_decided(self) -> bool:
@@ -190,11 +214,17 @@ class Reading:
         )
 
     def is_stricter(self, other: Reading) -> bool:
-        """Return whether about as many frames have more in common here."""
+        """Return whether frames have more in common here, or a checksum where they had none.
+
+        If they are about as many, those where the recording itself begins and ends come first.
+        """
         here, there = self.framing, other.framing
-        return len(here.places) >= _MOST * len(there.places) and (
-            here.constant_weight > there.constant_weight
-        )
+        if len(here.places) < _MOST * len(there.places):
+            is_more = here.covered >= there.covered and here.constant_bits > there.constant_bits
+            return is_more and self.is_proven and not other.is_proven
+        if self.beginning_is_decided != other.beginning_is_decided:
+            return self.beginning_is_decided
+        return here.constant_weight > there.constant_weight
 
 
 def readings(capture: Capture) -> list[Reading]:
