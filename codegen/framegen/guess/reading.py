@@ -33,8 +33,9 @@ _MOST = 0.9
 _LEAST_BITS = 64
 # A header is chosen as well, of a few hundred readings.
 _LEAST_BITS_OF_A_HEADER = 40
-# So many bytes of a header, in so many places where no frame begins for each frame, are others.
-_HEADER, _MOST_PASSED = 2, 0.1
+# So many bytes of a header that stand where no frame begins, in so many places for each frame but
+# a few, show that there are other frames.
+_HEADER, _MOST_PASSED = 2, 0.3
 # Fewer frames show nothing.
 _ENOUGH_FRAMES = 3
 # Two sizes may agree with a number by chance.
@@ -161,7 +162,8 @@ class Reading:
     def is_enough(self) -> bool:
         """Whether it explains so much that it is no chance, and passes over no other frames."""
         least = _LEAST_BITS if self.framing.chosen_bits else _LEAST_BITS_OF_A_HEADER
-        if self.weight < least or self._passed_over > _MOST_PASSED * len(self.framing.places):
+        few = _MOST_PASSED * len(self.framing.places) - 1
+        if self.weight < least or self._passed_over > max(0, few):
             return False
         share = self.framing.covered / len(self.framing.data)
         return share >= (_NEARLY if self.is_proven else _MOST_UNPROVEN)
@@ -220,8 +222,9 @@ class Reading:
         """
         here, there = self.framing, other.framing
         if len(here.places) < _MOST * len(there.places):
-            is_more = here.covered >= there.covered and here.constant_bits > there.constant_bits
-            return is_more and self.is_proven and not other.is_proven
+            if here.covered < _MOST * there.covered or here.constant_bits <= there.constant_bits:
+                return False
+            return self.is_proven and not other.is_proven
         if self.beginning_is_decided != other.beginning_is_decided:
             return self.beginning_is_decided
         return here.constant_weight > there.constant_weight
