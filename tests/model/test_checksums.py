@@ -237,6 +237,26 @@ def test_a_method_that_is_none_is_answered_with_those_that_most_protocols_use() 
     assert hint.endswith(f"or {len(CHECKSUMS) - named} others")
 
 
+@pytest.mark.parametrize(
+    ("method", "width"),
+    [("crc-16/acme", 16), ("crc-8/zz", 8), ("CRC16-MY-OWN", 16), ("crc-32/ogg", 32)],
+)
+def test_another_crc_is_not_suggested_for_one_that_is_unknown(method: str, width: int) -> None:
+    hint = suggest(method)
+    assert "did you mean" not in hint
+    named = [name for name in CHECKSUMS if f"`{name}`" in hint]
+    assert len(named) == 12
+    assert all(name.startswith(f"crc-{width}/") for name in named)
+    assert "has the parameters of each" in hint
+
+
+@pytest.mark.parametrize("method", CHECKSUMS)
+def test_a_slip_in_a_name_is_answered_with_that_name(method: str) -> None:
+    near = {f"did you mean `{method}`?", f"write `{method}`, which is the same method"}
+    slip = f"{method[:-1]}{method[-1] * 2}"
+    assert suggest(slip) in near or len(method.partition("/")[2]) < 4
+
+
 def test_every_other_name_leads_to_methods_and_is_none_itself() -> None:
     others = {**_LOOSE_NAMES, **{names: (name,) for name, names in _OTHER_NAMES.items()}}
     for names, meant in others.items():

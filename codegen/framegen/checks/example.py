@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.checks.other_checksum import checksum_hint
 from framegen.checks.rule import ModelRule, Problem
-from framegen.explanation.refusals import BAD_CHECKSUM
+from framegen.checks.wrong_checksum import other_id, wrong_checksum
+from framegen.explanation.refusals import BAD_CHECKSUM, UNKNOWN_COMMAND
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.slots import Constant, Number
@@ -34,8 +35,12 @@ def _executed(
     try:
         decoded = decode(model, message.direction, example.hex)
     except NotAFrame as error:
-        what = f"this is no frame of {message.name}: {error}"
-        yield Problem((*path, "hex"), what, partial(_hint, model, message, example, error.reason))
+        # An id proves nothing where a checksum says that it may be another.
+        unproven = error.reason == UNKNOWN_COMMAND
+        wrong = wrong_checksum(model, message, example.hex) if unproven else ""
+        reason = BAD_CHECKSUM if wrong else error.reason
+        what = f"this is no frame of {message.name}: {wrong or error}"
+        yield Problem((*path, "hex"), what, partial(_hint, model, message, example, reason))
         return
     if decoded.layout is not message:
         yield Problem((*path, "hex"), _other(message, decoded.layout))
@@ -49,10 +54,11 @@ def _executed(
 
 def _hint(model: Model, message: MessageLayout, example: Example, reason: str) -> str:
     """Say what would make a frame of an example that is none."""
-    other_length = partial(_other_length, model, message, example.hex)
+    data = example.hex
+    mended = _other_length(model, message, data) or other_id(model, message, data)
     if reason == BAD_CHECKSUM:
-        return other_length() or checksum_hint(model, message, example.hex)
-    return _other_order(model, message, example) or other_length()
+        return mended or checksum_hint(model, message, data)
+    return _other_order(model, message, example) or mended
 
 
 def _other_length(model: Model, message: MessageLayout, data: bytes) -> str:

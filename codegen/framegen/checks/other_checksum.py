@@ -49,10 +49,13 @@ def _hint(model: Model, frame: Envelope, checksum: Number, right: bytes) -> str:
         list(_sealed(model, frame, checksum, published=is_so)) for is_so in (True, False)
     )
     sealed = published or made_up
+    kind = "published example" if published and made_up else "example"
+    agree = f"all {len(sealed)} {kind}s" if len(sealed) > 1 else f"the one {kind}"
+    if _agree(checksum.method, checksum.order, checksum.of, sealed):
+        own = "agree" if len(sealed) > 1 else "agrees"
+        return f"{agree} {own} with the spec: write {to_hex(right)} there"
     others = _others(frame, checksum, sealed)
     if others and len(others) <= _MOST:
-        kind = "published example" if published and made_up else "example"
-        agree = f"all {len(sealed)} {kind}s" if len(sealed) > 1 else f"the one {kind}"
         return f"{agree} would agree with {' or with '.join(others)}"
     return (
         f"if the frame was made up, write {to_hex(right)} there; if it was published, the method, "

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from difflib import get_close_matches
 from functools import cache
 from typing import TYPE_CHECKING
 
-from framegen.reading.findings import did_you_mean
+from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Collection, Iterator, Mapping, Sequence
 
 CHECK_DATA = b"123456789"
 """What the check value of a method is the checksum of."""
@@ -497,9 +498,46 @@ def suggest(method: str) -> str:
     if meant:
         choices = "; or ".join(f"`{name}`, {CHECKSUMS[name].about}" for name in meant)
         return f"that name stands for several methods: write {choices}"
-    choose = ", ".join(f"`{name}`" for name in (*(row.name for row in _SUMS), *_COMMON_CRCS))
-    others = len(CHECKSUMS) - len(_SUMS) - len(_COMMON_CRCS)
-    return did_you_mean(method, CHECKSUMS, otherwise=f"choose one of {choose} or {others} others")
+    near = _near(plain, known)
+    if near:
+        return f"did you mean `{near}`?"
+    crc = _CRC.match(plain)
+    alike = [name for name in CHECKSUMS if crc and name.startswith(f"crc-{crc[1]}/")]
+    if alike:
+        alike.sort(key=lambda name: name not in _COMMON_CRCS)
+        return f"{_listed(alike, alike)}; {_TRY}"
+    common = [*(row.name for row in _SUMS), *_COMMON_CRCS]
+    return _listed(common, CHECKSUMS)
+
+
+# A name of other letters than these is no slip, but another method.
+_ALMOST_EQUAL = 0.8
+_MOST_NAMED = 12
+_CRC = re.compile(r"crc([0-9]+)(.*)")
+_TRY = (
+    "the guide `Write a spec` has the parameters of each; if none are known, write any, and "
+    "examples show which one is right"
+)
+
+
+def _near(plain: str, known: Mapping[str, Sequence[str]]) -> str:
+    """Return the method whose name is almost the same; of CRCs, their width does not count."""
+    given = _CRC.match(plain)
+    names = {
+        (found[2] if found else key): meant[0]
+        for key, meant in known.items()
+        for found in [_CRC.match(key)]
+        if (found and found[1]) == (given and given[1])
+    }
+    near = get_close_matches(given[2] if given else plain, names, 1, _ALMOST_EQUAL)
+    return names[near[0]] if near else ""
+
+
+def _listed(names: Sequence[str], known: Collection[str]) -> str:
+    """Offer a choice of some names of those that are known."""
+    shown = ", ".join(f"`{name}`" for name in names[:_MOST_NAMED])
+    others = len(known) - len(names[:_MOST_NAMED])
+    return f"choose one of {shown}" + (f" or {pluralize(others, 'other')}" if others else "")
 
 
 @cache
