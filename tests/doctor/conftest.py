@@ -1,4 +1,4 @@
-"""What holds for tests that start boards, and what shortens those in real time."""
+"""What holds for tests that start boards, what shortens those in real time, and libraries."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ import pytest
 from busservo._cli.checks import silence
 
 from tests.boards import no_board_refuses_anything, pytest_runtest_makereport
+from tests.protocols.conftest import libraries
 from tests.timeouts import undoubted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
+__all__ = ["libraries", "no_board_refuses_anything", "pytest_runtest_makereport"]
 
 
 @pytest.fixture

@@ -18,11 +18,13 @@ from tests.independent.firmware import battery_question, battery_reply
 from tests.independent.levels import received
 from tests.independent.ports import StrangersPort, VirtualPort
 from tests.independent.strangers import BANNER, GPS, MODEM, SKETCH, Print, Stranger
+from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from tests.independent.faults import Script
+    from tests.protocols.libraries import Libraries
 
 # What the doctor takes at most of the device's time, whatever comes.
 LONGEST = 60.0
@@ -307,6 +309,33 @@ def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size:
 def test_every_library_says_what_it_recognises(device: Stranger, state: str, seen: str) -> None:
     found = examined(device, "lxservo")["look-alike"]
     assert (found.state, seen in found.seen) == (state, True), found
+
+
+# Devices that are of no protocol, on a line of some rate.
+OF_NONE: dict[str, Callable[[float], Stranger]] = {
+    "a GPS receiver": lambda rate: Stranger(Print(0.05, GPS, 0.3), rate=rate),
+    "a modem": lambda rate: Stranger(answer=lambda _: MODEM, rate=rate),
+    "an Arduino": lambda rate: Stranger(Print(0.1, SKETCH, 0.1), rate=rate),
+    "a banner": lambda rate: Stranger(Print(0.1, BANNER), rate=rate, resets=True),
+    "an inverted line": lambda rate: Stranger(Print(0.05, GPS, 0.3), rate=rate, inverted=True),
+    "noise": lambda rate: Stranger(Print(0.05, 40 * NOISE, 0.4), rate=rate),
+    "zeros": lambda rate: Stranger(Print(0.05, bytes(20), 0.4), rate=rate),
+}
+TEXTUAL = {"a GPS receiver", "an Arduino", "a banner"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name != "roboclaw")) for name in FILES]
+)
+def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
+    libraries: Libraries, name: str
+) -> None:
+    package = libraries[name].__name__
+    rate = import_module(f"{package}._frame.protocol").BAUD
+    for device, made in OF_NONE.items():
+        found = examined(made(rate), package)["look-alike"]
+        assert found.state == UNKNOWN, (device, found)
+        assert ("text: " in found.seen) is (device in TEXTUAL) or device == "a modem", device
 
 
 # --- What is text --------------------------------------------------------------------------------

@@ -1,0 +1,111 @@
+"""What came over a line in pieces: its events with their times, and noise apart at each silence."""
+
+from __future__ import annotations
+
+import pytest
+from busservo._cli.checks.heard import PAUSE, Heard
+from busservo._codec.event_bytes import bytes_of
+from hypothesis import given
+from hypothesis import strategies as st
+
+REPLY = "55 55 04 0F 4C 1D"
+LATER = PAUSE + 0.001
+# Pieces as the seconds since the one before and the bytes, the bytes that are left out; and the
+# events with when each was complete, and the runs of noise.
+CASES = {
+    "a reply": ([(1.0, REPLY)], range(0), [(1.0, REPLY)], []),
+    "a reply in pieces": (
+        [(1.0, "55 55 04"), (0.01, "0F 4C 1D")],
+        range(0),
+        [(1.01, REPLY)],
+        [],
+    ),
+    "a reply with a silence in it": (
+        [(1.0, "55 55 04"), (LATER, "0F 4C 1D")],
+        range(0),
+        [(1.0 + LATER, REPLY)],
+        [],
+    ),
+    "noise in pieces": ([(1.0, "00 01"), (0.01, "02")], range(0), [(1.01, "00 01 02")], ["000102"]),
+    "noise before and behind a silence": (
+        [(1.0, "00 01"), (LATER, "02")],
+        range(0),
+        [(1.0, "00 01"), (1.0 + LATER, "02")],
+        ["0001", "02"],
+    ),
+    "a cut reply, a silence, and text": (
+        [(1.0, "55 55 04"), (LATER, "0D 0A 4F 4B")],
+        range(0),
+        [(1.0, "55 55 04"), (1.0 + LATER, "0D 0A 4F 4B")],
+        ["555504", "0d0a4f4b"],
+    ),
+    "a cut reply and text at once": (
+        [(1.0, "55 55 04 0D 0A 4F 4B")],
+        range(0),
+        [(1.0, "55 55 04 0D 0A 4F"), (1.0, "4B")],
+        ["5555040d0a4f4b"],
+    ),
+    "noise around a reply": (
+        [(1.0, f"00 {REPLY} 01")],
+        range(0),
+        [(1.0, "00"), (1.0, REPLY), (1.0, "01")],
+        ["00", "01"],
+    ),
+    "an echo, a silence, and noise": (
+        [(1.0, "55 55 02 0F"), (LATER, "00"), (LATER, "01")],
+        range(4),
+        [(1.0 + LATER, "00"), (1.0 + 2 * LATER, "01")],
+        ["00", "01"],
+    ),
+    "noise, an echo, and a silence": (
+        [(1.0, "00 55 55 02 0F"), (LATER, "01")],
+        range(1, 5),
+        [(1.0, "00"), (1.0 + LATER, "01")],
+        ["00", "01"],
+    ),
+    "a silence within an echo": (
+        [(1.0, "00 55 55"), (LATER, "02 0F 01")],
+        range(1, 5),
+        [(1.0, "00"), (1.0 + LATER, "01")],
+        ["00", "01"],
+    ),
+    "nothing": ([], range(0), [], []),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_noise_has_no_silence_in_it_and_a_message_may(name: str) -> None:
+    given_pieces, left_out, events, runs = CASES[name]
+    now, pieces = 0.0, []
+    for wait, data in given_pieces:
+        now += wait
+        pieces.append((now, bytes.fromhex(data)))
+    heard = Heard(pieces, left_out)
+    found = [(round(at, 6), bytes_of(event).hex(" ").upper()) for at, event in heard.events]
+    assert found == [(round(at, 6), data) for at, data in events]
+    assert [b"".join(each.data for each in run).hex() for run in heard.runs] == runs
+
+
+waits = st.sampled_from([0.0, 0.01, LATER, 1.0])
+some_bytes = st.sampled_from([bytes.fromhex(REPLY), b"\x55\x55\x04", b"OK", b"U"]) | st.binary(
+    min_size=1, max_size=4
+)
+
+
+@given(st.lists(st.tuples(waits, some_bytes), max_size=8), st.integers(0, 9), st.integers(0, 4))
+def test_every_byte_is_in_one_event_and_times_never_run_back(
+    given_pieces: list[tuple[float, bytes]], start: int, size: int
+) -> None:
+    now, pieces = 0.0, []
+    for wait, data in given_pieces:
+        now += wait
+        pieces.append((now, data))
+    whole = b"".join(data for _, data in pieces)
+    left_out = range(min(start, len(whole)), min(start + size, len(whole)))
+    heard = Heard(pieces, left_out)
+    kept = whole[: left_out.start] + whole[left_out.stop :]
+    assert b"".join(bytes_of(event) for _, event in heard.events) == kept
+    times = [at for at, _ in heard.events]
+    assert times == sorted(times)
+    noise = b"".join(each.data for run in heard.runs for each in run)
+    assert len(noise) + sum(len(each.encode()) for each in heard.messages) == len(kept)
