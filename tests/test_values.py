@@ -5,7 +5,16 @@ from decimal import Decimal
 from typing import Any
 
 import pytest
-from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex, to_hex
+from framegen.language.values import (
+    Citation,
+    Direction,
+    Failure,
+    Method,
+    Range,
+    Scale,
+    parse_hex,
+    to_hex,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -36,6 +45,10 @@ WORDS = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
         (Citation.parse, "vendor, section 1.1", Citation("vendor", "section 1.1")),
         (Citation.parse, "vendor", Citation("vendor", "")),
         (Citation.parse, " vendor ,  a, b ", Citation("vendor", "a, b")),
+        (Failure.parse, "error", Failure("error")),
+        (Failure.parse, " status  unless 1 ", Failure("status", 1)),
+        (Failure.parse, "status unless 0xFF", Failure("status", 255)),
+        (Failure.parse, "status unless -1", Failure("status", -1)),
         (Method.parse, "stop()", Method("stop", (), "")),
         (Method.parse, "run(group, times)", Method("run", ("group", "times"), "")),
         (Method.parse, "read() -> voltage", Method("read", (), "voltage")),
@@ -80,6 +93,10 @@ def test_a_notation_is_read(parse: Callable[[str], Any], text: str, value: objec
         (Citation.parse, "", "like `vendor, section 1.1`"),
         (Citation.parse, " , section 1.1", "like `vendor, section 1.1`"),
         (Method.parse, "", "like `read_positions(servo_ids) -> positions`"),
+        (Failure.parse, "", "like `error`, or the value that it has then, like `status unless 1`"),
+        (Failure.parse, "status unless", "`status unless` says no failure"),
+        (Failure.parse, "status unless ok", "write a field that is 0 where nothing has failed"),
+        (Failure.parse, "status is 1", "`status is 1` says no failure"),
         (Method.parse, "stop", "write name, arguments and what it returns"),
         (Method.parse, "run(group,)", "write name, arguments and what it returns"),
         (Method.parse, "run(,)", "write name, arguments and what it returns"),

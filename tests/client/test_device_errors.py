@@ -17,6 +17,7 @@ from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
 NAMES = ("dynamixel1", "modbus")
 
@@ -164,3 +165,22 @@ def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
     with client("dynamixel1", ping + status) as bus:  # nobody spoke of an echo, and it is dropped
         assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
         assert bus.counters.unsolicited == 1
+
+
+@pytest.mark.parametrize(("status", "good", "fails"), [(1, 1, False), (0, 1, True), (2, 1, True)])
+def test_a_status_with_another_good_value_fails_with_all_others(
+    status: int, good: int, fails: bool, tmp_path: Path
+) -> None:
+    """A sensor whose status is 1 after a success raised on every success."""
+    spec = data_of(FILES["dynamixel1"])
+    spec["protocol"]["name"] = "well"
+    spec["messages"]["Status"]["failure"] = f"error unless {good}"
+    answer = frame("dynamixel1", "Status", servo_id=1, error=status, data=[])
+    with library(files_of(spec), tmp_path) as well:
+        line = ScriptedLine(lambda _: answer)
+        with well.Controller(line, background=False, clock=line.clock, settle=0) as bus:
+            if fails:
+                with pytest.raises(well.FailureError, match=f"error is {status}"):
+                    bus.ping(1)
+            else:
+                assert bus.ping(1).error == status

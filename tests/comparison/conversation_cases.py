@@ -190,6 +190,16 @@ CASES: dict[str, Case] = {
         DYNAMIXEL,
         [Said(_OLD_DXL, "no error", "Ping", breaks=False), Said(_NEW_DXL, "error", "Ping")],
     ),
+    "another value is the good one": Case(
+        DYNAMIXEL,
+        with_(DYNAMIXEL, "messages", "Status", "failure", "error unless 1"),
+        [
+            Said(_OLD_DXL, "error", "Ping"),
+            Said(_OLD_DXL, "no error", "Ping"),
+            Said(_NEW_DXL, "error", "Ping"),
+            Said(_NEW_DXL, "no error", "Ping"),
+        ],
+    ),
     "an answer may be taken for another": Case(
         DYNAMIXEL,
         with_(DYNAMIXEL, "messages", "SyncWrite", "reply", "Status"),

@@ -144,6 +144,10 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "sizes of optional fields": (ALL, with_(ALL, *TAIL, "length", [2, 10])),
     "field not optional any more": (ALL, with_(ALL, *TAIL, "fields", "second", "optional", GONE)),
     "failure": (ALL, with_(ALL, "messages", "Texts", "failure", "size")),
+    "good value of a failure": (
+        with_(ALL, "messages", "Texts", "failure", "size"),
+        with_(ALL, "messages", "Texts", "failure", "size unless 1"),
+    ),
     "local echo": (ALL, with_(ALL, "link", "local_echo", True)),
     "bytes of a constant field": (
         ALL,

@@ -278,9 +278,8 @@ def _reply(exchange: Any, asked: Mapping[str, Any]) -> str | None:
     if exchange.reply is None:
         return None
     usual = usual_values(exchange.reply)
-    failure = getattr(exchange.failures, "_field", "")
-    if failure:
-        usual[failure] = 0
+    if exchange.failures.field:
+        usual[exchange.failures.field] = exchange.failures.good
     address = getattr(exchange.address, "field", "")
     if address in usual and address in asked:
         usual[address] = asked[address]

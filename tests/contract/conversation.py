@@ -161,7 +161,7 @@ def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request:
     """Return the reply of an example, with the values that it must repeat."""
     values = dict(layout.message.examples[0].values)
     if exchange.failure is not None:
-        values[exchange.failure.name] = 0
+        values[exchange.failure.name] = exchange.good
     address = layout.frame.address
     if exchange.address is not None and address is not None:
         asked = getattr(request, exchange.address.name)

@@ -89,7 +89,7 @@ def _replied(exchange: Exchange, reply: MessageLayout, asked: dict[str, Any]) ->
     repeated += [there for own, there in exchange.echoed if own == there]
     values |= {name: asked[name] for name in repeated if name in asked and name in values}
     if exchange.failure is not None and exchange.failure.name in values:
-        values[exchange.failure.name] = 0
+        values[exchange.failure.name] = exchange.good
     return values
 
 

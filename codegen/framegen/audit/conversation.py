@@ -142,10 +142,10 @@ class Conversations:
 def _answered(pending: tuple[Conversation, Sighting], name: str, answer: Sighting) -> None:
     found, request = pending
     found.answered += 1
-    refusal, failure = found.exchange.refusal, found.exchange.failure
+    refusal = found.exchange.refusal
     if refusal is not None and refusal.name == name:
         found.refused += 1
-    elif failure is not None and answer.values[failure.name]:
+    elif found.exchange.has_failed(answer.values):
         found.failed += 1
     if request.stretch.at is not None and answer.stretch.at is not None:
         found.seconds.append(_seconds(request, answer))

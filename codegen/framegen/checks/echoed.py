@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.checks.field_values import values_at
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.number_types import NUMBER_TYPES
-from framegen.language.spec import ListField
 from framegen.model.exchanges import paths_of
 from framegen.reading.findings import did_you_mean
 
@@ -54,32 +53,12 @@ def _room(
     path: KeyPath, request: tuple[Message, str], answer: tuple[Message, str]
 ) -> Iterator[Problem]:
     """Find values that can be requested but not reported: such a request never gets a reply."""
-    requested, reported = _values(*request), _values(*answer)
+    requested, reported = values_at(*request), values_at(*answer)
     if requested is None or reported is None:
         return
-    (low, high), (lowest, highest) = requested, reported
-    if low < lowest or high > highest:
-        what = (
-            f"`{request[1]}` may be {low}..{high}, "
-            f"and `{answer[1]}` repeats {lowest}..{highest} at most"
-        )
+    if not reported.holds(requested):
+        what = f"`{request[1]}` may be {requested}, and `{answer[1]}` repeats {reported} at most"
         yield Problem(path, what, "give both the same type and range", on_key=True)
-
-
-def _values(message: Message, path: str) -> tuple[int, int] | None:
-    """Return the values that a field may have; None where its type is unknown."""
-    outer, _, inner = path.partition(".")
-    field = message.fields[outer]
-    number = field.fields[inner] if isinstance(field, ListField) else field
-    type_ = NUMBER_TYPES.get(number.type)
-    if type_ is None:
-        return None
-    declared = number.range
-    high = None if declared is None else declared.high
-    return (
-        type_.low if declared is None else declared.low,
-        type_.high if high is None else high,
-    )
 
 
 RULE = StructureRule(

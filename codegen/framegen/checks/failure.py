@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.checks.field_values import values_of
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import NumberField
+from framegen.language.values import Range
 from framegen.model.exchanges import arguments_of
 from framegen.model.layout import is_list
 from framegen.reading.findings import did_you_mean
@@ -22,20 +24,30 @@ def _look(spec: Spec) -> Iterator[Problem]:
     for name, message in spec.messages.items():
         if message.failure is None:
             continue
-        here = ("messages", name, "failure")
+        here, field = ("messages", name, "failure"), message.failure.field
         numbers = [key for key in arguments_of(message) if _is_number(message.fields[key])]
-        if message.failure not in numbers:
-            yield Problem(here, *_no_number(name, message, message.failure, numbers))
+        if field not in numbers:
+            yield Problem(here, *_no_number(name, message, field, numbers))
         elif name not in replies:
             what = f"{name} is the reply to nothing, so nothing has failed"
             hint = "name it as the `reply` of a request, or leave out `failure`"
             yield Problem(here, what, hint, on_key=True)
+        elif never := _never_good(message.fields[field], message.failure.good):
+            what = f"`{field}` is never {message.failure.good}, so that every {name} has failed"
+            hint = f"name its value where nothing has, `{field} unless {never.low}`: it has {never}"
+            yield Problem(here, what, hint)
 
 
 def _no_number(name: str, message: Message, field: str, numbers: list[str]) -> tuple[str, str]:
     if field in message.fields:
         return f"`{field}` is no whole number that a frame tells", did_you_mean(field, numbers)
     return f"{name} has no field `{field}`", did_you_mean(field, numbers)
+
+
+def _never_good(field: AnyField, good: int) -> Range | None:
+    """Return the values of a field, if the good one is not among them."""
+    values = values_of(field)
+    return None if values is None or values.holds(Range.only(good)) else values
 
 
 def _is_number(field: AnyField) -> bool:
@@ -48,7 +60,8 @@ def _is_number(field: AnyField) -> bool:
 RULE = StructureRule(
     id="failure",
     title="What says that a request has failed is a number of the reply",
-    why="A client raises a reply whose `failure` is not zero, with what it says.",
+    why="A client raises a reply whose `failure` is not zero, or not the value named as the good "
+    "one, with what it says.",
     bad="LampState: {failure: eror, fields: {error: {type: u8}}}",
     good="LampState: {failure: error, fields: {error: {type: u8}}}",
     look=_look,

@@ -25,7 +25,15 @@ from framegen.language.formula import Formula, LengthRule, parse_formula, sizes_
 from framegen.language.names import named_once, names_of
 from framegen.language.notation import Ids, Notation, OneOf
 from framegen.language.number_types import NUMBER_TYPES
-from framegen.language.values import Citation, Direction, Method, Range, Scale, parse_hex
+from framegen.language.values import (
+    Citation,
+    Direction,
+    Failure,
+    Method,
+    Range,
+    Scale,
+    parse_hex,
+)
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
@@ -50,6 +58,7 @@ Length: TypeAlias = Annotated[
 Call: TypeAlias = Annotated[
     Method, Notation("a method", "read_positions(servo_ids) -> positions", Method.parse)
 ]
+Failed: TypeAlias = Annotated[Failure, Notation("a failure", "status unless 1", Failure.parse)]
 Natural: TypeAlias = Annotated[StrictInt, Key(ge=0)]
 Names: TypeAlias = Annotated[
     tuple[str, ...], Notation("a name, or a list of names", "OldName", named_once, listed=names_of)
@@ -477,10 +486,11 @@ class Message(Part):
         description="The message that comes instead of its `reply` where it is refused: a client "
         "raises it.",
     )
-    failure: str | None = Key(
+    failure: Failed | None = Key(
         None,
-        description="The field of this reply that is not zero where what it answers has failed: a "
-        "client raises it.",
+        description="The field of this reply that is not zero where what it answers has failed, "
+        "`error`; or that has another value than the good one, `status unless 1`: a client raises "
+        "it.",
     )
     echoed: dict[str, str] = Key(
         {},

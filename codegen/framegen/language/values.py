@@ -17,6 +17,7 @@ _DIRECTION = re.compile(r"(\S+)\s*->\s*(\S+)")
 _NUMBER = r"-?[0-9]{1,20}|0x[0-9A-Fa-f]{1,16}"
 _RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})?")
 _METHOD = re.compile(r"(\w+)\s*\(\s*((?:\w+(?:\s*,\s*\w+)*)?)\s*\)(?:\s*->\s*(\w+))?", re.ASCII)
+_FAILURE = re.compile(rf"(\w+)(?:\s+unless\s+({_NUMBER}))?", re.ASCII)
 _NAME = re.compile(r"\w+", re.ASCII)
 _DECIMAL = r"[0-9]{1,12}(?:\.[0-9]{1,24})?"
 _SCALE = re.compile(rf"({_DECIMAL})(?:\s+([^-+\s]\S*))?(?:\s+([-+])\s*({_DECIMAL}))?")
@@ -158,6 +159,31 @@ class Method:
                 "like `read_positions(servo_ids) -> positions`"
             )
         return cls(match[1], tuple(_NAME.findall(match[2])), match[3] or "")
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """The field that says whether a request has failed, written `error`, or `status unless 1`.
+
+    `good` is its value where nothing has.
+    """
+
+    field: str
+    good: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.field} unless {self.good}" if self.good else self.field
+
+    @classmethod
+    def parse(cls, text: str) -> Failure:
+        """Read `error` or `status unless 1`."""
+        match = _FAILURE.fullmatch(text.strip())
+        if match is None:
+            raise ValueError(
+                f"`{text.strip()}` says no failure: write a field that is 0 where nothing has "
+                "failed, like `error`, or the value that it has then, like `status unless 1`"
+            )
+        return cls(match[1], 0 if match[2] is None else _number(match[2]))
 
 
 class NotHex(ValueError):  # noqa: N818 - says what the text is

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import ListField
 from framegen.language.values import Method
@@ -29,7 +29,8 @@ class Exchange:
     `echoed` pairs a field of the request with its place in the reply, such as `servo_ids` with
     `positions.servo_id`. `acknowledged` is the report that confirms the request, and `lasts` the
     field of the request that says how long a motion goes on. `refusal` comes instead of the reply
-    where the device refuses, and `failure` is the field of the reply that says what has failed.
+    where the device refuses. `failure` is the field of the reply that says what has failed, and
+    `good` its value where nothing has.
     """
 
     request: MessageLayout
@@ -41,6 +42,11 @@ class Exchange:
     lasts: Number | None
     refusal: MessageLayout | None
     failure: Number | None
+    good: int
+
+    def has_failed(self, values: Mapping[str, Any]) -> bool:
+        """Tell whether a reply with these values says that the request has failed."""
+        return self.failure is not None and values[self.failure.name] != self.good
 
     @property
     def answers(self) -> list[MessageLayout]:
@@ -146,7 +152,7 @@ def snake_case(name: str) -> str:
 def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> Exchange:
     message = request.message
     reply = None if message.reply is None else messages[message.reply]
-    failure = "" if reply is None else reply.message.failure or ""
+    failure = None if reply is None else reply.message.failure
     return Exchange(
         request,
         method_of(request.name, message),
@@ -156,5 +162,6 @@ def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> 
         message.acknowledged,
         request.numbers_by_path.get(message.lasts or ""),
         None if message.refusal is None else messages[message.refusal],
-        None if reply is None else reply.numbers_by_path.get(failure),
+        None if reply is None or failure is None else reply.numbers_by_path.get(failure.field),
+        0 if failure is None else failure.good,
     )

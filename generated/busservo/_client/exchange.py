@@ -40,6 +40,7 @@ class Unfailing:
     __slots__ = ()
     refusal: type[Message] | None = None
     field: str = ""
+    good: int = 0
 
     def error(self, _request: Message, _reply: Message) -> Exception | None:
         """Return the error that a reply tells of; None where it is as wanted."""

@@ -131,9 +131,10 @@ def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
             yield label, said[key]
     if said["kind"] in ("command", "query"):
         yield "reply:", said.get("reply", "none is due")
+    failed = f"has failed, unless {said.get('good', 0)}:"
     yield from (
         (label, said[key])
-        for label, key in (("refused by:", "refusal"), ("has failed, unless 0:", "failure"))
+        for label, key in (("refused by:", "refusal"), (failed, "failure"))
         if key in said
     )
     for label, key in (

@@ -111,7 +111,7 @@ class Client:
         """Return how a question ends that is answered."""
         if taken.message is not exchange.reply:
             return "refusal"
-        if exchange.failure is not None and taken.values[exchange.failure.name]:
+        if exchange.has_failed(taken.values):
             return "failure"
         for requested, reported in exchange.echoed:
             there = column(taken.values, reported)

@@ -138,8 +138,8 @@ def _saying(exchange: Exchange, values: dict[str, Any], *, failed: bool) -> dict
     if failure is None:
         return values
     if failed:
-        return values if values[failure.name] else None
-    return {**values, failure.name: 0} if failure.holds(0) else values
+        return values if exchange.has_failed(values) else None
+    return {**values, failure.name: exchange.good} if failure.holds(exchange.good) else values
 
 
 def _repeated(

@@ -42,6 +42,9 @@ def _raises(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
         if by != fails.name:
             text = f"raises FailureError by `{fails.name}`; it did by `{failed.name}`"
             yield _effect(old, new, "raises", text)
+        elif old.good != new.good:
+            text = f"raises FailureError unless `{fails.name}` is {new.good}; it was {old.good}"
+            yield _effect(old, new, "raises", text)
 
 
 def _results(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:

@@ -185,7 +185,7 @@ class _Judge:
         if message != request.reply:
             said = " ".join([message.name, *fields(message, values)])
             self.found.notes.append(f"{request.message.name} is refused: {said}")
-        elif (failure := request.exchange.failure) is not None and values[failure.name]:
+        elif (failure := request.exchange.failure) and request.exchange.has_failed(values):
             said = f"{failure.name} {values[failure.name]}"
             self.found.notes.append(f"{request.message.name} failed: {said}")
 

@@ -64,7 +64,7 @@ class Permission:
             *(slot.name for slot in exchange.request.arguments),
         }
         told = {slot.name for slot in exchange.reply.arguments}
-        told -= {exchange.reply.message.failure, *said}
+        told -= {exchange.failure and exchange.failure.name, *said}
         alone = len(self.model.answers[exchange.reply.name]) == 1
         return exchange.method.result in told or (alone and bool(told))
 

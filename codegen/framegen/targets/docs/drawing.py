@@ -141,7 +141,8 @@ def _refusal(model: Model, name: str) -> str:
     reply = model.messages[message.reply or name].message
     found = f" If it refuses, {message.refusal} comes instead." if message.refusal else ""
     if reply.failure:
-        found += f" Where {reply.failure} in {message.reply} is not 0, it has failed."
+        field, good = reply.failure.field, reply.failure.good
+        found += f" Where {field} in {message.reply} is not {good}, it has failed."
     return found
 
 

@@ -36,6 +36,7 @@ class ErrorsView:
         failure = self.exchange.failure
         if failure is not None:
             items.append(f"field={literal(failure.name)}")
+            items += [f"good={self.exchange.good}"] if self.exchange.good else []
             items += [
                 Bracketed(f"{key}={{", [f"{literal(name)}: {shown}" for name, shown in of], "}")
                 for key, of in (("names", _values(failure)), ("bits", _masks(failure)))

@@ -11,7 +11,7 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
 from framegen.language.spec import ListField
-from framegen.language.values import Direction, Method
+from framegen.language.values import Direction, Failure, Method
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
 from framegen.model.slots import Constant, Items, Number, Packed, Text
@@ -278,7 +278,7 @@ class Names:
                 "direction": self._direction(message.direction),
                 "reply": message.reply and self.of("message", message.reply),
                 "refusal": message.refusal and self.of("message", message.refusal),
-                "failure": message.failure and self.of("field", message.failure),
+                "failure": message.failure and self._failure(message.failure),
                 "reports": [self.of("message", each) for each in message.reports],
                 "acknowledged": message.acknowledged and self.of("message", message.acknowledged),
                 "lasts": message.lasts and self.of("field", message.lasts),
@@ -302,6 +302,9 @@ class Names:
             tuple(self.of("field", each) for each in method.arguments),
             method.result and self.of("field", method.result),
         )
+
+    def _failure(self, failure: Failure) -> Failure:
+        return Failure(self.of("field", failure.field), failure.good)
 
     def _path(self, path: str) -> str:
         name, dot, inner = path.partition(".")

@@ -31,8 +31,8 @@ class RefusedError(ProtocolError):
 class FailureError(ProtocolError):
     """The device has answered that something is wrong. `reply` is the message that says so.
 
-    `request` is what was sent, `field` the field of the reply that is not zero, and `named` what
-    its value means, as far as that has a name.
+    `request` is what was sent, `field` the field of the reply that says so, and `named` what its
+    value means, as far as that has a name.
     """
 
     def __init__(
@@ -54,22 +54,24 @@ class Failures(Unfailing):
     """How the device says that it refuses or fails.
 
     `refusal` is the class of messages that come instead of the reply. `field` is the field of the
-    reply that is not zero after a failure; `names` are its values, and `bits` the masks of its
-    bits, each by name.
+    reply that has another value than the `good` one after a failure; `names` are its values, and
+    `bits` the masks of its bits, each by name.
     """
 
-    __slots__ = ("_bits", "_names", "field", "refusal")
+    __slots__ = ("_bits", "_names", "field", "good", "refusal")
 
     def __init__(
         self,
         *,
         refusal: type[Message] | None = None,
         field: str = "",
+        good: int = 0,
         names: Mapping[str, int] | None = None,
         bits: Mapping[str, int] | None = None,
     ) -> None:
         self.refusal = refusal
         self.field = field
+        self.good = good
         self._names = names or {}
         self._bits = bits or {}
 
@@ -77,8 +79,8 @@ class Failures(Unfailing):
         """Return the error that a reply tells of; None where it is as wanted."""
         if type(reply) is self.refusal:
             return RefusedError(request, reply)
-        value = getattr(reply, self.field) if self.field else 0
-        if not value:
+        value = getattr(reply, self.field) if self.field else self.good
+        if value == self.good:
             return None
         return FailureError(request, reply, self.field, self._meaning(value))
 
