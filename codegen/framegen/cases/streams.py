@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from framegen.cases.large_streams import large_streams
+from framegen.cases.lengthened_streams import lengthened_streams
 from framegen.cases.message_streams import message_streams
 from framegen.cases.mixed_streams import mixed_streams
 from framegen.cases.noise_streams import noise_streams
@@ -20,7 +21,14 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.model import Model
 
-_FAMILIES = message_streams, noise_streams, unknown_streams, proven_streams, large_streams
+_FAMILIES = (
+    message_streams,
+    noise_streams,
+    unknown_streams,
+    proven_streams,
+    large_streams,
+    lengthened_streams,
+)
 
 
 def streams(model: Model) -> Iterator[StreamCase]:

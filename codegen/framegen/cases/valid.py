@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from framegen.cases.lengthened import lengthened
 from framegen.model.codec import encode
 from framegen.model.slots import Items, Number, Packed, Text
 
@@ -40,9 +41,11 @@ class ValidFrame:
 
 
 def valid_frames(model: Model) -> Iterator[ValidFrame]:
-    """Yield the frames of every message."""
+    """Yield the frames of every message, then those that begin as frames of shorter messages do."""
     for message in model.messages.values():
         yield from frames_of(message)
+    for each in lengthened(model):
+        yield ValidFrame(f"its beginning is a whole {each.short.name}", each.long, each.values)
 
 
 def frames_of(message: MessageLayout) -> Iterator[ValidFrame]:

@@ -9,6 +9,7 @@ from framegen.cases.streams import streams
 from framegen.cases.unencodable import unencodable
 from framegen.cases.valid import valid_frames
 from framegen.conformance.language import Decode, Encode, Stream
+from framegen.conformance.round_trips import round_trips
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +19,10 @@ if TYPE_CHECKING:
 
 
 def questions(model: Model) -> Iterator[tuple[str, Question]]:
-    """Yield questions on each frame both ways, on invalid frames and on streams, with titles."""
+    """Yield questions on each frame both ways, on invalid frames and on streams, with titles.
+
+    Then on frames of random values, which are the same in every run.
+    """
     for frame in valid_frames(model):
         title = f"{frame.message.name}: {frame.title}"
         yield title, Decode(frame.message.direction, frame.data)
@@ -30,3 +34,4 @@ def questions(model: Model) -> Iterator[tuple[str, Question]]:
     for case in streams(model):
         largest = model.largest([case.direction])
         yield case.title, Stream(case.direction, case.max_frame or largest, case.parts)
+    yield from round_trips(model)
