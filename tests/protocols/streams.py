@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
+from framegen.cases.lengthened import lengthened
+from framegen.model.apart import begun
 from framegen.model.codec import encode
 from hypothesis import strategies as st
 
@@ -31,7 +33,8 @@ def frames(name: str, way: Direction) -> st.SearchStrategy[bytes]:
         for message in sent(name, way)
     ]
     small = st.one_of(drawn).filter(lambda frame: len(frame) <= LARGE)
-    return st.sampled_from(published(name, way)) | small
+    longer = [each.data for each in lengthened(model_of(name)) if each.long.direction == way]
+    return st.sampled_from([*published(name, way), *longer]) | small
 
 
 @cache
@@ -68,6 +71,11 @@ def lines(name: str, way: Direction) -> st.SearchStrategy[bytes]:
 def all_ways() -> list[tuple[str, Direction]]:
     """Return the directions of all protocols."""
     return [(name, way) for name in FILES for way in model_of(name).directions if sent(name, way)]
+
+
+def told_apart(name: str, way: Direction) -> bool:
+    """Tell whether no frame of a direction begins as another does, not even by chance."""
+    return not any(short.direction == way for short, _ in begun(model_of(name)))
 
 
 def proven(name: str) -> bool:
