@@ -49,18 +49,17 @@ def test_a_frame_that_begins_as_another_reads_as_itself(libraries: Libraries, na
             assert [*map(type, [*events, *decoder.flush()])] == [kind]
 
 
-@pytest.mark.parametrize("high", range(0, 0x100, 5))
-def test_every_pressure_reads_as_itself(libraries: Libraries, high: int) -> None:
-    """One of 256 begins with a whole fault."""
+def test_every_pressure_that_begins_with_a_fault_reads_as_itself(libraries: Libraries) -> None:
     made = libraries["gauges"]
     way = made.Direction.GAUGE_TO_PANEL
-    pressure = made.Pressure(high << 8 | (0x21 + high) & 0xFF)
-    frame = pressure.encode()
-    assert frame[:3] == made.Fault(high).encode()
-    assert made.decode(frame, way) == pressure
-    assert made.StreamDecoder(way).feed(frame) == [pressure]
-    parts = [frame[:3], frame[3:]]
-    assert read_by_reference("gauges", "Pressure", [*parts]) == [("Pressure", frame)]
+    for high in range(0x100):
+        pressure = made.Pressure(high << 8 | (0x21 + high) & 0xFF)
+        frame = pressure.encode()
+        assert frame[:3] == made.Fault(high).encode()
+        assert made.decode(frame, way) == pressure
+        assert made.StreamDecoder(way).feed(frame) == [pressure]
+        parts = [frame[:3], frame[3:]]
+        assert read_by_reference("gauges", "Pressure", [*parts]) == [("Pressure", frame)]
 
 
 def test_a_fault_waits_for_what_follows(libraries: Libraries) -> None:
