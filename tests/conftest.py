@@ -29,6 +29,8 @@ from framegen.witnesses import find_missing, read_witnesses
 from hypothesis import HealthCheck, settings
 from serial.urlhandler import protocol_socket
 
+from tests.draws import draw_the_same
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -108,6 +110,11 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     """Do not even import the slow tests, unless some of them are run."""
     wanted = config.option.all or config.option.sample is not None
     return True if collection_path == SLOW_TESTS and not wanted else None
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Draw the same in each run, with the profile that has been chosen by now."""
+    draw_the_same()
 
 
 def pytest_collection(session: pytest.Session) -> None:

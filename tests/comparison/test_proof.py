@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from framegen.comparison.pair import Pair
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.comparison import proof
@@ -59,7 +59,7 @@ def test_each_witness_shows_what_it_claims(talk: Talk) -> None:
 
 
 @given(data=st.data())
-@settings(max_examples=3, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=3)
 def test_no_frame_becomes_worse_than_the_worst_that_was_tried(
     talk: Talk, data: st.DataObject
 ) -> None:

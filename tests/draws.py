@@ -1,0 +1,102 @@
+"""What Hypothesis draws: the same in every run, and a digest of it for each test.
+
+    python -m pytest -p tests.draws tests/test_formula.py               prints the digests
+    python -m pytest -p tests.draws --backwards tests/test_formula.py   the last test first
+
+The digests of a test are the same whatever ran before it, and in whichever process.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from contextlib import contextmanager
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+from unittest import mock
+
+import pytest
+from hypothesis import settings
+from hypothesis.internal.conjecture import data as conjecture
+from hypothesis.internal.conjecture import engine
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# For so long a failing example is made smaller, which the engine bounds to five minutes.
+SHRINKING_SECONDS = 30
+
+
+def draw_the_same() -> None:
+    """Let draws that repeat depend on the test alone, and end soon where one fails.
+
+    Hypothesis draws constants of the modules that a process has imported so far, wherever it
+    repeats its draws as well. There is no setting for this; if what it is done by has another name
+    one day, this fails. A search for other examples keeps both.
+    """
+    if find_spec("hypothesis.internal.constants_ast") is not None:
+        _without_constants_of_modules()
+    if settings.default.derandomize:
+        engine.MAX_SHRINKING_SECONDS = SHRINKING_SECONDS
+
+
+def _without_constants_of_modules() -> None:
+    from hypothesis.internal.conjecture import providers  # noqa: PLC0415 - old ones have none
+
+    found, none = providers._get_local_constants, providers._local_constants
+    providers._get_local_constants = lambda: none if settings.default.derandomize else found()
+
+
+@contextmanager
+def recorded() -> Iterator[list[str]]:
+    """Record what is drawn: each example, in turn."""
+    drawn: list[str] = []
+    freeze: Any = conjecture.ConjectureData.freeze
+
+    def frozen(self: Any) -> None:
+        if not self.frozen:
+            drawn.append(repr(self.choices if hasattr(self, "choices") else bytes(self.buffer)))
+        freeze(self)
+
+    with mock.patch.object(conjecture.ConjectureData, "freeze", frozen):
+        yield drawn
+
+
+# As a plugin of pytest.
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--backwards", action="store_true", help="begin with the last test")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.pluginmanager.register(_Digests())
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.option.backwards:
+        items.reverse()
+
+
+class _Digests:
+    """The digests of what the tests draw; with several workers, they come with the reports."""
+
+    def __init__(self) -> None:
+        self._found: dict[str, str] = {}
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_call(self, item: pytest.Item) -> Iterator[None]:
+        with recorded() as drawn:
+            yield
+        if drawn:
+            data = "\n".join(drawn).encode("utf-8", "surrogatepass")
+            item.user_properties.append(("draws", hashlib.sha256(data).hexdigest()[:16]))
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        for name, digest in report.user_properties:
+            if name == "draws":
+                self._found[report.nodeid] = str(digest)
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        for name, digest in sorted(self._found.items()):
+            terminalreporter.write_line(f"drawn: {digest} {name}")
