@@ -9,6 +9,7 @@ from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.envelope import derive_envelope
 from framegen.model.facts import NoSuchFact, look_up
 from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
 from framegen.model.slots import Items, Number
 from framegen.pluralize import describe_range
 from hypothesis import given
@@ -506,3 +507,9 @@ def test_an_unknown_parameter_is_reported_with_their_number(
 ) -> None:
     with pytest.raises(NoSuchFact, match=f"no parameter byte {parameter}: it has {most} at most"):
         look_up(SERVO, nth(message, parameter))
+
+
+@pytest.mark.parametrize("model", LAYOUTS.values(), ids=LAYOUTS)
+def test_a_model_is_shown_by_its_name_and_never_whole(model: Model) -> None:
+    shown = [repr(model), *map(repr, model.messages.values()), repr(model.exchanges[0])]
+    assert max(map(len, shown)) < 2_000

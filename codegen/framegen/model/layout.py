@@ -31,7 +31,7 @@ _KEPT = 0x100
 LONGEST = 0xFFFF
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class MessageLayout:
     """One message: the slots of its frame, from the first byte to the last."""
 
@@ -40,6 +40,9 @@ class MessageLayout:
     frame: Envelope
     link: Link
     slots: tuple[MessageSlot, ...]
+
+    def __repr__(self) -> str:
+        return f"<MessageLayout of {self.name}>"
 
     @cached_property
     def ids(self) -> tuple[int, ...]:

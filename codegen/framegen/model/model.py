@@ -57,7 +57,7 @@ class Candidates:
         return found
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Model:
     """Everything that follows from one spec."""
 
@@ -65,6 +65,10 @@ class Model:
     roles: Roles
     envelopes: dict[str, Envelope]
     messages: dict[str, MessageLayout]
+
+    def __repr__(self) -> str:
+        # A model is named where it is shown: all of it would be a hundred pages.
+        return f"<Model of {self.spec.protocol.name}>"
 
     @property
     def frame(self) -> Envelope:
