@@ -15,6 +15,7 @@ from framegen.reading.source import Source
 
 from tests import bad_specs
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_of, data_of
+from tests.spec_edits import edited
 
 if TYPE_CHECKING:
     from framegen.checks.rule import AnyRule
@@ -188,3 +189,23 @@ def test_what_one_short_checksum_agrees_with_by_chance_is_not_told() -> None:
     wrong = one.replace("00 D9 A0 7F", "00 D9 7F")
     (hint,) = hints_of(wrong)
     assert hint.startswith("if the frame was made up, write CE there; ")
+
+
+ANSWERED = {
+    "the same": ("range: 1..9", "range: 1..9"),
+    "more": ("range: 1..9", "range: 0..9"),
+    "by name": ("range: 1..9", "range: 1..8, values: {last: {value: 9}}"),
+    "silent": ("range: 0..9, values: {all: {value: 0, silent: true}}", "range: 1..9"),
+    "silent behind": ("range: 1..9, values: {all: {value: 254, silent: true}}", "range: 1..9"),
+}
+
+
+@pytest.mark.parametrize(("asked", "answered"), ANSWERED.values(), ids=ANSWERED)
+def test_an_address_that_is_answered_or_silent_is_no_finding(asked: str, answered: str) -> None:
+    text = bad_specs.base("scales")
+    for frame, part in (("request", asked), ("answer", answered)):
+        added = f"station: {{is: address, type: u8, {part}}}"
+        text = edited(text, {"under": frame, "after": "mark:", "add": added})
+    # Its lengths and examples have no address: they are looked at only where all else is well.
+    findings = compile_spec(Source("scales.yaml", text)).findings
+    assert {finding.rule for finding in findings} == {"length-rule", "example"}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from framegen.checks import (
     absent,
     acknowledged,
+    answered_address,
     breaks,
     chance_prefix,
     checksum,
@@ -141,6 +142,7 @@ MODEL_RULES: tuple[ModelRule, ...] = (
     frame_prefix.RULE,
     duplicate_constant.RULE,
     frame_too_long.RULE,
+    answered_address.RULE,
     limits.RULE,
     lasts.RULE,
     method.RULE,
