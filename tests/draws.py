@@ -35,7 +35,7 @@ def draw_the_same() -> None:
     """
     if find_spec("hypothesis.internal.constants_ast") is not None:
         _without_constants_of_modules()
-    if settings.default.derandomize:
+    if settings().derandomize:
         engine.MAX_SHRINKING_SECONDS = SHRINKING_SECONDS
 
 
@@ -43,7 +43,7 @@ def _without_constants_of_modules() -> None:
     from hypothesis.internal.conjecture import providers  # noqa: PLC0415 - old ones have none
 
     found, none = providers._get_local_constants, providers._local_constants
-    providers._get_local_constants = lambda: none if settings.default.derandomize else found()
+    providers._get_local_constants = lambda: none if settings().derandomize else found()
 
 
 @contextmanager
