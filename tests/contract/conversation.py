@@ -40,6 +40,9 @@ class Line:
     def write(self, data: bytes) -> None:
         self._free = max(self._free, self.now) + len(data) * self._per_byte
         answer = self.device.receive(data)
+        # Nothing more is asked before the reply, so that no frame is the beginning of a longer one.
+        self.device.quiet()
+        answer += b"".join(report.encode() for report in self.device.take())
         if answer:
             self._free += len(answer) * self._per_byte + 0.001
             self._arriving.append((max(self._free, self.now), answer))
