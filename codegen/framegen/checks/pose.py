@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from framegen.language.spec import Message, Pose, Spec
     from framegen.model.model import Model
+    from framegen.reading.yamltree import KeyPath
 
 
 def _look(model: Model) -> Iterator[Problem]:
@@ -37,6 +38,7 @@ def _look(model: Model) -> Iterator[Problem]:
         return
     yield from _ids(spec.pose, read.fields[requested])
     yield from _move(spec.pose.move, move, reported)
+    yield from _texts(spec, spec.pose)
     if requested in arguments_of(move) and move.fields[requested].counted_by is None:
         what = f"`{spec.pose.hold}` would have two arguments named `{requested}`"
         hint = f"give them different names in {spec.pose.read} and {spec.pose.move}"
@@ -64,8 +66,8 @@ def _lone_list(message: Message) -> str | None:
     if len(names) != 1:
         return None
     field = message.fields[names[0]]
-    listed = isinstance(field, NumberField) and field.counted_by is not None
-    return names[0] if listed else None
+    is_number = isinstance(field, NumberField) and field.text is None
+    return names[0] if is_number and field.counted_by is not None else None
 
 
 def _reported(spec: Spec, read: Message, requested: str) -> list[str] | None:
@@ -100,6 +102,28 @@ def _move(name: str, move: Message, reported: list[str]) -> Iterator[Problem]:
     if len(numbers) != 1 or numbers[0].counted_by is not None:
         what = f"{name} does not have one number besides the list"
         yield Problem(("pose", "move"), what, "it has to be the time of the motion in milliseconds")
+
+
+def _texts(spec: Spec, pose: Pose) -> Iterator[Problem]:
+    """Find text among what is read and commanded."""
+    reply = spec.messages[pose.read].reply or ""
+    for key, message in (("read", reply), ("move", pose.move)):
+        for path, name, field in _given(spec, message):
+            if field.text is not None:
+                what = f"`{name}` of {message} is text, and a pose is made of numbers"
+                hint = "describe it as a number, or leave out `pose`"
+                yield Problem(path, what, hint, True, (("pose", key), "the pose is here"))
+
+
+def _given(spec: Spec, message: str) -> Iterator[tuple[KeyPath, str, NumberField]]:
+    """Yield the numbers and texts that a message is given, those of elements as well."""
+    for name in arguments_of(spec.messages[message]):
+        path, field = ("messages", message, "fields", name), spec.messages[message].fields[name]
+        if isinstance(field, NumberField):
+            yield path, name, field
+            continue
+        for inner, number in field.fields.items():
+            yield (*path, "fields", inner), inner, number
 
 
 RULE = ModelRule(
