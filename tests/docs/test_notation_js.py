@@ -13,7 +13,7 @@ from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.docs.reference import NODE, reference
 from tests.docs.scripts import run_script
-from tests.factories import compiled_file, vectors_of
+from tests.factories import DEMO, compiled_file, compiled_of, data_of, renamed, vectors_of
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -134,3 +134,23 @@ def test_what_is_written_is_read_back(name: str) -> None:
         [(kind, text) for (kind, _), text in zip(frames, written, strict=True)],
     )
     assert [answer.get("hex", answer) for answer in again] == [frame for _, frame in frames]
+
+
+def test_a_name_that_every_object_of_a_script_has_is_a_name_like_others() -> None:
+    data = data_of(DEMO.with_name("everything.yaml"))
+    for name in ("sequence", "second", "mode", "idle", "voltage"):
+        changed = compiled_of(renamed(data, name, "constructor"))
+        assert [finding.message for finding in changed.findings] == []
+        frames = [(each["message"], each["hex"]) for each in vectors_of(changed)["valid"]]
+        written = asked(changed, WRITE, [(kind, text.replace(" ", "")) for kind, text in frames])
+        again = asked(
+            changed,
+            READ,
+            [(kind, text) for (kind, _), text in zip(frames, written, strict=True)],
+        )
+        for answer, (_, text) in zip(again, frames, strict=True):
+            assert answer == {"hex": text.replace(" ", "").lower()}, name
+    # What is not given is not there, though every object has something of that name.
+    strange = [("Flags", "error=constructor mode=1 position=1 temperature=1")]
+    (answer,) = asked(compiled_file(FILES["everything"]), READ, strange)
+    assert answer["message"].startswith("error: “constructor” is no number")

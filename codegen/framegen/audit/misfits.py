@@ -105,7 +105,8 @@ def outside(
 
     `ours` is the message as the spec has it, and `seen` the same without its bounds.
     """
-    slots = {slot.name: slot for slot in ours.slots}
+    # A part of the frame may be called like a field.
+    slots = {slot.name: slot for slot in (*ours.body, *ours.frame.given)}
     for slot in seen.arguments:
         said, value = slots[slot.name], values[slot.name]
         if value is None:

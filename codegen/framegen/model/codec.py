@@ -59,7 +59,8 @@ def decode(model: Model, direction: Direction | None, data: bytes) -> Decoded:
 def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
     """Return the values of a legal frame, by argument; None for a field that is absent."""
     count = message.count_of(frame)
-    placed = {each.path: each for each in message.lay_out(count)}
+    # A part of the frame may be called like a field.
+    placed = {each.path: each for each in message.lay_out(count) if _is_given(each.slot)}
 
     def number(path: str) -> float | str | None:
         there = placed.get(path)
@@ -78,6 +79,10 @@ def values_of(message: MessageLayout, frame: bytes) -> dict[str, Any]:
                 elements = range(slot.low if slot.is_fixed else count)
                 values[slot.name] = _items(slot, elements, number)
     return values
+
+
+def _is_given(slot: object) -> bool:
+    return slot.given if isinstance(slot, Number) else isinstance(slot, Text | Packed)
 
 
 def _items(items: Items, elements: range, number: Callable[[str], float | str | None]) -> Any:

@@ -6,8 +6,8 @@ function makeEncode({ kindOf, frameWith, slotsIn, layOut, due }, { checksumOf })
 
   // The frame that carries `fields`, as decodeFrame gives them; a number may be given by its name.
   // Throws Unusable.
-  return function encode(name, fields) {
-    const kind = kindOf.get(name);
+  return function encode(name, named) {
+    const kind = kindOf.get(name), fields = bare(named);
     if (!kind) refuse(name, "no message has this name");
     const known = kind.given.map((slot) => slot.name);
     const strange = Object.keys(fields).find((key) => !known.includes(key));

@@ -6,8 +6,14 @@ function pathOf(list, index, field) {
   return `${list.name}[${index}]` + (list.element === null ? "" : `.${field.name}`);
 }
 
+// The object without what every object has, such as `constructor`: a name may be like that.
+const bare = (named) => Object.assign(Object.create(null), named);
+
 const isNumber = (slot) => slot.order !== undefined && slot.role !== "packed";
 const countsList = ({ role }) => role === "count" || role === "size";
+// What a user gives. No two of these have one name; a part of the frame may be called like a field.
+const GIVEN = new Set(["field", "list", "packed", "text", "address", "counter"]);
+const isGiven = ({ role }) => GIVEN.has(role);
 // The bytes that a slot has in every frame.
 const fixed = (slot) => (slot.role === "constant" ? slot.bytes : []);
 
@@ -15,9 +21,11 @@ const fixed = (slot) => (slot.role === "constant" ? slot.bytes : []);
 // slots of an element that have a value.
 function prepared(slot) {
   const made = { ...slot, beyond: slot.beyond || [] };
+  for (const key of ["names", "bits", "meanings"]) if (made[key]) made[key] = bare(made[key]);
   if (made.wide) {
     const names = Object.entries(made.names).map(([name, value]) => [name, BigInt(value)]);
-    Object.assign(made, { low: BigInt(made.low), high: BigInt(made.high), names: Object.fromEntries(names) });
+    Object.assign(made, { low: BigInt(made.low), high: BigInt(made.high) });
+    Object.assign(made.names, Object.fromEntries(names));
   }
   if (made.slots) {
     made.slots = made.slots.map(prepared);
@@ -64,7 +72,7 @@ function makeLayout(protocol) {
     const envelope = envelopes.get(message.frame), fields = message.fields.map(prepared);
     const list = fields.find((slot) => slot.role === "list" && !("count" in slot));
     const slots = [...envelope.head, ...fields, ...envelope.tail];
-    const given = message.given.map((name) => slots.find((slot) => slot.name === name));
+    const given = message.given.map((name) => slots.find((slot) => isGiven(slot) && slot.name === name));
     return {
       ...message, envelope, slots, body: fields, list, frames: new Map(),
       given,

@@ -13,7 +13,7 @@ function notUnderstood(path, found, at, why) {
 
 // The values of all fields in `text`, by name.
 function readNotation(kind, text) {
-  const values = {};
+  const values = bare({});
   for (const { 0: word, index } of text.matchAll(/[^ \t\n]+/g)) {
     const sign = word.indexOf("="), name = sign < 0 ? word : word.slice(0, sign);
     const slot = kind.given.find((each) => each.name === name);
@@ -67,7 +67,7 @@ function readNumberIn(slot, path, text, at) {
     }
     return Number(text.replace(/inf(inity)?/i, "Infinity").replace(/nan/i, "NaN"));
   }
-  const names = slot.names || {}, named = names[text] ?? maskOf(slot, text);
+  const names = slot.names || bare({}), named = names[text] ?? maskOf(slot, text);
   if (named !== undefined) return slot.wide ? BigInt(named) : Number(named);
   if (!NOTATION_WHOLE.test(text)) {
     const all = [...Object.keys(names), ...Object.keys(slot.bits || {})];
@@ -80,7 +80,7 @@ function readNumberIn(slot, path, text, at) {
 }
 
 // The number in which bits of these names are set.
-function maskOf({ bits = {} }, text) {
+function maskOf({ bits = bare({}) }, text) {
   const parts = text.split("+");
   if (!parts.every((name) => name in bits)) return undefined;
   return parts.reduce((sum, name) => {

@@ -14,7 +14,8 @@ function makeValues({ layOut }) {
 
   // The values of a whole frame, as `encode` takes them.
   function fieldsOf(frame, bytes) {
-    const values = new Map(layOut(frame).map(({ path, slot, at }) => [path, valueAt(slot, bytes, at)]));
+    const values = new Map(layOut(frame).filter(({ slot }) => isGiven(slot))
+      .map(({ path, slot, at }) => [path, valueAt(slot, bytes, at)]));
     return Object.fromEntries(frame.kind.given.map((slot) => [slot.name, slot.role !== "list" || slot.text
       ? values.get(slot.name) ?? null
       : itemsOf(slot, slot.count ?? frame.count, values)]));

@@ -13,7 +13,7 @@ from .text import Text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
     from typing import Any, TypeAlias
 
     from .envelope import Envelope, Part
@@ -27,8 +27,8 @@ def message_parts(message: Message) -> Iterator[Cell]:
     """Yield the parts of a message: those around its fields, and these, element by element."""
     kind, frame = type(message), message.encode()
     envelope = kind.FRAME
-    given = (getattr(kind, name) for name in kind.__match_args__)
-    outside = {field.name: field for field in given if hasattr(field, "struct")}
+    given = [each for each in (envelope.address, envelope.counter) if each is not None]
+    outside = {each: getattr(kind, each.name) for each in given}
     yield from _around(envelope.head, frame, outside)
     body = frame[: len(frame) - envelope.tail_size]
     for part in kind.SHAPE.parts:
@@ -48,13 +48,16 @@ def _body(envelope: Envelope) -> str:
     return "fields" if envelope.ids else "bytes"
 
 
-def _around(parts: Iterable[Part], frame: bytes, fields: dict[str, Any]) -> Iterator[Cell]:
-    """Yield the parts of an envelope; those that a user gives say what their field does."""
+def _around(parts: Iterable[Part], frame: bytes, fields: Mapping[Any, Any]) -> Iterator[Cell]:
+    """Yield the parts of an envelope; those that a user gives say what their field does.
+
+    `fields` are by part, not by name: a field of the message may be called like a part.
+    """
     for part in parts:
         data = frame[part.place]
         says = str(part.read(frame)) if isinstance(part, NumberPart) else ""
-        if part.name in fields:
-            says = value_in_words(fields[part.name], fields[part.name].struct.unpack(data)[0])
+        if part in fields:
+            says = value_in_words(fields[part], fields[part].struct.unpack(data)[0])
         yield data, part.name, says
 
 
