@@ -125,6 +125,52 @@ class Crowd:
         """Add a message that the device sends."""
         self._add(name, " -> ".join(reversed(self._ends)), fields, **more)
 
+    def send(self, name: str, sender: str, receiver: str) -> None:
+        """Add a message without fields from one end to another, which may be new."""
+        self.data["endpoints"] |= {sender: "An end.", receiver: "An end."}
+        self._add(name, f"{sender} -> {receiver}", [])
+
+    def framed(self, name: str, frame: str, parts: list[str]) -> None:
+        """Add a message in a frame of its own, with all parts but the header called like these."""
+        reserved, station, counter, first, length, second, body, sum_, end = parts
+        head = (0xA000 + next(self._ids)).to_bytes(2, "big")
+        number: Data = {"type": "u8", "about": "A number."}
+        self.data.pop("frame", None)
+        self.data.setdefault("frames", {})[frame] = {
+            "the_header_of_it": {"is": "constant", "bytes": head.hex(" ").upper()},
+            reserved: {"is": "reserved", "bytes": "07", "about": "Nothing."},
+            station: {"is": "address", "range": "1..9", **number},
+            counter: {"is": "counter", **number},
+            first: {"is": "id", **number},
+            length: {"is": "length", "counts": [body], **number},
+            second: {"is": "id", **number},
+            body: {"is": "body"},
+            sum_: {"is": "checksum", "method": "xor", "covers": [first, body], **number},
+            end: {"is": "constant", "bytes": "0A"},
+        }
+        data = bytes([7, 1, 1, 3, 1, 4, 5, 3 ^ 5, 0x0A])
+        self.data["messages"][name] = {
+            **self._said(" -> ".join(reversed(self._ends))),
+            "frame": frame,
+            "id": {first: 3, second: 4},
+            "length": "1",
+            "fields": {"level_of_it": number},
+            "examples": [_example(head + data, {station: 1, counter: 1, "level_of_it": 5})],
+        }
+
+    def odd(self) -> None:
+        """Add a message of a number that makes frames no plain ones."""
+        number = {"type": "f32", "about": "A number."}
+        self.report("TheOddOne", [])
+        self.data["messages"]["TheOddOne"] |= {"length": "4", "fields": {"level_of_it": number}}
+        example = self.data["messages"]["TheOddOne"]["examples"][0]
+        head = bytes.fromhex(example["hex"])[:-1]
+        example |= {"hex": (head + bytes([4, 0, 0, 0x80, 0x3F])).hex(" ")}
+        example["values"] = {"level_of_it": 1.0}
+
+    def _said(self, direction: str) -> Data:
+        return {"direction": direction, "summary": "Say something.", "cite": "none"}
+
     def _add(
         self,
         name: str,
@@ -137,6 +183,7 @@ class Crowd:
         of: list[str] | None = None,
         signed: str = "",
         values: Data | None = None,
+        bits: Data | None = None,
         **more: Any,
     ) -> None:
         number = {"type": "u8", "about": "A number."}
@@ -159,19 +206,21 @@ class Crowd:
         if "lasts" in more:
             declared[more["lasts"]]["unit"] = "ms"
         id_ = next(self._ids)
-        examples = [_example(id_, [1] * body, example)]
+        examples = [_example(_frame(id_, [1] * body), example)]
         if signed:
             declared[signed]["signed_as"] = "i8"
             below = [255 if field == signed else 1 for field in fields]
             below += [1] * (body - len(below))
-            examples.append(_example(id_, below, example | {signed: 255}))
+            examples.append(_example(_frame(id_, below), example | {signed: 255}))
         if values:
             declared[fields[0]]["values"] = values
+        if bits:
+            # As wide as it takes.
+            declared[fields[0]] |= {"type": "u32", "bits": bits}
+            length, examples = "4", [_example(_frame(id_, [1, 0, 0, 0]), example)]
         self.data["messages"][name] = {
+            **self._said(direction),
             "id": id_,
-            "direction": direction,
-            "summary": "Say something.",
-            "cite": "none",
             "length": length,
             "fields": declared,
             "examples": examples,
@@ -179,11 +228,14 @@ class Crowd:
         }
 
 
-def _example(id_: int, body: list[int], values: Data) -> Data:
-    head = bytes([0xAA, 0x55]) + id_.to_bytes(2, "little") + bytes([len(body)])
+def _frame(id_: int, body: list[int]) -> bytes:
+    return bytes([0xAA, 0x55]) + id_.to_bytes(2, "little") + bytes([len(body)]) + bytes(body)
+
+
+def _example(frame: bytes, values: Data) -> Data:
     return {
         "title": "An example",
-        "hex": (head + bytes(body)).hex(" "),
+        "hex": frame.hex(" "),
         "values": values,
         "constructed": "From nothing.",
     }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import builtins
-import importlib
 import json
 import keyword
 import re
@@ -20,17 +19,14 @@ from busservo._client.async_client import AsyncClient
 from busservo._client.client import Client
 from busservo._frame.element import Element
 from framegen.cli import main
-from framegen.model.exchanges import snake_case
 from framegen.render import render, render_target, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
 from framegen.targets.docs import TARGET as DOCS
 from framegen.targets.filenames import DEVICES, file_stem
 from framegen.targets.python import reserved
-from framegen.targets.python.names import names_of, strategy_name
+from framegen.targets.python.names import names_of
 from framegen.targets.table import TARGETS
-from hypothesis import Phase, find, settings
-from hypothesis import strategies as st
 
 from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
 from tests.device_line import DeviceLine
@@ -48,13 +44,13 @@ from tests.factories import (
     vectors_of,
     write_files,
 )
+from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import ModuleType
 
     from framegen.compile import Compiled
-    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 
     Command = Callable[..., tuple[int, str, str]]
@@ -288,87 +284,28 @@ def crowd(request: pytest.FixtureRequest) -> Iterator[tuple[Model, ModuleType]]:
         yield compiled_crowd(name).model, made
 
 
-def plain(value: Any) -> Any:
-    """Return a value of an example as the library takes it."""
-    if isinstance(value, list):
-        return [tuple(each.values()) if isinstance(each, dict) else each for each in value]
-    return value
-
-
-def made_of(lib: ModuleType, model: Model, message: MessageLayout) -> Any:
-    """Return the first example of a message, in the library's names."""
-    names = names_of(model)
-    values = names.values(message.name, message.message.examples[0].values)
-    kind = getattr(lib, names.of("message", message.name))
-    return kind(**{name: plain(value) for name, value in values.items()})
-
-
 def test_every_example_makes_its_frame_and_is_read_from_it(
     crowd: tuple[Model, ModuleType],
 ) -> None:
     model, lib = crowd
-    for message in model.messages.values():
-        made = made_of(lib, model, message)
-        assert made.encode() == message.message.examples[0].hex
-        read = lib.decode(made.encode(), made.DIRECTION)
-        assert read == made
-        assert eval(repr(read), vars(lib.messages)) == made  # noqa: S307 - it is our own
-        assert {name: getattr(read, name) for name in read.__match_args__} == {
-            name: getattr(made, name) for name in made.__match_args__
-        }
+    examples_work(lib, model)
 
 
 def test_every_method_sends_its_message_and_returns_the_reply(
     crowd: tuple[Model, ModuleType],
 ) -> None:
     model, lib = crowd
-    names = names_of(model)
-    device = lib.Device()
-    received: list[Any] = []
-    device.accepted = received.append
-    pairs = [*zip(names.library.exchanges, model.exchanges, strict=True)]
-    replies = {
-        exchange.request.name: made_of(lib, model, author.reply)
-        for exchange, author in pairs
-        if author.reply is not None
-    }
-    for request, reply in replies.items():
-        setattr(device, f"on_{snake_case(request)}", lambda _message, reply=reply: reply)
-    line = DeviceLine(device)
-    with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
-        for exchange, author in pairs:
-            message = made_of(lib, model, author.request)
-            given = {name: getattr(message, name) for name in message.__match_args__}
-            returned = getattr(controller, exchange.method.name)(**given)
-            assert received.pop() == message
-            if exchange.method.result:
-                reply = replies[exchange.request.name]
-                assert returned == getattr(reply, exchange.method.result)
+    methods_work(lib, model)
 
 
 def test_a_report_is_waited_for_by_any_of_its_fields(crowd: tuple[Model, ModuleType]) -> None:
     model, lib = crowd
-    device = lib.Device()
-    line = DeviceLine(device)
-    with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
-        for message in model.sent(model.roles.received):
-            if model.kind(message.name) == "reply":
-                continue
-            report = made_of(lib, model, message)
-            numbers = [n for n in report.__match_args__ if isinstance(getattr(report, n), int)]
-            device.send(report)
-            wanted = dict.fromkeys(numbers, 1)
-            assert controller.wait_for(type(report), timeout=1, **wanted) == report
+    reports_work(lib, model)
 
 
 def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
     _, lib = crowd
-    strategies = importlib.import_module(f"{lib.__name__}.strategies")
-    each = [getattr(strategies, strategy_name(kind.__name__))() for kind in lib.MESSAGES]
-    # Any will do, so that none needs to be made smaller.
-    found = find(st.tuples(*each), lambda _: True, settings=settings(phases=[Phase.generate]))
-    assert [*map(type, found)] == [*lib.MESSAGES]
-    assert {"messages", "noise", "noisy_streams"} <= {*vars(strategies)}
+    strategies_work(lib)
 
 
 def test_a_pose_is_read_and_held_under_bent_names() -> None:

@@ -6,18 +6,12 @@ They need Hypothesis, as nothing else here does: `pip install hypothesis`.
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING
-from warnings import catch_warnings, simplefilter
 
 from hypothesis import strategies as st
 
-from ._frame.envelopes import ENVELOPES
-from ._frame.floating import Float
-from ._frame.items import Items
-from ._frame.optional import Optional
-from ._frame.packed import Packed
-from ._frame.text import Text
+from ._frame.strategies import any_noise as _any_noise
+from ._frame.strategies import any_of as _any_of
 from .messages import (
     MESSAGES,
     LastMove,
@@ -65,15 +59,10 @@ from .messages import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any, TypeVar
-
     from hypothesis.strategies import SearchStrategy
 
     from ._frame.direction import Direction
     from ._frame.message import Message
-
-    Kind = TypeVar("Kind", bound=Message)
 
 
 def move() -> SearchStrategy[Move]:
@@ -299,10 +288,7 @@ def noise(*, max_size: int = 40) -> SearchStrategy[bytes]:
 
     Of frames without a header, they may hold the beginning, too.
     """
-    headers = [envelope.header for envelope in ENVELOPES if envelope.header]
-    return st.binary(min_size=1, max_size=max_size).filter(
-        lambda data: not any(header in data for header in headers)
-    )
+    return _any_noise(max_size)
 
 
 @st.composite
@@ -321,53 +307,3 @@ def noisy_streams(
         data += message.encode()
         sent.append(message)
     return data + draw(st.just(b"") | noise()), sent
-
-
-def _any_of(kind: type[Kind], *, allow_nan: bool = False) -> SearchStrategy[Kind]:
-    """Generate any message of a class, with any legal values of its fields."""
-    fields = {name: getattr(kind, name) for name in kind.__match_args__}
-    make: Callable[..., Kind] = partial(_quietly, kind) if kind.DEPRECATED else kind
-    absent = [each.name for each in kind.SHAPE.optional]
-    return st.one_of(
-        [
-            st.builds(
-                make,
-                **{
-                    name: _value(field, allow_nan=allow_nan)
-                    for name, field in fields.items()
-                    if name not in absent[present:]
-                },
-            )
-            for present in kind.SHAPE.present or [0]
-        ]
-    )
-
-
-def _quietly(kind: type[Kind], **fields: Any) -> Kind:
-    """Return a deprecated message, without the warning: it is still to be read."""
-    with catch_warnings():
-        simplefilter("ignore", DeprecationWarning)
-        return kind(**fields)
-
-
-def _value(field: Any, *, allow_nan: bool) -> SearchStrategy[Any]:
-    """Generate any value of a field: what its type and its range allow."""
-    if isinstance(field, Optional):
-        return _value(field.number, allow_nan=allow_nan)
-    if isinstance(field, Float):
-        width: Any = 8 * field.struct.size
-        return st.floats(width=width, allow_nan=allow_nan)
-    if isinstance(field, Text):
-        # Zeros at the end are no part of a text with room for more.
-        lowest = 1 if field.least is None else 0
-        characters = st.characters(min_codepoint=lowest, max_codepoint=0x7F)
-        return st.text(characters, min_size=field.least or 0, max_size=field.most)
-    if isinstance(field, Packed):
-        numbers = st.integers(field.low, field.high)
-        return st.lists(numbers, min_size=field.length, max_size=field.length)
-    if isinstance(field, Items):
-        values = [_value(each, allow_nan=allow_nan) for each in field.fields]
-        elements = st.tuples(*values) if field.element else values[0]
-        return st.lists(elements, min_size=field.counts[0], max_size=field.counts[-1])
-    whole = st.integers(field.low, field.high)
-    return whole | st.sampled_from(field.others) if field.others else whole

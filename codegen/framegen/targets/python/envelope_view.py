@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from framegen.model.slots import Constant
 from framegen.targets.python.checksum_view import ChecksumView
 from framegen.targets.python.escape import Bracketed, byte_literal, literal
+from framegen.targets.python.names import envelope_name
 
 if TYPE_CHECKING:
     from framegen.model.envelope import Envelope
@@ -25,7 +26,7 @@ class EnvelopeView:
     @property
     def constant(self) -> str:
         """The name of the constant that is it."""
-        return f"{self.frame.name}_envelope".upper()
+        return envelope_name(self.frame.name)
 
     @property
     def assigned(self) -> str:

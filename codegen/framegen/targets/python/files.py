@@ -72,10 +72,12 @@ INSTEAD = {
     "plain": {
         "_frame/plain_heads.py": "_frame/heads.py",
         "_frame/plain_parts.py": "_frame/parts.py",
+        "_frame/plain_strategies.py": "_frame/strategies.py",
     },
     "general": {
         "_frame/envelope_heads.py": "_frame/heads.py",
         "_frame/envelope_parts.py": "_frame/parts.py",
+        "_frame/envelope_strategies.py": "_frame/strategies.py",
         "_frame/envelope_table.py": "_frame/table.py",
     },
     "proven": {"_codec/certain_decoder.py": "_codec/careful_decoder.py"},

@@ -19,7 +19,7 @@ from framegen.targets.python.escape import (
     session,
 )
 from framegen.targets.python.list_view import ListView, given
-from framegen.targets.python.names import id_name, strategy_name
+from framegen.targets.python.names import envelope_name, id_names, strategy_name
 from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
 from framegen.targets.python.plain import is_plain
@@ -95,12 +95,8 @@ class MessageView:
     @property
     def id_constants(self) -> list[str]:
         """The assignments of its ids: one by itself is its command."""
-        frame, ids = self.layout.frame, self.layout.ids
-        if len(frame.sent_ids) == 1:
-            return [f"COMMAND = {ids[0]}"]
-        return [
-            f"{id_name(part.name)} = {number}" for part, number in zip(frame.ids, ids, strict=True)
-        ]
+        named = zip(id_names(self.layout.frame), self.layout.ids, strict=False)
+        return [f"{name} = {number}" for name, number in named]
 
     @property
     def ids(self) -> str:
@@ -112,7 +108,7 @@ class MessageView:
     @property
     def envelope(self) -> str:
         """The constant that is its envelope."""
-        return f"{self.layout.frame.name}_envelope".upper()
+        return envelope_name(self.layout.frame.name)
 
     @property
     def direction(self) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
-from framegen.language.spec import ListField
+from framegen.language.spec import IdPart, ListField
 from framegen.language.values import Direction, Failure, Method
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 _Named = TypeVar("_Named", bound="Number | Text | Packed")
 _TAKEN = {(row.kind, word): row for row in reversed(RESERVED) for word in row.words}
 _CLASSES = ("message", "element")
+# What the constants of envelopes end in, and no other: a message class names one in its body.
+_ENVELOPE = "_ENVELOPE"
 
 
 @lru_cache(maxsize=4)
@@ -65,7 +67,8 @@ def constant_name(field: str, value: str) -> str:
 
 def bit_name(field: str, bit: str) -> str:
     """Return the property that reads named bits of a field: `error_voltage`."""
-    return f"{_plain(field)}_{bit}"
+    name = f"{_plain(field)}_{bit}"
+    return _behind(_TAKEN.get(("bits", name)), name)
 
 
 def mask_name(field: NumberField, name: str, bit: str) -> str:
@@ -77,7 +80,17 @@ def mask_name(field: NumberField, name: str, bit: str) -> str:
 def id_name(part: str) -> str:
     """Return the constant of one of several ids: `CLASS`."""
     name = part.upper()
-    return _behind(_TAKEN.get(("constant", name)), name)
+    return f"{name}_" if name.endswith(_ENVELOPE) else _behind(_TAKEN.get(("id", name)), name)
+
+
+def id_names(frame: Envelope) -> list[str]:
+    """Return the constants of the ids of messages in a frame: one by itself is the command."""
+    return ["COMMAND"] if len(frame.sent_ids) == 1 else [id_name(part.name) for part in frame.ids]
+
+
+def envelope_name(frame: str) -> str:
+    """Return the constant of an envelope: `ASK_ENVELOPE`."""
+    return f"{frame}{_ENVELOPE}".upper()
 
 
 def signed_name(field: str) -> str:
@@ -122,8 +135,12 @@ class Names:
             return row.why, row.suffix
         if kind == "package" and name.endswith("_simulator"):
             return "is where another library looks for its simulator", "_protocol"
+        if kind == "id" and name.endswith(_ENVELOPE):
+            return "may be the constant of an envelope", "_"
         if kind in _CLASSES and name in self._unions:
             return "is whatever one end sends", kind.capitalize()
+        if kind == "element" and name in self._ids:
+            return "is an id of messages, which hides it there", "Element"
         why = self._beside(name) if kind.startswith("field") else ""
         return why, "_" if why else ""
 
@@ -146,6 +163,13 @@ class Names:
     def _unions(self) -> frozenset[str]:
         """The types of all that an end sends."""
         return frozenset(union_name(self.of("endpoint", end)) for end in self.model.spec.endpoints)
+
+    @cached_property
+    def _ids(self) -> frozenset[str]:
+        """The constants of ids, which the classes of messages have in front of their fields."""
+        return frozenset(
+            name for frame in self.model.envelopes.values() for name in id_names(frame)
+        )
 
     @cached_property
     def _signed(self) -> frozenset[str]:
@@ -197,10 +221,7 @@ class Names:
         yield ("protocol", "name"), "package", spec.protocol.name
         for name in spec.endpoints:
             yield ("endpoints", name), "endpoint", name
-        for path, parts in _frames(spec):
-            for name, part in parts.items():
-                if part.is_ in _GIVEN:
-                    yield (*path, name), "field", name
+        yield from _frame_names(spec)
         for name, message in spec.messages.items():
             here: KeyPath = ("messages", name)
             yield here, "message", name
@@ -393,14 +414,33 @@ def _frames(spec: Spec) -> Iterator[tuple[KeyPath, Frame]]:
         yield ("frames", name), parts
 
 
+def _frame_names(spec: Spec) -> Iterator[tuple[KeyPath, str, str]]:
+    """Yield what the parts of each kind of frame become: fields, or constants of messages."""
+    for path, parts in _frames(spec):
+        ids = [name for name, part in parts.items() if isinstance(part, IdPart)]
+        sent = [name for name in ids if getattr(parts[name], "sent", False)]
+        yield from (
+            ((*path, name), "field", name) for name, part in parts.items() if part.is_ in _GIVEN
+        )
+        yield from (((*path, name), "id", name.upper()) for name in ids if len(sent) > 1)
+
+
 def _field_names(path: KeyPath, name: str, field: AnyField) -> Iterator[tuple[KeyPath, str, str]]:
     yield path, "field", name
     if not isinstance(field, ListField):
-        for value in field.values:
-            yield (*path, "values", value), "constant", f"{name}_{value}".upper()
+        yield from _named(path, name, field)
         return
     yield (*path, "element"), "element", field.element
     for inner, number in field.fields.items():
-        yield (*path, "fields", inner), "field of an element", inner
-        for value in number.values:
-            yield (*path, "fields", inner, "values", value), "constant", f"{inner}_{value}".upper()
+        here = (*path, "fields", inner)
+        yield here, "field of an element", inner
+        yield from _named(here, inner, number)
+
+
+def _named(path: KeyPath, name: str, field: NumberField) -> Iterator[tuple[KeyPath, str, str]]:
+    """Yield what the named values and the named bits of a number become."""
+    for key in ("values", "bits"):
+        for each in getattr(field, key):
+            yield (*path, key, each), "constant", f"{name}_{each}".upper()
+    for bit in field.bits:
+        yield (*path, "bits", bit), "bits", f"{name}_{bit}"

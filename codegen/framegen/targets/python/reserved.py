@@ -107,6 +107,10 @@ SENDERS = _words("any either noise unknown")
 
 # What every message class has besides its named values.
 CONSTANTS = _words("CONSTANTS DEFAULTS DEPRECATED DIRECTION FRAME IDS LENGTHS SHAPE VENDOR_NAME")
+COMMAND = _words("COMMAND")
+
+# The classes of fields that a message class names in its body, behind its constants.
+FIELD_CLASSES = _words("F32 F64 I16 I24 I32 I64 I8 U16 U24 U32 U64 U8")
 
 MODULES = _words(
     """
@@ -140,6 +144,8 @@ PACKAGES = _words(
 _KEYWORD = "is a word of Python itself"
 _BUILTIN = "would hide what Python has under this name"
 _AMBIGUOUS = "is taken for a digit"
+_ATTRIBUTE = "is an attribute of every message"
+_CONSTANT = "is a constant of messages, which hides it there"
 
 RESERVED = (
     Reserved("package", KEYWORDS, _KEYWORD, "_protocol"),
@@ -153,10 +159,11 @@ RESERVED = (
     Reserved("message", AMBIGUOUS_CLASSES, _AMBIGUOUS, "Message"),
     Reserved("element", PYTHON_CLASSES, "is a class of Python's own", "Element"),
     Reserved("element", LIBRARY_CLASSES, "is a class of every library", "Element"),
+    Reserved("element", CONSTANTS | COMMAND, _CONSTANT, "Element"),
     Reserved("element", AMBIGUOUS_CLASSES, _AMBIGUOUS, "Element"),
     Reserved("field", KEYWORDS, _KEYWORD, "_"),
     Reserved("field", BUILTINS, _BUILTIN, "_"),
-    Reserved("field", MESSAGE_ATTRIBUTES, "is an attribute of every message", "_"),
+    Reserved("field", MESSAGE_ATTRIBUTES, _ATTRIBUTE, "_"),
     Reserved("field", ARGUMENTS, "is an argument or a variable of the client's methods", "_"),
     Reserved("field", CONSTRUCTOR, "is a variable of the messages' constructors", "_"),
     Reserved("field", AMBIGUOUS, _AMBIGUOUS, "_"),
@@ -173,5 +180,8 @@ RESERVED = (
     Reserved("strategy", BUILTINS, _BUILTIN, "_"),
     Reserved("strategy", STRATEGIES, "is a function of every library's strategies", "_"),
     Reserved("strategy", AMBIGUOUS, _AMBIGUOUS, "_"),
-    Reserved("constant", CONSTANTS, "is an attribute of every message", "_"),
+    Reserved("bits", MESSAGE_ATTRIBUTES, _ATTRIBUTE, "_"),
+    Reserved("constant", CONSTANTS, _ATTRIBUTE, "_"),
+    Reserved("id", CONSTANTS, _ATTRIBUTE, "_"),
+    Reserved("id", FIELD_CLASSES, "is a class of every library", "_"),
 )

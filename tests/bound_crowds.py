@@ -1,0 +1,142 @@
+"""Specs in which every name that a library binds is the name of something: a spec for each kind."""
+
+from __future__ import annotations
+
+from itertools import count
+from typing import TYPE_CHECKING, TypeVar
+
+from tests.bound_names import pascal_names, snake_names
+from tests.crowd import Crowd
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from tests.factories import Data
+
+_Word = TypeVar("_Word")
+# More fields than that, and a method has more arguments than linters like.
+_FIELDS = 6
+_LONGEST_END = 20
+_LONGEST_CLASS = 40
+# The bits of a number, as wide as it may be here.
+_BITS = 32
+# The parts of a frame that have names.
+_PARTS = 9
+
+
+def fields(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name a field, there and back, and one of an element."""
+    for at, some in enumerate(_in_parts(names, _FIELDS)):
+        crowd.command(f"Sent{at}", some)
+        crowd.report(f"Received{at}", some)
+        crowd.command(f"Put{at}", [], listed=f"list{at}", element=f"Each{at}", of=some)
+
+
+def results(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make names what is asked for and returned, a list, and what counts one."""
+    for at, (first, *others) in enumerate(_in_parts(names, 3)):
+        crowd.report(f"Answer{at}", [first])
+        crowd.command(
+            f"Ask{at}", [first], reply=f"Answer{at}", method=f"ask{at}({first}) -> {first}"
+        )
+        if len(others) == 2:
+            crowd.command(f"Many{at}", [], listed=others[0], counter=others[1])
+
+
+def functions(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name a message whose method, strategy and handler are called so."""
+    # Those that differ only in capitals are refused.
+    messages(crowd, [*{name.lower(): name for name in map(_as_class, names)}.values()])
+
+
+def methods(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name a method."""
+    for at, name in enumerate(names):
+        crowd.command(f"Call{at}", [], method=f"{name}()")
+
+
+def values(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name a named value, and a bit."""
+    for at, some in enumerate(_in_parts(names, _BITS)):
+        named = {name: {"value": value, "about": "It."} for value, name in enumerate(some)}
+        crowd.report(f"Valued{at}", ["level"], values=named)
+        crowd.report(f"Flagged{at}", ["level"], bits={name: bit for bit, name in enumerate(some)})
+
+
+def halves(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name of several words what a field and its value, or its bit, become."""
+    number = count()
+    for name in names:
+        words = name.split("_")
+        for at in range(1, len(words)):
+            field, value = "_".join(words[:at]), "_".join(words[at:])
+            if value[0].isalpha():
+                said = {value: {"value": 7, "about": "It."}}
+                crowd.report(f"Valued{next(number)}", [field], values=said)
+                crowd.report(f"Flagged{next(number)}", [field], bits={value: 3})
+
+
+def ends(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name an end of the line, which may have more than two."""
+    short = [name for name in names if len(name) <= _LONGEST_END]
+    for at, (one, *other) in enumerate(_in_parts(short, 2)):
+        crowd.send(f"Said{at}", one, *(other or ["somebody"]))
+
+
+def parts(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name a part of a frame, and some a kind of frame."""
+    padded = [*names, *names[:_PARTS]]
+    for at in range(0, len(names), _PARTS):
+        some = padded[at : at + _PARTS]
+        crowd.framed(f"Framed{at}", some[0], some)
+
+
+def messages(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name a message, of either end in turn."""
+    for at, name in enumerate(names):
+        (crowd.report if at % 2 else crowd.command)(name, [])
+
+
+def elements(crowd: Crowd, names: Sequence[str]) -> None:
+    """Make every name an element."""
+    for at, name in enumerate(names):
+        add = crowd.report if at % 2 else crowd.command
+        add(f"Received{at}", [], listed="items", element=name, of=["level"])
+
+
+_OF_FIELDS: tuple[Callable[[Crowd, Sequence[str]], None], ...] = (
+    fields,
+    results,
+    functions,
+    methods,
+    values,
+    halves,
+    ends,
+    parts,
+)
+_OF_CLASSES = (messages, elements)
+CROWDS = [each.__name__ for each in (*_OF_FIELDS, *_OF_CLASSES)]
+
+
+def crowd_of(kind: str, *, plain: bool = True, everywhere: bool = False) -> Data:
+    """Return a spec in which every name is something of this kind; one of plain frames, or not."""
+    crowd = Crowd("crowded", "host", "device")
+    for each in _OF_FIELDS:
+        if each.__name__ == kind:
+            each(crowd, snake_names(everywhere=everywhere))
+    for each in _OF_CLASSES:
+        if each.__name__ == kind:
+            each(crowd, pascal_names(everywhere=everywhere))
+    # Frames of several kinds are no plain ones.
+    if not plain and "frame" in crowd.data:
+        crowd.odd()
+    return crowd.data
+
+
+def _as_class(name: str) -> str:
+    return "".join(word.capitalize() for word in name.split("_"))[:_LONGEST_CLASS]
+
+
+def _in_parts(words: Sequence[_Word], most: int) -> Iterator[list[_Word]]:
+    for at in range(0, len(words), most):
+        yield [*words[at : at + most]]
