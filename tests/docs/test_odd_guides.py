@@ -51,13 +51,15 @@ def test_guides_in_folders_are_pages(tmp_path: Path) -> None:
             "README.md": f"{PLAN}- [Deep](sub/deep.md): below\n",
             "first.md": "# First\n\n[deep](sub/deep.md#part)\n",
             "sub/deep.md": "# Deep\n\n## Part\n\n[up](../first.md)\n",
-            "reference/lamp/README.md": "# Made\n",
+            "reference/stage_lamp/README.md": "# Made\n",
+            "reference/hints.md": "# By hand\n",
         },
     )
     assert '<a href="sub/deep.html#part">deep</a>' in site["first.html"]
     assert '<a href="../first.html">up</a>' in site["sub/deep.html"]
     assert 'href="../index.html#learn"' in site["sub/deep.html"]
     assert "Made" not in "".join(site.values())
+    assert "By hand" in site["reference/hints.html"]
 
 
 def test_links_and_the_plan_take_any_letters(tmp_path: Path) -> None:

@@ -11,9 +11,10 @@ from framegen.reading.yamltree import Unusable
 from framegen.site.editions.released import read_released
 from framegen.site.guides.linked_files import linked_files, pictures
 from framegen.site.guides.plan import README, Plan
+from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from framegen.comparison.edition import Edition
@@ -56,7 +57,7 @@ def read_project(
     editions = {name: read_released(file, name) for file, name in names.items()}
     if docs is None:
         return Project([*specs.values()], base=base, released=editions)
-    guides = {path: _text(docs / path) for path in _guides(docs)}
+    guides = {path: _text(docs / path) for path in _guides(docs, names.values())}
     guides |= _listed(docs, Plan(guides[README]))
     files = pictures(docs) | linked_files(guides, docs)
     version, folder = _version(docs.parent), docs.as_posix()
@@ -75,11 +76,12 @@ def _refuse_twins(names: Mapping[Path, str]) -> None:
             )
 
 
-def _guides(docs: Path) -> Iterator[str]:
+def _guides(docs: Path, protocols: Collection[str]) -> Iterator[str]:
     """Yield the paths of all guides below a folder, but for the references that are made there."""
+    made = {(_REFERENCES, file_stem(name)) for name in protocols}
     for file in sorted(docs.rglob("*.md")):
         steps = file.relative_to(docs).parts
-        if steps[0] == _REFERENCES or any(step.startswith(".") for step in steps):
+        if steps[:2] in made or any(step.startswith(".") for step in steps):
             continue
         path = "/".join(steps)
         if re.search(r"[#?%\\]", path):
