@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 DATA = data_of(DEMO)
 WAY = "station -> gateway"
-DOOR = {
+DOOR: dict[str, Any] = {
     "id": 0x77,
     "direction": WAY,
     "summary": "A door is open.",
@@ -28,7 +28,12 @@ WINDOW = {
         "window": {"type": "u16", "about": "Which window."},
     },
 }
-LIMIT = {"id": 0x77, "direction": WAY, "name": "DoorOpened", "why": "Up to 1.0.0 it was that."}
+LIMIT: dict[str, Any] = {
+    "id": 0x77,
+    "direction": WAY,
+    "name": "DoorOpened",
+    "why": "Up to 1.0.0 it was that.",
+}
 REASON = "No station has it."
 
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from framegen.comparison.comparison import Comparison
 from framegen.comparison.effect import OUTCOMES
 from framegen.comparison.wire import trials_of
 
-from tests.comparison.edits import ALL, GONE, LISTS, SPECS, pair_of, with_
+from tests.comparison.edits import ALL, GONE, LISTS, SPECS, edition, pair_of, with_
+from tests.comparison.houses import DOOR, WAY, house
 
 if TYPE_CHECKING:
     from framegen.comparison.effect import Which, Witness
 
-    from tests.factories import Steps
+    from tests.factories import Data, Steps
 
 SERVO = SPECS["busservo"]
 UNLOADLESS = pair_of(SERVO, with_(SERVO, "messages", "ServoUnload", GONE))
@@ -54,3 +56,57 @@ def test_what_is_given_now_and_was_worked_out_is_read_alike(steps: Steps) -> Non
             for trial in trials_of(pair, sender)
         }
         assert found == outcomes
+
+
+def broken(old: Data, new: Data) -> set[str]:
+    """Return what ends notice of which editions as breaking."""
+    comparison = Comparison(edition(old), edition(new))
+    return {each.outcome for each in comparison.effects if each.axis == "wire" and each.breaks}
+
+
+def with_field(direction: str, size: int, name: str, field: Data) -> Data:
+    """Return the greenhouse with one more message of one more field."""
+    message = {**DOOR, "direction": direction, "length": 1 + size}
+    return house({"DoorAsked": {**message, "fields": {**DOOR["fields"], name: field}}})
+
+
+@pytest.mark.parametrize(
+    ("direction", "outcomes"), [("gateway -> station", set()), (WAY, {"refused"})]
+)
+def test_a_value_that_is_free_now_was_never_asked_of_an_old_end(
+    direction: str, outcomes: set[str]
+) -> None:
+    kind: Data = {"type": "u8", "about": "Which layout."}
+    old, new = (with_field(direction, 1, "kind", each) for each in ({**kind, "always": 4}, kind))
+    # A device that sends what no old end reads is another matter: nobody there chose that.
+    assert broken(old, new) == outcomes
+
+
+@pytest.mark.parametrize(("widened", "outcomes"), [("0..250", set()), ("0..200", {"refused"})])
+def test_an_address_that_no_old_end_has_is_nobody_in_use(widened: str, outcomes: set[str]) -> None:
+    modbus = SPECS["modbus"]
+    assert broken(modbus, with_(modbus, "frame", "unit", "range", widened)) == outcomes
+
+
+NUMBERS: Data = {"type": "u16", "counted_by": "door", "about": "How far."}
+NAMED: Data = {
+    **{key: each for key, each in NUMBERS.items() if key != "type"},
+    "element": "Gap",
+    "fields": {"gap": {"type": "u16", "about": "How far."}},
+}
+
+
+@pytest.mark.parametrize("direction", ["gateway -> station", WAY])
+@pytest.mark.parametrize(("type_", "outcomes"), [("u16", set()), ("i16", {"misread", "refused"})])
+def test_a_list_of_numbers_is_that_of_elements_with_one_number_each(
+    direction: str, type_: str, outcomes: set[str]
+) -> None:
+    named = {**NAMED, "fields": {"gap": {**NAMED["fields"]["gap"], "type": type_}}}
+    message = {**DOOR, "direction": direction, "length": "2 * door + 1"}
+    bare, other = (
+        house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": each}}})
+        for each in (NUMBERS, named)
+    )
+    assert broken(bare, other) <= outcomes
+    assert broken(other, bare) <= outcomes
+    assert bool(broken(bare, other)) == bool(outcomes)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import Problem, StructureRule
 from framegen.language.paths import NoPath, expect_place, read_path
-from framegen.reading.findings import did_you_mean
+from framegen.reading.findings import did_you_mean, slip_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -16,8 +15,6 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 _EXAMPLE = "write it as findings have it, such as `messages.NAME.fields.NAME`"
-# What one or two slips make of a name.
-_ALMOST_EQUAL, _MOST_SLIPS = 0.85, 2
 _ONE_OF_ALL = "name one, such as `messages.NAME`"
 
 
@@ -63,11 +60,10 @@ def _message(here: KeyPath, text: str, spec: Spec) -> Iterator[Problem]:
     known = known_messages(spec)
     if name is None or name in known:
         return
-    alike = [each for each in known if abs(len(each) - len(name)) <= _MOST_SLIPS]
-    near = get_close_matches(name, alike, 1, _ALMOST_EQUAL)
+    near = slip_of(name, known)
     if near:
         gone = f"if it was removed, reserve it: `reserved: [{{name: {name}, why: ...}}]`"
-        hint = f"did you mean `{near[0]}`? {gone}"
+        hint = f"did you mean `{near}`? {gone}"
         yield Problem(here, missing(name), hint, on_key=True)
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from itertools import chain, combinations, islice, product
 from typing import TYPE_CHECKING, Any
 
+from framegen.comparison.meaning import always_of
 from framegen.comparison.pair import element_fields
 from framegen.model.slots import Items, Number, Packed, Text
 
@@ -46,12 +47,18 @@ class Edges:
         self, message: MessageLayout, other: MessageLayout | None, names: Mapping[str, str]
     ) -> None:
         theirs = {} if other is None else {slot.name: slot for slot in other.arguments}
+        always = {} if other is None else dict(always_of(other.body))
         self._message = message
         self._slots = {slot.name: slot for slot in message.arguments}
         self._edges = {
             name: _edges(slot, theirs.get(names.get(name, "")), at)
             for at, (name, slot) in enumerate(self._slots.items())
         }
+        for name, slot in self._slots.items():
+            value = always.get(names.get(name, ""))
+            if value is not None and isinstance(slot, Number) and slot.holds(value):
+                # What is free now is understood where it is as it always was.
+                self._edges[name].append(value)
         self._counts = _counts(message, other)
         # The usual elements of lists.
         self._elements = {

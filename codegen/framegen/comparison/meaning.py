@@ -60,8 +60,12 @@ def translated(
     """
     said = {slot.name: _anything(slot) for slot in theirs.arguments}
     named = {slot.name: slot for slot in theirs.arguments}
+    always = dict(always_of(theirs.body))
     for slot in ours.arguments:
-        value, other = values[slot.name], named.get(pairing.to_new.get(slot.name, ""))
+        called = pairing.to_new.get(slot.name, "")
+        value, other = values[slot.name], named.get(called)
+        if called in always and always[called] != value:
+            return None
         if other is None:
             if value is not None and isinstance(slot, Number) and slot.optional:
                 return None
@@ -81,6 +85,8 @@ def _again(ours: Field, theirs: Field, value: Any) -> Any:
         case Items(), Items() if ours.element is not None and theirs.element is not None:
             items = [_again_element(ours, theirs, item) for item in value]
             return None if None in items else items
+        case Items(), Items() if _only(ours) is not None and _only(theirs) is not None:
+            return _with_names(theirs, _numbers_of(ours, value))
         case Packed() | Items(), Packed() | Items() if _is_bare(ours) and _is_bare(theirs):
             numbers = [
                 _same_quantity(_bare_field(ours), _bare_field(theirs), each) for each in value
@@ -88,6 +94,14 @@ def _again(ours: Field, theirs: Field, value: Any) -> Any:
             return None if None in numbers else numbers
         case _:
             return value
+
+
+def _with_names(items: Items, numbers: list[Any]) -> list[Any]:
+    """Return the elements that numbers are, of a list whose elements have one each."""
+    if items.element is None:
+        return numbers
+    (slot,) = items.fields
+    return [{slot.name: each} for each in numbers]
 
 
 def _again_element(ours: Items, theirs: Items, item: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -167,8 +181,15 @@ def _derived(
             case Items():
                 for counter in slot.counters:
                     yield counter.name, slot.counted(counter, len(values[slot.name]))
-            case Constant() if slot.field is not None and slot.field.always is not None:
-                yield slot.name, slot.field.always
+            case Constant():
+                yield from always_of([slot])
+
+
+def always_of(slots: Iterable[MessageSlot]) -> Iterator[tuple[str, float]]:
+    """Yield the values that never change, by name."""
+    for slot in slots:
+        if isinstance(slot, Constant) and slot.field is not None and slot.field.always is not None:
+            yield slot.name, slot.field.always
 
 
 def _of_slots(pairing: Pairing, ours: _Said, theirs: _Said, around: str) -> Iterator[Difference]:
@@ -247,11 +268,13 @@ def _bare(
 def _lists(
     ours: Items, theirs: Items, sent: list[Any], read: list[Any], path: str
 ) -> Iterator[Difference]:
-    if (ours.element is None) != (theirs.element is None):
-        yield Difference("misread", path, f"{path} has other elements")
-        return
     if ours.element is None or theirs.element is None:
-        yield from _bare(ours.fields[0].field, theirs.fields[0].field, sent, read, path)
+        one, other = _only(ours), _only(theirs)
+        if one is None or other is None:
+            yield Difference("misread", path, f"{path} has other elements")
+            return
+        numbers = _numbers_of(ours, sent), _numbers_of(theirs, read)
+        yield from _bare(one.field, other.field, *numbers, path)
         return
     if len(sent) != len(read):
         yield Difference(
@@ -262,6 +285,17 @@ def _lists(
     for index, (one, other) in enumerate(zip(sent, read, strict=True)):
         said, heard = _Said.of_element(ours, one), _Said.of_element(theirs, other)
         yield from _of_slots(pairing, said, heard, f"{path}[{index}].")
+
+
+def _only(items: Items) -> Number | None:
+    """Return the number that each element is, whether it has a name or not; None for others."""
+    alone = len(items.slots) == 1 and items.fields and isinstance(items.fields[0], Number)
+    return items.fields[0] if alone and isinstance(items.fields[0], Number) else None
+
+
+def _numbers_of(items: Items, values: list[Any]) -> list[Any]:
+    """Return the numbers of a list whose elements have one each."""
+    return values if items.element is None else [next(iter(each.values())) for each in values]
 
 
 def _numbers(

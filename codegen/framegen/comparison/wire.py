@@ -236,7 +236,7 @@ class Trial:
         if self.other is None:
             return False
         if not self.chosen:
-            return True
+            return self._was_asked(self.other, values)
         said = translated(self._fields(self.other), self.message, self.other, values)
         if said is None:
             return False
@@ -245,6 +245,11 @@ class Trial:
         except Unencodable:
             return False
         return True
+
+    def _was_asked(self, other: MessageLayout, values: Mapping[str, Any]) -> bool:
+        """Tell whether ends of the old edition talk to a device with the address in a frame."""
+        ours, theirs = self.message.frame.address, other.frame.address
+        return ours is None or theirs is None or theirs.holds(values[ours.name])
 
     def _read_inside(self, way: Direction, data: bytes) -> list[str]:
         """Return the messages that the other end finds in a frame that it refuses as a whole."""

@@ -11,10 +11,10 @@ from framegen.language.formula import Formula, Sizes, parse_formula
 from framegen.language.spec import ListField
 from framegen.model.codec import decode
 from framegen.model.slots import Number
-from framegen.reading.findings import did_you_mean
+from framegen.reading.findings import did_you_mean, slip_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from framegen.language.spec import Concern, Message
     from framegen.model.layout import MessageLayout
@@ -52,6 +52,12 @@ class Fact:
             return False
 
 
+def _other_message(name: str, messages: Iterable[str]) -> str:
+    """Hint at the message that was meant; one that was removed has no facts any more."""
+    near = slip_of(name, messages)
+    return f"did you mean `{near}`?" if near else "if it was removed, remove what is said of it"
+
+
 def look_up(model: Model, concern: Concern) -> Fact:
     """Find a fact. Raises NoSuchFact; and codec.NotAFrame where it is in a broken example."""
     message = model.messages.get(concern.message)
@@ -59,7 +65,7 @@ def look_up(model: Model, concern: Concern) -> Fact:
         raise NoSuchFact(
             "message",
             f"there is no message `{concern.message}`",
-            partial(did_you_mean, concern.message, model.messages),
+            partial(_other_message, concern.message, model.messages),
         )
     chosen = [key for key in ("fact", "parameter", "example") if getattr(concern, key) is not None]
     if len(chosen) > 1:

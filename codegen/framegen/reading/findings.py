@@ -89,6 +89,14 @@ def did_you_mean(word: str, known: Iterable[str], *, otherwise: str = "") -> str
     return f"choose one of {named}" + (f" or {others} others" if others > 0 else "")
 
 
+def slip_of(word: str, known: Iterable[str]) -> str:
+    """Return the word that one or two slips made of this one; "" where it may be another word."""
+    alike = [each for each in known if abs(len(each) - len(word)) <= _MOST_SLIPS]
+    return next(iter(get_close_matches(word, alike, 1, _ALMOST_EQUAL)), "")
+
+
+# What one or two slips make of a name.
+_ALMOST_EQUAL, _MOST_SLIPS = 0.85, 2
 # More than anybody mends in one go.
 MOST_FINDINGS = 50
 _MOST_CHOICES = 20

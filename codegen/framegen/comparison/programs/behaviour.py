@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.comparison.edges import values_to_try
 from framegen.comparison.effect import Effect
-from framegen.comparison.meaning import differences
+from framegen.comparison.meaning import always_of, differences
 from framegen.comparison.pair import element_fields
 from framegen.comparison.programs.origins import frame_path
 from framegen.model.codec import Unencodable, encode, values_of
@@ -52,7 +52,7 @@ def preference_effects(pair: Pair) -> Iterator[Effect]:
         for one, another in _preferred(pair, old, new):
             # That a message is gone is told by itself.
             if pair.messages.to_new.get(one, another) != another:
-                text = f"makes {another} of {other}; it made {one} of {name}"
+                text = f"reads frames of {other} as {another} now, and read them as {one} before"
                 paths = ("messages", name), ("messages", other)
                 yield Effect("programs", "order", *paths, f"`decode(frame, None)` {text}")
                 break
@@ -208,6 +208,10 @@ def _whole(
     said = dict(usual)
     theirs = {slot.name: slot for slot in new.arguments}
     said |= {slot.name: None for slot in new.optional}
+    for name, value in always_of(old.body):
+        other_name = fields.to_new.get(name)
+        if other_name in theirs:
+            said[other_name] = value
     for slot in old.arguments:
         other = theirs.get(fields.to_new.get(slot.name, ""))
         if other is not None and other.name in usual:
