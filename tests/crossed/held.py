@@ -16,6 +16,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from framegen.conformance.comparison import compare
+from framegen.conformance.dice import Dice, random_values
 from framegen.conformance.further import further
 from framegen.conformance.language import Stream
 from framegen.conformance.program import Reply
@@ -31,7 +32,6 @@ from hypothesis import given
 from tests.contract.conversation import converse
 from tests.factories import library, library_files
 from tests.protocols.libraries import direction_of, values_in
-from tests.protocols.specs import any_values
 from tests.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def faults(crossed: Crossed, scripts: Scripts) -> list[str]:
     chance = random.Random(f"held {crossed.seed}")  # noqa: S311 - no secret
     asked = _asked(model, crossed.seed, chance)
     looks: dict[str, Callable[[], Iterator[str]]] = {
-        "reference": lambda: _themselves(model, chance),
+        "reference": lambda: _themselves(model, crossed.seed),
         "JavaScript": lambda: _answers(model, asked, scripts.of(model)),
         "library": lambda: _of_library(crossed, asked, chance),
     }
@@ -88,12 +88,12 @@ def _guarded(who: str, look: Callable[[], Iterator[str]]) -> Iterator[str]:
         yield f"{who}: {type(error).__name__}: {error} ({place}){notes}"
 
 
-def _themselves(model: Model, chance: random.Random) -> Iterator[str]:
+def _themselves(model: Model, seed: int) -> Iterator[str]:
     """Yield messages that do not read as themselves; what all agree in is as wrong."""
-    messages = [*model.messages.values()]
+    dice, messages = Dice(seed), [*model.messages.values()]
     for _ in range(THEMSELVES):
-        message = chance.choice(messages)
-        values = any_values(message, chance)
+        message = dice.pick(messages)
+        values = random_values(dice, message)
         frame = encode(message, values)
         read = weigh_whole(model, [message.direction], frame)
         if read.message is not message:

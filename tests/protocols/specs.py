@@ -121,11 +121,10 @@ def frames_of(name: str, count: int, seed: int = 0) -> Iterator[bytes]:
     messages = list(messages_of(name).values())
     for number in range(count):
         message = messages[number] if number < len(messages) else chance.choice(messages)
-        yield encode(message, any_values(message, chance))
+        yield encode(message, _any_values(message, chance))
 
 
-def any_values(message: MessageLayout, chance: random.Random) -> Values:
-    """Return values that a frame with this layout can carry, `FEW` in each list."""
+def _any_values(message: MessageLayout, chance: random.Random) -> Values:
     values = {slot.name: _any_value(slot, chance) for slot in message.arguments}
     if message.optional:
         there = message.there(chance.choice(list(message.counts)))

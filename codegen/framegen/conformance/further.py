@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from framegen.conformance.language import Question
     from framegen.language.values import Direction
+    from framegen.model.envelope import Envelope
     from framegen.model.model import Model
 
 # As many pieces are on a line at the most.
@@ -68,9 +69,13 @@ def _piece(model: Model, dice: Dice, way: Direction) -> bytes:
     at = dice.below(len(frame))
     # In front of the fields is where most goes wrong.
     early = dice.below(envelope.body_at)
-    stepped = bytes([(frame[early] + dice.pick((1, -1, 3))) & 0xFF])
+    step = dice.pick((1, -1, 3))
     begun = b"".join(_part(dice, slot) for slot in envelope.head)
     changed = frame[:at] + dice.bytes(1) + frame[at + 1 :]
+    wrong = [changed, changed]
+    if envelope.proven:
+        unknown = _of_other_ids(dice, envelope, frame)
+        wrong += [unknown, _stepped(unknown, early, step)]
     pieces = (
         frame,
         frame,
@@ -78,15 +83,27 @@ def _piece(model: Model, dice: Dice, way: Direction) -> bytes:
         frame[:at] + frame[at + 1 :],
         frame[:at] + dice.bytes(1) + frame[at:],
         changed,
-        frame[:early] + stepped + frame[early + 1 :],
+        _stepped(frame, early, step),
         envelope.header[: 1 + at] + frame,
         begun + dice.bytes(dice.below(6)),
         dice.bytes(1 + dice.below(3)),
         # With a right checksum, a change is only found by what is looked at besides.
-        *([message.sealed(changed)] * 2 if envelope.proven else ()),
+        *map(message.sealed, wrong if envelope.proven else ()),
     )
     piece: bytes = dice.pick(pieces)
     return piece
+
+
+def _stepped(frame: bytes, at: int, step: int) -> bytes:
+    """Return a frame with one byte that is a little higher or lower."""
+    return frame[:at] + bytes([(frame[at] + step) & 0xFF]) + frame[at + 1 :]
+
+
+def _of_other_ids(dice: Dice, envelope: Envelope, frame: bytes) -> bytes:
+    """Return a frame with any ids."""
+    for part in envelope.sent_ids:
+        frame = frame[: part.at] + dice.bytes(part.size) + frame[part.at + part.size :]
+    return frame
 
 
 def _part(dice: Dice, slot: Any) -> bytes:
