@@ -5,14 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from framegen.checks.rule import ModelRule, Problem
+from framegen.language.values import to_hex
 from framegen.model.apart import begun, shares_checksums
+from framegen.model.verdict import weigh
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
+    from framegen.language.spec import Example
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
+
+
+# So many examples of each message are tried.
+_EXAMPLES = 4
 
 
 def _look(model: Model) -> Iterator[Problem]:
@@ -20,16 +27,19 @@ def _look(model: Model) -> Iterator[Problem]:
     for short, long in begun(model):
         longer.setdefault(short.name, []).append(long)
     for name, others in longer.items():
-        yield _problem(model.messages[name], others)
+        yield _problem(model, model.messages[name], others)
 
 
-def _problem(short: MessageLayout, longer: list[MessageLayout]) -> Problem:
+def _problem(model: Model, short: MessageLayout, longer: list[MessageLayout]) -> Problem:
     long, *others = sorted(longer, key=lambda each: _one_in(short, each))
     odds = _one_in(short, long)
     of_how_many = f"1 in {odds:,} frames".replace(",", " ") if odds > 1 else "every frame"
     what = f"{of_how_many} of {long.name}, {long.direction}, begins with one of {short.name}"
     if others:
         what += f", and so may those of {pluralize(len(others), 'other message')}"
+    if joined := _joined(model, short, longer):
+        frame, behind, whole = joined
+        what += f"; {to_hex(frame)} becomes {whole.name} where {to_hex(behind)} follows at once"
     return Problem(
         ("messages", short.name),
         what,
@@ -38,6 +48,28 @@ def _problem(short: MessageLayout, longer: list[MessageLayout]) -> Problem:
         on_key=True,
         also=(("messages", long.name), "the longer one is here"),
     )
+
+
+def _joined(
+    model: Model, short: MessageLayout, longer: list[MessageLayout]
+) -> tuple[bytes, bytes, MessageLayout] | None:
+    """Return a frame that is a longer one with other frames behind it, or with zeros.
+
+    A checksum that is right may well be right again behind another one.
+    """
+    way = [short.direction]
+    sent = [each.hex for message in model.sent(short.direction) for each in _examples(message)]
+    zeros = (bytes(long.least - short.least) for long in longer)
+    for frame in (each.hex for each in _examples(short)):
+        for behind in (*sent, *zeros):
+            verdict = weigh(model, way, frame + behind)
+            if verdict.message in longer and verdict.offset > len(frame):
+                return frame, behind[: verdict.offset - len(frame)], verdict.message
+    return None
+
+
+def _examples(message: MessageLayout) -> Sequence[Example]:
+    return message.message.examples[:_EXAMPLES]
 
 
 def _one_in(short: MessageLayout, long: MessageLayout) -> int:
