@@ -23,7 +23,7 @@ def taken(kind: str) -> list[str]:
 
 def taken_names() -> Data:
     """Return every taken word but those of elements, as a name of the kind it is taken for."""
-    crowd = Crowd("json", "any", "noise")
+    crowd = Crowd("taken_words", "any", "noise")
     for at, words in enumerate(_in_parts(taken("field"))):
         crowd.command(f"Sent{at}", words)
         crowd.report(f"Received{at}", words)
@@ -53,7 +53,7 @@ def taken_names() -> Data:
 
 def taken_elements() -> Data:
     """Return every taken word of elements as the name of one."""
-    crowd = Crowd("serial", "host", "either")
+    crowd = Crowd("taken_elements", "host", "either")
     for at, name in enumerate(taken("element")):
         if not _shouted(name):
             crowd.report(f"Received{at}", [], listed="items", element=name, of=["id"])

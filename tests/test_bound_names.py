@@ -1,9 +1,13 @@
 """Every name that a library binds is a good name for anything in a spec."""
 
 import pytest
+from framegen.language.package_names import why_taken
+from framegen.render import render
 
 from tests.bound_crowds import CROWDS, crowd_of
-from tests.factories import compiled_of
+from tests.bound_names import imported, snake_names
+from tests.crowd import Crowd
+from tests.factories import compiled_of, rules_broken
 from tests.names_at_work import at_work
 
 # Classes meet what modules import, which depends on the kind; tests/all has all others of both.
@@ -14,3 +18,37 @@ KINDS += [("messages", False), ("elements", True)]
 @pytest.mark.parametrize(("kind", "plain"), KINDS)
 def test_a_library_works_whatever_its_names_are(kind: str, plain: bool) -> None:
     at_work(compiled_of(crowd_of(kind, plain=plain)))
+
+
+def _called(name: str) -> Crowd:
+    crowd = Crowd(name, "host", "device")
+    crowd.command("Ask", [], reply="Answer")
+    crowd.report("Answer", ["level"])
+    return crowd
+
+
+def test_no_protocol_hides_what_a_library_imports() -> None:
+    assert {"numpy", "serial", "json"} <= imported()
+    assert [name for name in imported() if not why_taken(name)] == ["__future__"]
+
+
+def test_a_protocol_has_a_name_that_is_free_or_none() -> None:
+    for name in snake_names():
+        broken = ["protocol-name"] if why_taken(name) else []
+        assert [rule for rule in rules_broken(_called(name).data) if rule != "name-too-long"] == (
+            broken
+        )
+
+
+@pytest.mark.parametrize("name", ["messages", "decode", "device", "strategies", "json_lines", "u8"])
+def test_all_that_is_made_for_a_protocol_has_its_name(name: str) -> None:
+    compiled = compiled_of(_called(name).data)
+    output = render(compiled)
+    folders = {"/".join(path.split("/")[:-1]) for path in output.files}
+    assert {folder.removeprefix("docs/reference/").split("/")[0] for folder in folders} == {
+        "generated",
+        name,
+    }
+    assert {path.split("/")[1] for path in output.files if path.startswith("generated/")} == {name}
+    assert output.manifest == f"generated/{name}.manifest"
+    at_work(compiled)

@@ -19,11 +19,12 @@ from busservo._client.async_client import AsyncClient
 from busservo._client.client import Client
 from busservo._frame.element import Element
 from framegen.cli import main
+from framegen.language.package_names import BUILTINS, DEVICES, KEYWORDS, why_taken
 from framegen.render import render, render_target, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
 from framegen.targets.docs import TARGET as DOCS
-from framegen.targets.filenames import DEVICES, file_stem
+from framegen.targets.filenames import file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of
 from framegen.targets.table import TARGETS
@@ -165,13 +166,13 @@ HANDLERS = {name for name in vars(busservo.Device) if name.startswith("on_")}
 def test_every_word_of_this_python_is_reserved() -> None:
     """Whichever it is: the lists hold the words of all versions."""
     words = {*keyword.kwlist, *keyword.softkwlist} - {"_", "None", "True", "False"}
-    assert words <= reserved.KEYWORDS
+    assert words <= KEYWORDS
     present = {name for name in dir(builtins) if not name.startswith("_")}
-    assert {name for name in present if name.islower()} <= reserved.BUILTINS | reserved.KEYWORDS
+    assert {name for name in present if name.islower()} <= BUILTINS | KEYWORDS
     assert {name for name in present if name[0].isupper()} <= {*taken("message")}
     modules = {name for name in sys.stdlib_module_names if not name.startswith("_")}
     # Names of packages are in lower case.
-    assert {name for name in modules if name.islower()} <= reserved.MODULES
+    assert [name for name in modules if name.islower() and not why_taken(name)] == []
 
 
 def test_no_suffix_makes_another_reserved_word() -> None:
@@ -187,12 +188,6 @@ def test_no_suffix_makes_another_reserved_word() -> None:
 @pytest.mark.parametrize(
     ("kind", "old", "name", "bent"),
     [
-        ("package", "greenhouse", "serial", "serial_protocol"),
-        ("package", "greenhouse", "json", "json_protocol"),
-        ("package", "greenhouse", "class", "class_protocol"),
-        ("package", "greenhouse", "nul", "nul_protocol"),
-        ("package", "greenhouse", "hall_simulator", "hall_simulator_protocol"),
-        ("package", "greenhouse", "json_lines", "json_lines"),
         ("endpoint", "station", "any", "any_"),
         ("endpoint", "station", "noise", "noise_"),
         ("endpoint", "station", "class", "class"),
@@ -350,7 +345,7 @@ def test_linters_have_nothing_to_say(on_disk: Path) -> None:
 @pytest.mark.slow
 def test_type_checkers_have_nothing_to_say(on_disk: Path) -> None:
     packages = [file.parent.name for file in on_disk.glob("*/py.typed")]
-    assert sorted(packages) == ["json_protocol", "pose", "serial_protocol"]
+    assert sorted(packages) == ["pose", "taken_elements", "taken_words"]
     config = str(ROOT / "tests" / "untyped.ini")
     cache = str(on_disk.parent / "cache")
     words = ("mypy", "--strict", "--config-file", config, "--cache-dir", cache, *packages)
@@ -373,17 +368,17 @@ def said(package: str, folder: Path, *words: str) -> str:
 
 def test_the_command_says_the_names_that_the_library_has(on_disk: Path) -> None:
     words = ["Ask0", "class_=7"]
-    frame = said("json_protocol", on_disk, "encode", *words).strip()
-    assert said("json_protocol", on_disk, "decode", "--direction", "any_", frame).split()[1:4] == [
+    frame = said("taken_words", on_disk, "encode", *words).strip()
+    assert said("taken_words", on_disk, "decode", "--direction", "any_", frame).split()[1:4] == [
         "any_",
         "Ask0",
         "class_=7",
     ]
-    shown = said("json_protocol", on_disk, "decode", "--json", "--direction", "any_", frame)
+    shown = said("taken_words", on_disk, "decode", "--json", "--direction", "any_", frame)
     assert json.loads(shown)["fields"] == {"class_": 7}
-    refused = said("json_protocol", on_disk, "encode", "Ask0", "class_=700")
+    refused = said("taken_words", on_disk, "encode", "Ask0", "class_=700")
     assert "class_: 700 is outside 0..255" in refused
-    assert "class_=CLASS_" in said("json_protocol", on_disk, "encode", "Ask0")
+    assert "class_=CLASS_" in said("taken_words", on_disk, "encode", "Ask0")
 
 
 # ------------------------------------------------------------------ what framegen says of them
@@ -430,20 +425,22 @@ def test_a_file_has_a_name_that_windows_takes(name: str, stem: str) -> None:
 
 
 def test_every_file_can_be_checked_out_on_windows() -> None:
-    crowd = Crowd("con", "host", "device")
+    crowd = Crowd("devices", "host", "device")
     for name in ["Con", "Nul", "Aux", "Prn", "Com1", "Lpt9"]:
         crowd.command(name, ["level"])
     spec = compiled_of(crowd.data)
     output = render(spec)
     paths = [*output.files, output.manifest, *render_site(Project([spec]), snippets())]
-    assert {"docs/reference/con_/messages/Nul_.md", "reference/con_/messages/Nul_.html"} <= {*paths}
+    assert {"docs/reference/devices/messages/Nul_.md", "reference/devices/messages/Nul_.html"} <= {
+        *paths
+    }
     stems = {part.partition(".")[0].lower() for path in paths for part in path.split("/")}
     assert stems & DEVICES == set()
     assert len({path.lower() for path in paths}) == len(paths)
 
 
 def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
-    crowd = Crowd("con", "host", "device")
+    crowd = Crowd("devices", "host", "device")
     crowd.report("Nul", ["level"])
     crowd.command("Con", ["level"], reply="Nul")
     spec = compiled_of(crowd.data)
@@ -490,7 +487,7 @@ def test_targets_lists_what_there_is(framegen: Command) -> None:
 def test_targets_prints_what_becomes_of_a_word(framegen: Command) -> None:
     code, out, _ = framegen("targets", "python")
     assert code == 0
-    assert "package: NAME becomes NAME_protocol where it is a module of Python's standard" in out
+    assert "message: NAME becomes NAMEMessage where it is a class of every library" in out
     assert {word for row in reserved.RESERVED for word in row.words} <= {*out.split()}
 
 

@@ -179,14 +179,14 @@ def test_every_section_that_the_spec_names_is_in_the_guide() -> None:
 # ------------------------------------------------------------------ names
 
 REFUSED = [
-    ("class", "no library can be called `class`: it is a word of Python itself"),
-    ("json", "no library can be called `json`: it is a module of Python's standard library"),
+    ("class", "no protocol can be called so: `class` is a word of Python itself"),
+    ("json", "no protocol can be called so: `json` is a module of Python's standard library"),
     (
         "serial",
-        "no library can be called `serial`: it is a package that is used",
+        "no protocol can be called so: `serial` is a package that is used",
     ),
-    ("con", "no library can be called `con`: it is a device on Windows, and no folder there"),
-    ("hypothesis", "no library can be called `hypothesis`: it is a package that is used beside"),
+    ("con", "no protocol can be called so: `con` is a device on Windows, and no folder there"),
+    ("hypothesis", "no protocol can be called so: `hypothesis` is a package that is used beside"),
     ("_pytest", "no protocol can be called so: `_pytest` is no name in snake_case"),
     ("busservo", "a package `busservo` is installed here, which it would hide"),
     ("Kiln", "no protocol can be called so: `Kiln` is no name in snake_case\n  hint: write `kiln`"),

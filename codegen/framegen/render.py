@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from framegen.output import Output, banner
 from framegen.targets import table
-from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -34,7 +33,7 @@ def render(compiled: Compiled, targets: Collection[Target] | None = None) -> Out
         else:
             others |= render_target(target, compiled)
     return Output(
-        f"generated/{file_stem(compiled.spec.protocol.name)}.manifest",
+        f"generated/{compiled.spec.protocol.name}.manifest",
         compiled.source.path,
         dict(sorted(files.items())),
         tuple(folders),

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 from framegen.comparison.pair import Pair
-from framegen.targets.python.names import package_of
 from hypothesis import given
 
 from tests.comparison.edits import EDITS, of_the_day, pair_of
@@ -93,7 +92,7 @@ def complaints(made: Editions, folder: Path, which: str) -> list[str]:
         ]
     place = folder / which
     write_files(files, place)
-    package = package_of(made.old.model)
+    package = made.old.model.spec.protocol.name
     lines = [f"from {package} import *", *(f"print({each})" for each in statements)]
     (place / "program.py").write_text("\n".join([*lines, ""]), encoding="utf-8")
     done = subprocess.run(

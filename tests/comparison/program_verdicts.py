@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from framegen.comparison.programs import program_effects
 from framegen.comparison.programs.rendered import NoLibrary, rendered
 from framegen.model.exchanges import method_of, snake_case
-from framegen.targets.python.names import names_of, package_of
+from framegen.targets.python.names import names_of
 
 from tests.comparison.program_of_all import fails, namespace, program, run
 from tests.factories import library
@@ -55,7 +55,9 @@ def files_of(edition: Edition) -> dict[str, str] | None:
         files = rendered(edition)
     except NoLibrary:
         return None
-    return {f"generated/{package_of(edition.model)}/{path}": text for path, text in files.items()}
+    return {
+        f"generated/{edition.model.spec.protocol.name}/{path}": text for path, text in files.items()
+    }
 
 
 @cache

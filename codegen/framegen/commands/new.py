@@ -64,7 +64,6 @@ def _accepted(name: str, spec: str) -> Model:
     from framegen.compile import compile_spec  # noqa: PLC0415
     from framegen.reading.source import Source  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-    from framegen.targets.table import TARGETS  # noqa: PLC0415
 
     try:
         compiled = compile_spec(Source("spec", spec))
@@ -72,11 +71,8 @@ def _accepted(name: str, spec: str) -> Model:
         raise Unusable(f"no protocol can be called so: `{visible(name)}` is no text") from None
     for finding in compiled.findings:
         raise Unusable(f"no protocol can be called so: {finding.message}", hint=finding.hint)
-    hint = f"choose another name, such as `{name}_protocol`"
-    for target in TARGETS:
-        for bent in target.bent(compiled.model):
-            raise Unusable(f"no library can be called `{visible(name)}`: it {bent.why}", hint=hint)
     if _is_installed(name):
+        hint = f"choose another name, such as `{name}_protocol`"
         raise Unusable(f"a package `{name}` is installed here, which it would hide", hint=hint)
     return compiled.model
 

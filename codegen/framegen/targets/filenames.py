@@ -8,10 +8,7 @@ extension and however they are capitalised.
 
 from __future__ import annotations
 
-# What Windows keeps for devices.
-DEVICES = frozenset(["con", "prn", "aux", "nul"]) | {
-    f"{port}{number}" for port in ("com", "lpt") for number in range(10)
-}
+from framegen.language.package_names import DEVICES
 
 
 def file_stem(name: str) -> str:

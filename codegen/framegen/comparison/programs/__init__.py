@@ -18,7 +18,6 @@ from framegen.comparison.programs.library import library_effects
 from framegen.comparison.programs.rendered import NoLibrary, rendered
 from framegen.comparison.surface import read_surface
 from framegen.language.paths import NoPath, read_path
-from framegen.targets.python.names import package_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -82,7 +81,7 @@ def _of_package(pair: Pair) -> Iterator[Effect]:
     """Yield what becomes of the library as a whole."""
     specs = pair.old.spec, pair.new.spec
     name = ("protocol", "name")
-    old, new = package_of(pair.old.model), package_of(pair.new.model)
+    old, new = (each.model.spec.protocol.name for each in (pair.old, pair.new))
     if old != new:
         yield Effect("programs", "renamed", name, name, f"`import {old}` is now `import {new}`")
     client = pair.new.model.roles.client

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.docs.markdown_pages import markdown_files
 from framegen.targets.docs.reference import ReferenceView
-from framegen.targets.filenames import file_stem
 from framegen.targets.target import Comment, Target
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ def render(compiled: Compiled, snippets: Snippets) -> dict[str, str]:
 
 def folders(model: Model) -> tuple[str, ...]:
     """Return the folder of the protocol's reference."""
-    return (f"docs/reference/{file_stem(model.spec.protocol.name)}",)
+    return (f"docs/reference/{model.spec.protocol.name}",)
 
 
 TARGET = Target(

@@ -25,7 +25,6 @@ from framegen.targets.docs.timing import (
     timings,
 )
 from framegen.targets.docs.way import Way, way
-from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
     from framegen.compile import Compiled
@@ -126,7 +125,7 @@ class ReferenceView:
     @property
     def folder(self) -> str:
         """The folder of the pages, beside those of other protocols."""
-        return file_stem(self.protocol.name)
+        return self.protocol.name
 
     @property
     def spec(self) -> str:

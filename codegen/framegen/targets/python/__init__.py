@@ -13,7 +13,7 @@ from framegen.targets.python.docstring import docstring
 from framegen.targets.python.escape import assigned, literal, quoted
 from framegen.targets.python.files import SHARED, placed
 from framegen.targets.python.library_view import LibraryView
-from framegen.targets.python.names import bent, names_of, package_of
+from framegen.targets.python.names import bent, names_of
 from framegen.targets.python.reserved import RESERVED
 from framegen.targets.python.snippet import snippets
 from framegen.targets.target import Comment, Target
@@ -43,7 +43,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
 
 def folders(model: Model) -> tuple[str, ...]:
     """Return the folder of the package."""
-    return (f"generated/{package_of(model)}",)
+    return (f"generated/{model.spec.protocol.name}",)
 
 
 @cache

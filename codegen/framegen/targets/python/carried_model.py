@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.model.data import model_data
 from framegen.output import banner
 from framegen.targets.python.message_view import MessageView
-from framegen.targets.python.names import names_of, package_of
+from framegen.targets.python.names import names_of
 from framegen.targets.python.snippet import codec_snippet
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def _usage(model: Model, layout: MessageLayout, methods: dict[str, Method]) -> d
     """Return how the library and its command send or receive a message."""
     names = names_of(model)
     library, message = names.library, names.message(layout.name)
-    example, program = layout.message.examples[0], package_of(model)
+    example, program = layout.message.examples[0], model.spec.protocol.name
     given = MessageView(message, library).command_words(names.values(layout.name, example.values))
     words = " ".join([message.name, *given])
     usage: dict[str, Any] = {

@@ -48,11 +48,6 @@ def bent(model: Model) -> list[BentName]:
     return names_of(model).bent
 
 
-def package_of(model: Model) -> str:
-    """Return the name of the package."""
-    return names_of(model).of("package", model.spec.protocol.name)
-
-
 def strategy_name(message: str) -> str:
     """Return the name of a message's strategy: `servo_move` for ServoMove."""
     name = snake_case(message)
@@ -133,8 +128,6 @@ class Names:
         row = _TAKEN.get((kind, name))
         if row is not None:
             return row.why, row.suffix
-        if kind == "package" and name.endswith("_simulator"):
-            return "is where another library looks for its simulator", "_protocol"
         if kind == "id" and name.endswith(_ENVELOPE):
             return "may be the constant of an envelope", "_"
         if kind in _CLASSES and name in self._unions:
@@ -218,7 +211,6 @@ class Names:
     def _given(self) -> Iterator[tuple[KeyPath, str, str]]:
         """Yield each name that something in the library is called after: place, kind, name."""
         spec = self.model.spec
-        yield ("protocol", "name"), "package", spec.protocol.name
         for name in spec.endpoints:
             yield ("endpoints", name), "endpoint", name
         yield from _frame_names(spec)
@@ -270,10 +262,8 @@ class Names:
 
     def _spec(self) -> Spec:
         spec = self.model.spec
-        protocol = spec.protocol.model_copy(update={"name": self.of("package", spec.protocol.name)})
         return spec.model_copy(
             update={
-                "protocol": protocol,
                 "endpoints": {self.of("endpoint", n): about for n, about in spec.endpoints.items()},
                 "messages": {
                     self.of("message", name): self._message(name, message)

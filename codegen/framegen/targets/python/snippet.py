@@ -10,7 +10,7 @@ from framegen.model.slots import Items, Packed
 from framegen.targets.python.client_snippet import client_snippet
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
-from framegen.targets.python.names import names_of, package_of
+from framegen.targets.python.names import names_of
 from framegen.targets.python.spelling import direction_member
 from framegen.targets.target import Snippet
 
@@ -51,7 +51,7 @@ def codec_snippet(model: Model, message: MessageLayout, example: Example) -> str
 
 def _shell(model: Model, library: Model, message: MessageLayout, example: Example) -> str:
     """Write a command that sends a message or asks for it, or shows those that come."""
-    program = package_of(model)
+    program = model.spec.protocol.name
     requests = library.answers.get(message.name, []) + library.refuses.get(message.name, [])
     sent = library.exchanges_by_request
     asked = next((library.messages[each] for each in requests if each in sent), None)

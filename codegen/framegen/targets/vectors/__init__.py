@@ -17,7 +17,6 @@ from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.stream import ReferenceDecoder
 from framegen.output import banner
-from framegen.targets.filenames import file_stem
 from framegen.targets.target import Target
 
 if TYPE_CHECKING:
@@ -44,7 +43,7 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "invalid": [_invalid(frame) for frame in invalid_frames(model)],
         "streams": [_stream(model, case) for case in streams(model)],
     }
-    return {f"generated/{file_stem(protocol.name)}/vectors.json": _one_vector_a_line(document)}
+    return {f"generated/{protocol.name}/vectors.json": _one_vector_a_line(document)}
 
 
 def _one_vector_a_line(document: dict[str, Any]) -> str:
