@@ -8,10 +8,11 @@ from framegen.audit.misfits import outside
 from framegen.audit.recording import read_recording
 from framegen.audit.sighting import Reader, _decoded
 from framegen.compile import without_bounds
+from framegen.model import stream
 from framegen.model.codec import encode
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
-from framegen.model.verdict import weigh_whole
+from framegen.model.verdict import weigh, weigh_whole
 from framegen.reading.yamltree import Unusable
 from hypothesis import given
 from hypothesis import strategies as st
@@ -321,3 +322,21 @@ def test_a_long_stretch_is_decoded_in_windows_as_at_once(
     monkeypatch.setattr("framegen.audit.sighting._WINDOW", 64)
     whole = ReferenceDecoder(model, model.directions).decode(data)
     assert [*_decoded(model, model.directions, data)] == whole
+
+
+def test_headers_over_and_over_are_not_weighed_again_and_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    weighed = 0
+
+    def counting(*given: Any, **named: Any) -> Any:
+        nonlocal weighed
+        weighed += 1
+        return weigh(*given, **named)
+
+    monkeypatch.setattr(stream, "weigh", counting)
+    # As a line at a wrong rate may look: each byte begins a frame, which claims the next 85.
+    data = b"\x55" * 1500
+    found = audited(busservo(), data)
+    assert (found.size, found.seen, found.noise) == (1500, 0, 1500)
+    assert weighed < 4 * len(data)

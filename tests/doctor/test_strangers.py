@@ -318,14 +318,14 @@ OF_NONE: dict[str, Callable[[float], Stranger]] = {
     "an Arduino": lambda rate: Stranger(Print(0.1, SKETCH, 0.1), rate=rate),
     "a banner": lambda rate: Stranger(Print(0.1, BANNER), rate=rate, resets=True),
     "an inverted line": lambda rate: Stranger(Print(0.05, GPS, 0.3), rate=rate, inverted=True),
-    "noise": lambda rate: Stranger(Print(0.05, 40 * NOISE, 0.4), rate=rate),
+    "noise": lambda rate: Stranger(Print(0.05, 10 * NOISE, 0.4), rate=rate),
     "zeros": lambda rate: Stranger(Print(0.05, bytes(20), 0.4), rate=rate),
 }
 TEXTUAL = {"a GPS receiver", "an Arduino", "a banner"}
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name != "roboclaw")) for name in FILES]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name != "visca")) for name in FILES]
 )
 def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
     libraries: Libraries, name: str

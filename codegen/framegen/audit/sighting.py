@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 # What is decoded at once of a long stretch, and the size of noise to which no more is joined.
 _WINDOW = 1 << 12
 _JOINED = 1 << 14
+# How many bytes are weighed once and for all, and how many verdicts on them are kept.
+_REMEMBERED, _MOST = 1 << 9, 1 << 14
 # For these reasons, what another edition of a spec refused may be a message of this one.
 _BY_THE_SPEC = frozenset({UNKNOWN_COMMAND, OUT_OF_RANGE, LENGTH_MISMATCH, COUNT_MISMATCH})
 
@@ -192,10 +194,32 @@ def _seen_ids(message: MessageLayout) -> tuple[int, ...]:
     return message.ids[: len(message.frame.sent_ids)]
 
 
+@dataclass(frozen=True)
+class _Remembering(ReferenceDecoder):
+    """The reference decoder, which weighs the same bytes once.
+
+    A header over and over claims what others are made of: a line of nothing else, as a wrong rate
+    makes one, would take hours.
+    """
+
+    _known: dict[tuple[bytes, bool], Verdict] = field(default_factory=dict)
+
+    def weigh(self, data: bytes, *, quiet: bool = True) -> Verdict:
+        """Judge what `data` begins, from memory if that was asked before."""
+        if len(data) > _REMEMBERED:
+            return super().weigh(data, quiet=quiet)
+        verdict = self._known.get((data, quiet))
+        if verdict is None:
+            if len(self._known) >= _MOST:
+                self._known.clear()
+            verdict = self._known[data, quiet] = super().weigh(data, quiet=quiet)
+        return verdict
+
+
 def _decoded(model: Model, ways: Sequence[Direction], data: bytes) -> Iterator[Event]:
     """Yield the events of a stretch, after which the line is quiet, a window at a time."""
     noise: Event | None = None
-    for event in _in_windows(ReferenceDecoder(model, ways), data):
+    for event in _in_windows(_Remembering(model, ways), data):
         if event.kind != "noise":
             if noise is not None:
                 yield noise
