@@ -82,6 +82,17 @@ def test_what_an_end_sends_to_two_others_is_read_back(greenhouse: ModuleType) ->
     assert [each.direction.value for each in raw] == [sent[0][0].key]
 
 
+def test_a_direction_is_asked_for_by_both_ends_where_one_sends_in_two(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    command: Any = importlib.import_module("greenhouse._cli")
+    for way, found in (("gateway_to_station", "1 message"), ("gateway_to_display", "0 messages")):
+        assert command.main(["decode", "--direction", way, example_of("VentsOpen")]) == 0
+        assert f": {found}," in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        command.main(["decode", "--direction", "gateway", "00"])
+
+
 def test_parts_of_frames_are_called_as_the_author_calls_them(greenhouse: ModuleType) -> None:
     unknown = greenhouse.UnknownFrame(bytes.fromhex("C3 5A A5 FF 00 01 2A"), None)
     assert unknown.numbers == {"kind": 255}

@@ -13,7 +13,7 @@ from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._recording.entry import SENDERS
+from .._recording.entry import NAMED
 from .._recording.file import EITHER, NOISE
 from ..recordings import FORMS
 from . import link
@@ -60,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dry-run", action="store_true", help="print what would be sent, and when")
     parser.add_argument(
         "--direction",
-        choices=[*SENDERS, "any"],
+        choices=[*NAMED, "any"],
         default="any",
         help="who sent the bytes, where the file does not say (default: any)",
     )
@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     port = arguments.port or ""
     if not port and not arguments.dry_run:
         raise UsageError("replay needs --port PORT, or --dry-run to see what it would send")
-    direction = SENDERS.get(arguments.direction)
+    direction = NAMED.get(arguments.direction)
     with opened(arguments.file) as given, rereadable(given) as recording:
         # All of it is checked before any of it is sent.
         count = _survey(recording.entries(arguments.format, direction), recording.name, arguments)
@@ -150,10 +150,11 @@ def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
             )
         return False
     if entry.sender is None and arguments.either is None:
+        names = [name for name, way in NAMED.items() if way.sender in own]
         raise UsageError(
             f"{name}, {entry.place}: it is {what}, and nobody can tell whose; --either send sends "
             "such frames, --either skip leaves them out, and of a file that names no senders "
-            f"--direction {' or '.join(own)} says that all of it is from here"
+            f"--direction {' or '.join(names)} says that all of it is from here"
         )
     return entry.sender is not None or arguments.either == "send"
 

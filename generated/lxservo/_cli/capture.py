@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from .._codec.hextext import HexError, is_hex, read_hex
-from .._recording.entry import SENDERS
+from .._recording.entry import NAMED
 from ..recordings import FORMS
 from .recording import Recording, opened
 from .usage_error import UsageError
@@ -32,7 +32,7 @@ def add_capture(parser: ArgumentParser) -> None:
     parser.add_argument("--file", type=Path, metavar="FILE", help="a file, whatever its name")
     parser.add_argument(
         "--direction",
-        choices=[*SENDERS, "any"],
+        choices=[*NAMED, "any"],
         default="any",
         help="who sent the bytes, where they do not say so themselves (default: any)",
     )
@@ -46,7 +46,7 @@ def add_capture(parser: ArgumentParser) -> None:
 
 def direction_in(arguments: Namespace) -> Direction | None:
     """Return who sent the bytes, None for either."""
-    return SENDERS.get(arguments.direction)
+    return NAMED.get(arguments.direction)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._recording.entry import SENDERS
+from .._recording.entry import NAMED, SENDERS
 from .._recording.file import EITHER, NOISE
 from ..messages import MESSAGES
 from . import link
@@ -51,10 +51,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_port(parser, client=False)
     # If nothing is sent to a client in this protocol, a monitor looks at what a client sends.
     comes = any(kind.DIRECTION is RECEIVED for kind in MESSAGES)
-    usual = RECEIVED.sender if comes else "any"
+    received = next(name for name, way in NAMED.items() if way is RECEIVED)
+    usual = received if comes else "any"
     parser.add_argument(
         "--direction",
-        choices=[*SENDERS, "any"],
+        choices=[*NAMED, "any"],
         default=usual,
         help=f"who sends on this line; any: both ends do, and what both may have sent is shown as "
         f"`either` (default: {usual})",
@@ -129,7 +130,7 @@ class Monitor:
         self._left: int | None = arguments.n
         self._only = {_filter(name) for name in arguments.only}
         self._hidden = {_filter(name) for name in arguments.hide}
-        self._direction = SENDERS.get(arguments.direction)
+        self._direction = NAMED.get(arguments.direction)
         self._decoder = StreamDecoder(self._direction)
         self._progress = Progress(sys.stderr)
         self._lines = Lines(screen, arguments.time, as_json=arguments.json)

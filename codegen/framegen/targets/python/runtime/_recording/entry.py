@@ -12,9 +12,11 @@ if TYPE_CHECKING:
 else:
     from .._frame.typing_later import typing
 
-SENDERS = {direction.sender: direction for direction in Direction}
+SENDERS = list(dict.fromkeys(way.sender for way in Direction))
 WAYS = {who: [way for way in Direction if way.sender == who] for who in SENDERS}
 """The directions in which each end sends: several where it talks to several others."""
+NAMED = {way.sender if len(WAYS[way.sender]) == 1 else way.value: way for way in Direction}
+"""The directions as they are asked for: by the sender alone where that is enough."""
 
 
 class RecordingError(ValueError):
