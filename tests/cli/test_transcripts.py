@@ -24,16 +24,21 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from tests.cli.test_monitor import Line
 from tests.doctor.patient import board_with, diagnosis_of
+from tests.doctor.test_strangers import CASES, examined
 from tests.documents import ROOT
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
+
+    from busservo._cli.checks.check import Check
+    from busservo._cli.checks.result import Result
 
 PLAN = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
 LEARN = re.findall(r"\]\((\S+)\): ", PLAN.partition("## Learn")[2].partition("\n## ")[0])
 TEXTS = [
-    text
+    (page, text)
     for page in LEARN
     for text in re.findall(
         r"^```text\n\$ (.*?)^```$",
@@ -41,22 +46,30 @@ TEXTS = [
         re.MULTILINE | re.DOTALL,
     )
 ]
-# By the verb: the words behind it, and the lines that follow.
+# By the page and the verb: the words behind it, and the lines that follow.
 TRANSCRIPTS = {
-    text.split()[1]: (text.partition("\n")[0].split()[2:], text.partition("\n")[2])
-    for text in TEXTS
+    (page, text.split()[1]): (text.partition("\n")[0].split()[2:], text.partition("\n")[2])
+    for page, text in TEXTS
 }
 PATIENT = ("--timeout", str(GENEROUS))
 
 
 def test_every_transcript_is_held_to_what_is_printed() -> None:
     assert len(TRANSCRIPTS) == len(TEXTS)
-    assert {"answer", "bench-line", "doctor", "monitor", "ports", "teach"} == TRANSCRIPTS.keys()
+    assert {
+        ("getting-started.md", "ports"),
+        ("command.md", "teach"),
+        ("command.md", "monitor"),
+        ("command.md", "doctor"),
+        ("command.md", "bench-line"),
+        ("command.md", "answer"),
+        ("troubleshooting.md", "doctor"),
+    } == TRANSCRIPTS.keys()
 
 
-def assert_agrees(verb: str, printed: str) -> None:
+def assert_agrees(page: str, verb: str, printed: str) -> None:
     """Assert that a transcript shows this, with times of its own."""
-    pieces = re.split(r"^\.\.\.\n", TRANSCRIPTS[verb][1], flags=re.MULTILINE)
+    pieces = re.split(r"^\.\.\.\n", TRANSCRIPTS[page, verb][1], flags=re.MULTILINE)
     pattern = r"(?:.*\n)*".join(map(re.escape, map(without_times, pieces)))
     assert re.fullmatch(pattern, without_times(printed)), printed
 
@@ -71,15 +84,17 @@ def test_ports(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPat
     found = [adapter, ListPortInfo("/dev/ttyS0")]
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
     assert main(["ports"]) == 0
-    assert capsys.readouterr().out == TRANSCRIPTS["ports"][1]
+    assert capsys.readouterr().out == TRANSCRIPTS["getting-started.md", "ports"][1]
 
 
 def test_bench_line(capsys: pytest.CaptureFixture[str]) -> None:
-    _, port, *words = TRANSCRIPTS["bench-line"][0]
+    _, port, *words = TRANSCRIPTS["command.md", "bench-line"][0]
     with VirtualController("tcp", baud=9600) as board:
         assert main(["bench-line", "--port", board.port, *words, "-n", "2", *PATIENT]) == 0
         printed = capsys.readouterr().out.replace(board.port, port)
-    assert_agrees("bench-line", re.sub(r"\b2 (requests|answered)", r"100 \1", printed))
+    assert_agrees(
+        "command.md", "bench-line", re.sub(r"\b2 (requests|answered)", r"100 \1", printed)
+    )
 
 
 def test_doctor() -> None:
@@ -87,14 +102,25 @@ def test_doctor() -> None:
         plugged_in = SerialPortSeen("COM7", "1A86:7523", "USB Serial", "")
         diagnosis = diagnosis_of(board, port=plugged_in.name, ports=lambda: [plugged_in])
         found = list(examine(diagnosis, CHECKS))
-    lines = [doctor._as_text(check, result) for check, result in found]
-    states = [result.state for _, result in found]
+    assert_agrees("command.md", "doctor", said(dict(found)))
+
+
+def test_doctor_before_another_device() -> None:
+    results = examined(CASES["a GPS receiver"].device())
+    printed = said({check: results[check.id] for check in CHECKS})
+    assert_agrees("troubleshooting.md", "doctor", printed)
+
+
+def said(found: Mapping[Check, Result]) -> str:
+    """Return what the doctor prints of the results of its checks."""
+    lines = [doctor._as_text(check, result) for check, result in found.items()]
+    states = [result.state for result in found.values()]
     counts = [f"{states.count(each)} {each}" for each in ("passed", "failed", "unknown")]
-    assert_agrees("doctor", "\n".join([*lines, ", ".join(counts), ""]))
+    return "\n".join([*lines, ", ".join(counts), ""])
 
 
 def test_monitor(capsys: pytest.CaptureFixture[str]) -> None:
-    words, shown = TRANSCRIPTS["monitor"]
+    words, shown = TRANSCRIPTS["command.md", "monitor"]
     parser = argparse.ArgumentParser()
     monitor.add_arguments(parser)
     line = Line(*map(bytes.fromhex, re.findall(r" \| ([0-9A-F ]+)$", shown, re.MULTILINE)))
@@ -102,11 +128,11 @@ def test_monitor(capsys: pytest.CaptureFixture[str]) -> None:
     watching = monitor.Monitor(parser.parse_args(words), screen, clock=line.clock, day=line.day)
     with Recorder(None) as recorder, pytest.raises(DisconnectedError):
         watching.watch(line, recorder)
-    assert_agrees("monitor", screen.getvalue() + "^C\n" + capsys.readouterr().err)
+    assert_agrees("command.md", "monitor", screen.getvalue() + "^C\n" + capsys.readouterr().err)
 
 
 def test_teach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    words, shown = TRANSCRIPTS["teach"]
+    words, shown = TRANSCRIPTS["command.md", "teach"]
     monkeypatch.chdir(tmp_path)
     with VirtualController("tcp", servos=[1, 2, 3]) as board:
         keyboard = Keyboard(shown, board)
