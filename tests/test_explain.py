@@ -11,11 +11,14 @@ from framegen.explanation import refusals
 from framegen.explanation.explanation import Explanation, Reading, Refusal, Row
 from framegen.explanation.text import as_json, as_text
 from framegen.language.load import load, read_source
+from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model import codec
 from framegen.model.model import Model, derive
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from tests.factories import data_of
 
 ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
@@ -580,3 +583,21 @@ def legal(model: Model, data: bytes, direction: Direction) -> bool:
     except codec.NotAFrame:
         return False
     return True
+
+
+def test_a_checksum_that_another_one_covers_is_mended_first() -> None:
+    data = data_of(BUSSERVO)
+    data["frame"] = {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "sum": {"is": "checksum", "type": "u8", "method": "sum", "covers": ["command", "check"]},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+        "check": {"is": "checksum", "type": "u8", "method": "xor", "covers": ["parameters"]},
+    }
+    model = derive(Spec.model_validate(data))
+    message = model.messages["ActionGroupRun"]
+    frame = codec.encode(message, message.message.examples[0].values)
+    damaged = frame[:2] + b"\0" + frame[3:-1] + b"\0"
+    found = explain(model, damaged, [message.direction])
+    assert frame in [hint.frame for hint in found.hints]
