@@ -37,7 +37,8 @@ MARK = "#"
 _EVIDENCE = ("lookalikes", "errata", "unknowns", "reserved", "pose", "history")
 # What an author corrects when something else has changed: it is dropped where it is wrong.
 _DEPENDENT = {
-    *("method", "lasts", "acknowledged", "echoed", "failure", "reply", "refusal", "reports"),
+    *("method", "lasts", "acknowledged", "echoed", "failure", "asks_for"),
+    *("reply", "refusal", "reports"),
     *("limits", "absent", "signed_as"),
 }
 _fresh = count(1)

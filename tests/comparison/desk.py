@@ -109,7 +109,7 @@ class Desk:
                 for key in ("counted_by", "sized_by"):
                     if field.get(key) == old:
                         field[key] = new
-            for key in ("method", "lasts", "failure"):
+            for key in ("method", "lasts", "failure", "asks_for"):
                 if key in spot.message:
                     spot.message[key] = in_words(spot.message[key], old, new)
 

@@ -125,6 +125,12 @@ def split(desk: Desk) -> None:
     desk.messages[desk.fresh("Rest")] = rest
 
 
+# What only says something of what the client sends.
+_OF_A_CLIENT = (
+    *("method", "reply", "refusal", "echoed", "asks_for", "failure", "acknowledged", "lasts"),
+)
+
+
 def end_renamed(desk: Desk) -> None:
     ends = desk.spec["endpoints"]
     old = desk.pick(ends)
@@ -137,7 +143,7 @@ def end_renamed(desk: Desk) -> None:
 def ends_in_other_order(desk: Desk) -> None:
     reordered(desk.spec["endpoints"], reversed([*desk.spec["endpoints"]]))
     for message in desk.messages.values():
-        for key in ("method", "reply", "refusal", "echoed", "failure", "acknowledged", "lasts"):
+        for key in _OF_A_CLIENT:
             message.pop(key, None)
 
 
@@ -154,6 +160,7 @@ def reply_changed(desk: Desk) -> None:
     others = {each["reply"] for each in desk.messages.values() if "reply" in each}
     message["reply"] = desk.pick(others - {message["reply"]})
     message.pop("echoed", None)
+    message.pop("asks_for", None)
     message.pop("method", None)
 
 
@@ -192,6 +199,7 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
             "refusal",
             "failure",
             "echoed",
+            "asks_for",
             "reports",
             "acknowledged",
             "lasts",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import enum
 import importlib
 import inspect
-from itertools import islice
+from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.exchanges import snake_case
@@ -292,6 +292,11 @@ def _reply(exchange: Any, asked: Mapping[str, Any]) -> str | None:
             usual[name] = [(*row[:at], each, *row[at + 1 :]) for each in value]
         else:
             usual[name] = value
+    counted = getattr(exchange.counted, "_asked", "")
+    if counted:
+        listed = exchange.reply.SHAPE.items.name
+        count = asked[counted] if isinstance(asked[counted], int) else len(asked[counted])
+        usual[listed] = [*islice(cycle(usual[listed] or (0,)), count)]
     return made_by_name(exchange.reply.__name__, usual)
 
 

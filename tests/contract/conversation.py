@@ -165,6 +165,9 @@ def _reply(made: ModuleType, exchange: Exchange, layout: MessageLayout, request:
     values = dict(layout.message.examples[0].values)
     if exchange.failure is not None:
         values[exchange.failure.name] = exchange.good
+    if exchange.counted is not None:
+        asked = {exchange.asks_for: getattr(request, exchange.asks_for)}
+        values = exchange.with_count(asked, values)
     address = layout.frame.address
     if exchange.address is not None and address is not None:
         asked = getattr(request, exchange.address.name)

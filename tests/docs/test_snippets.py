@@ -88,6 +88,8 @@ def _replied(exchange: Exchange, reply: MessageLayout, asked: dict[str, Any]) ->
     repeated = [each.name for each in (frame.address, frame.counter) if each is not None]
     repeated += [there for own, there in exchange.echoed if own == there]
     values |= {name: asked[name] for name in repeated if name in asked and name in values}
+    if reply is exchange.reply:
+        values = exchange.with_count(asked, values)
     if exchange.failure is not None and exchange.failure.name in values:
         values[exchange.failure.name] = exchange.good
     return values

@@ -119,6 +119,7 @@ def _replies(model: Model, event: Any, device: int | None) -> Iterator[bytes]:
         if to in exchange.address.silent or device not in (None, to):
             return
     values |= in_reply_to(exchange, requested)
+    values = exchange.with_count(requested, values)
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")
         first = values[name][0] if inner else None

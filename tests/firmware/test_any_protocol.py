@@ -163,6 +163,7 @@ def values_in_reply(exchange: Exchange, asked: dict[str, Any]) -> dict[str, Any]
     assert reply is not None
     values = dict(reply.message.examples[0].values)
     values |= in_reply_to(exchange, asked)
+    values = exchange.with_count(asked, values)
     for one, other in exchange.echoed:
         name, _, inner = other.partition(".")
         values[name] = (

@@ -185,7 +185,7 @@ def _answers(pending: tuple[Conversation, Sighting], name: str, answer: Sighting
             return False
     if exchange.reply is None or name != exchange.reply.name:
         return True
-    return all(
+    return not exchange.miscounts(request.values, answer.values) and all(
         _repeats(_at(request.values, said), _at(answer.values, again))
         for said, again in exchange.echoed
     )

@@ -8,6 +8,7 @@ from framegen.checks import (
     absent,
     acknowledged,
     answered_address,
+    asks_for,
     breaks,
     chance_prefix,
     checksum,
@@ -67,6 +68,7 @@ from framegen.checks import (
     sized_by,
     text_field,
     twin,
+    uncounted,
     unknown_fact,
     unknown_source,
     unknown_type,
@@ -147,6 +149,7 @@ MODEL_RULES: tuple[ModelRule, ...] = (
     answered_address.RULE,
     limits.RULE,
     lasts.RULE,
+    asks_for.RULE,
     method.RULE,
     pose.RULE,
 )
@@ -166,6 +169,7 @@ REMARKS: tuple[ModelRule, ...] = (
     long_wait.RULE,
     chance_prefix.RULE,
     twin.RULE,
+    uncounted.RULE,
 )
 RULES: tuple[AnyRule, ...] = (
     *READING_RULES,

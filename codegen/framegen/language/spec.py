@@ -497,6 +497,11 @@ class Message(Part):
         description="Fields that the reply repeats, and where it has them, such as "
         "`servo_ids: positions.servo_id`: what tells the reply to this message from others.",
     )
+    asks_for: str | None = Key(
+        None,
+        description="The field that says how many items the list of the reply holds, a number or a "
+        "list as long: a reply with another number of them answers something else.",
+    )
     reports: list[str] = Key([], description="Messages that may follow it, sooner or later.")
     acknowledged: str | None = Key(
         None,

@@ -109,6 +109,7 @@ def _message(model: Model, layout: MessageLayout) -> dict[str, Any]:
             refusal=message.refusal,
             failure=message.failure and message.failure.field,
             good=message.failure and message.failure.good,
+            asks_for=message.asks_for,
             reports=message.reports,
             acknowledged=message.acknowledged,
             lasts=message.lasts,

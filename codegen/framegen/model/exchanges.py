@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import ListField
@@ -30,7 +31,8 @@ class Exchange:
     `positions.servo_id`. `acknowledged` is the report that confirms the request, and `lasts` the
     field of the request that says how long a motion goes on. `refusal` comes instead of the reply
     where the device refuses. `failure` is the field of the reply that says what has failed, and
-    `good` its value where nothing has.
+    `good` its value where nothing has. `asks_for` is the field of the request that says how many
+    items the reply holds, or empty.
     """
 
     request: MessageLayout
@@ -43,6 +45,36 @@ class Exchange:
     refusal: MessageLayout | None
     failure: Number | None
     good: int
+    asks_for: str
+
+    @property
+    def counted(self) -> Items | None:
+        """The list of the reply that holds as many items as the request asks for."""
+        return None if self.reply is None or not self.asks_for else self.reply.items
+
+    def asked(self, values: Mapping[str, Any]) -> int:
+        """Return how many items a request with these values asks for."""
+        value = values[self.asks_for]
+        return value if isinstance(value, int) else len(value)
+
+    def miscounts(self, asked: Mapping[str, Any], replied: Mapping[str, Any]) -> bool:
+        """Tell whether a reply holds another number of items than its request has asked for.
+
+        One that says that the request has failed need not hold any.
+        """
+        if self.counted is None or self.has_failed(replied):
+            return False
+        return len(replied[self.counted.name]) != self.asked(asked)
+
+    def with_count(self, asked: Mapping[str, Any], replied: dict[str, Any]) -> dict[str, Any]:
+        """Return the values of a reply with as many items as were asked for: its own, in turn."""
+        if self.counted is None or not self.miscounts(asked, replied):
+            return replied
+        blank = {each.name: getattr(each, "low", "") for each in self.counted.fields}
+        usual = blank if self.counted.element else next(iter(blank.values()))
+        turns = cycle(replied[self.counted.name] or [usual])
+        count = min(self.asked(asked), self.counted.high)
+        return {**replied, self.counted.name: [*islice(turns, count)]}
 
     def has_failed(self, values: Mapping[str, Any]) -> bool:
         """Tell whether a reply with these values says that the request has failed."""
@@ -164,4 +196,5 @@ def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> 
         None if message.refusal is None else messages[message.refusal],
         None if reply is None or failure is None else reply.numbers_by_path.get(failure.field),
         0 if failure is None else failure.good,
+        message.asks_for or "",
     )

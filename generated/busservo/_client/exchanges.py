@@ -48,7 +48,6 @@ EXCHANGES: dict[type[Message], Exchange] = {
         reply=ServoPositions,
         result="positions",
         echoed=(("servo_ids", "positions.servo_id"),),
-        most=84,
     ),
 }
 """Every message that this end sends."""

@@ -126,7 +126,11 @@ def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
     said = message.said
     yield "direction:", f"{message.direction} ({said['kind']})"
     yield from _identity(model, message)
-    for label, key in (("vendor's name:", "vendor_name"), ("goes on for:", "lasts")):
+    for label, key in (
+        ("vendor's name:", "vendor_name"),
+        ("goes on for:", "lasts"),
+        ("asks for as many as:", "asks_for"),
+    ):
         if key in said:
             yield label, said[key]
     if said["kind"] in ("command", "query"):

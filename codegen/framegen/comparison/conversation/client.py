@@ -138,7 +138,7 @@ class Client:
                 if value not in left:
                     return False
                 left.remove(value)
-        return True
+        return not exchange.miscounts(values, message.values)
 
 
 def _refusal(came: Arrival) -> str:

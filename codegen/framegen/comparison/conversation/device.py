@@ -104,7 +104,7 @@ class Device:
                 values[name] = _repeated(answer, name, inner, values[name], said)
             elif said:
                 values[name] = said if isinstance(values[name], list) else said[0]
-        return values
+        return exchange.with_count(request.values, values) if answer is exchange.reply else values
 
 
 def answers_to_try(pair: Pair, model: Model, exchange: Exchange, kind: Kind) -> list[Any]:

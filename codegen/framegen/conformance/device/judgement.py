@@ -175,6 +175,11 @@ class _Judge:
                 these = ", ".join(map(str, beyond[:_SHOWN]))
                 what = f"{message.name} reports {reported} {these}, which was not requested"
                 self._fault("wrong reply", what)
+        counted = request.exchange.counted
+        if counted is not None and request.exchange.miscounts(request.values, values):
+            held, wanted = len(values[counted.name]), request.exchange.asked(request.values)
+            what = f"{message.name} holds {held} {counted.name}, and {wanted} were asked for"
+            self._fault("wrong reply", what)
 
     def _refused(self, request: Request, received: Received) -> None:
         """Note what a device does not do, which it says in a reply of the right form."""

@@ -63,7 +63,9 @@ class Request:
         """Tell whether a message can answer it: its device reports only what was requested."""
         if message not in self.answers or self.other_device(message, values) is not None:
             return False
-        return message != self.reply or not any(
+        if message != self.reply:
+            return True
+        return not self.exchange.miscounts(self.values, values) and not any(
             excess(self, path, reported, values) for path, reported in self.exchange.echoed
         )
 
@@ -81,6 +83,8 @@ class Request:
         if self.reply is None:
             return 0
         items = self.reply.items
+        if items is not None and self.exchange.counted is not None:
+            return self.reply.size_at(self.exchange.asked(self.values))
         for requested, reported in self.exchange.echoed:
             if items is not None and reported.partition(".")[0] == items.name:
                 count = len(column(self.values, requested))

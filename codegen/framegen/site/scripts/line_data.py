@@ -84,6 +84,15 @@ def _pair(bounds: Range) -> list[str]:
     return [str(bounds.low), str(bounds.high)]
 
 
+def _counted(exchange: Exchange) -> dict[str, Any] | None:
+    """Return what compares the length of a reply with what was asked for."""
+    if exchange.counted is None:
+        return None
+    failure = None if exchange.failure is None else exchange.failure.name
+    told = {"asked": exchange.asks_for, "held": exchange.counted.name}
+    return {**told, "failure": failure, "good": exchange.good}
+
+
 def _exchange(exchange: Exchange) -> dict[str, Any]:
     """Return what comes back; `largest` is the size of the largest frame that answers."""
     sizes = [each.size_at(each.counts[-1]) for each in exchange.answers]
@@ -92,6 +101,7 @@ def _exchange(exchange: Exchange) -> dict[str, Any]:
         "refusal": None if exchange.refusal is None else exchange.refusal.name,
         "reports": list(exchange.reports),
         "echoed": [list(pair) for pair in exchange.echoed],
+        "counted": _counted(exchange),
         "address": None if exchange.address is None else exchange.address.name,
         "silent": list(exchange.silent.values()),
         "largest": max(sizes, default=0),

@@ -155,9 +155,15 @@ class ClientView:
         """The imports of their classes."""
         return [
             *(["from .address import Address"] if self.bus else []),
+            *(["from .counted import Counted"] if self.counting else []),
             "from .exchange import Exchange",
             *(["from .failures import Failures"] if self.failing else []),
         ]
+
+    @property
+    def counting(self) -> bool:
+        """Whether a reply holds as many items as a request asks for."""
+        return any(each.counted for each in self.model.exchanges)
 
     @property
     def failing(self) -> bool:
@@ -296,6 +302,15 @@ def _bounds(range_: Range) -> str:
     return f"({range_.low}, {range_.high})"
 
 
+def counted(each: Exchange) -> str:
+    """Return what compares the length of a reply with what was asked for, as Python code."""
+    failure = each.failure
+    told = [] if failure is None else [f"failure={literal(failure.name)}"]
+    told += [f"good={each.good}"] if failure is not None and each.good else []
+    reply = "" if each.reply is None else each.reply.name
+    return f"Counted({', '.join([literal(each.asks_for), reply, *told])})"
+
+
 def _entry(each: Exchange) -> str:
     arguments = [literal(name) for name in each.method.arguments]
     items: list[Part] = [
@@ -321,6 +336,5 @@ def _entry(each: Exchange) -> str:
     if each.echoed:
         pairs = [Bracketed("(", list(map(literal, pair)), ")") for pair in each.echoed]
         items.append(Bracketed("echoed=(", pairs, ")", lone=","))
-    if each.most:
-        items.append(f"most={each.most}")
+    items += [f"counted={counted(each)}"] if each.counted else []
     return Bracketed(f"{each.request.name}: Exchange(", items, "),").fitted(4)

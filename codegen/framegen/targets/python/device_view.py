@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framegen.model.exchanges import snake_case
+from framegen.targets.python.client_view import counted
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import relative_import
 from framegen.targets.python.spelling import direction_member
@@ -128,6 +129,15 @@ class DeviceView:
         """The assignment of the addresses that nobody answers."""
         values = [str(value) for value in self.silent.values()]
         return Bracketed("_SILENT = frozenset([", values, "])").fitted(0)
+
+    @property
+    def counted(self) -> str:
+        """What compares replies with what was asked for, by request; empty where nothing does."""
+        rows = [
+            f"{each.request.name}: {counted(each)}" for each in self.model.exchanges if each.counted
+        ]
+        start = "_COUNTED: dict[type[Message], Counted] = {"
+        return Bracketed(start, rows, "}").fitted(0) if rows else ""
 
     @property
     def handlers(self) -> list[HandlerView]:

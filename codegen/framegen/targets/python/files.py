@@ -40,6 +40,7 @@ ONLY_WITH = {
     "poses": {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"},
     "addresses": {"_client/address.py", "_client/async_devices.py", "_client/devices.py"},
     "failures": {"_client/failures.py"},
+    "counted replies": {"_client/counted.py"},
     "envelopes": {
         f"_frame/{name}.py" for name in ("envelope", "envelopes", "head_walk", "trial", "why_not")
     },
@@ -103,6 +104,7 @@ def _used(library: LibraryView, client: ClientView) -> set[str]:
         "poses": spec.pose is not None,
         "addresses": client.bus is not None,
         "failures": bool(client.failing),
+        "counted replies": any(each.counted for each in library.model.exchanges),
         "envelopes": not library.plain,
         "proof": bool(library.checksums),
     }

@@ -293,6 +293,7 @@ class Names:
                 "reports": [self.of("message", each) for each in message.reports],
                 "acknowledged": message.acknowledged and self.of("message", message.acknowledged),
                 "lasts": message.lasts and self.of("field", message.lasts),
+                "asks_for": message.asks_for and self.of("field", message.asks_for),
                 "echoed": {
                     self._path(own): self._path(echo) for own, echo in message.echoed.items()
                 },

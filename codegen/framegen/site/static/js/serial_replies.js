@@ -16,6 +16,13 @@ function valuesAt(fields, path) {
   return inner ? value.map((item) => item[inner]) : value;
 }
 
+// Whether a reply holds as many items as were asked for, or says why it does not.
+function countFits({ asked, held, failure, good }, question, event) {
+  if (failure && Number(event.fields[failure]) !== good) return true;
+  const value = question.fields[asked];
+  return event.fields[held].length === (Array.isArray(value) ? value.length : Number(value));
+}
+
 // `data` is what line_data.py says: the exchanges and the link. `baud` is the rate of the line.
 function makeReplies(data, baud, timeout = REPLY_TIMEOUT_MS) {
   let pending = [], lost = [];
@@ -28,6 +35,7 @@ function makeReplies(data, baud, timeout = REPLY_TIMEOUT_MS) {
     if (address && addressOf(event, address) !== addressOf(question, address)
       && !silent.includes(Number(addressOf(question, address)))) return false;
     if (event.message !== exchange.reply) return true;
+    if (exchange.counted && !countFits(exchange.counted, question, event)) return false;
     // A reply holds nothing that was not asked for.
     return exchange.echoed.every(([asked, said]) => {
       const left = valuesAt(question.fields, asked);

@@ -46,7 +46,22 @@ class Unfailing:
         return None
 
 
+class Uncounted:
+    """Replies that hold as many items as they like."""
+
+    __slots__ = ()
+
+    def asked(self, _request: Message) -> int | None:
+        """Return how many items a request asks for; None where it does not say."""
+        return None
+
+    def fits(self, _request: Message, _reply: Message) -> bool:
+        """Return whether a reply holds as many items as were asked for, or says why it does not."""
+        return True
+
+
 UNADDRESSED = Unaddressed()
+UNCOUNTED = Uncounted()
 UNFAILING = Unfailing()
 
 
@@ -58,10 +73,10 @@ class Exchange:
     None if none does; `reports` are messages that may follow it, and `acknowledged` is that of
     them which acknowledges it. `lasts` is the field that says how long its effect lasts, and how
     many units of it make a second. `echoed` pairs each requested field with the field of the reply
-    that repeats it (`ids` with `items.id`); `most` is how many elements of the request fit into one
-    reply, 0 where that does not matter. `address` tells which device it goes to and comes from,
-    `failures` what it means that the device refuses or fails. `counter` is the field with the
-    running number, and how many numbers there are.
+    that repeats it (`ids` with `items.id`), and `counted` compares how many items that holds with
+    how many were asked for. `address` tells which device it goes to and comes from, `failures` what
+    it means that the device refuses or fails. `counter` is the field with the running number, and
+    how many numbers there are.
     """
 
     __slots__ = (
@@ -69,6 +84,7 @@ class Exchange:
         "acknowledged",
         "address",
         "arguments",
+        "counted",
         "counter",
         "echoed",
         "failures",
@@ -76,7 +92,6 @@ class Exchange:
         "kinds",
         "lasts",
         "method",
-        "most",
         "origin",
         "reply",
         "reports",
@@ -94,7 +109,7 @@ class Exchange:
         acknowledged: type[Message] | None = None,
         lasts: tuple[str, int] | None = None,
         echoed: tuple[tuple[str, str], ...] = (),
-        most: int = 0,
+        counted: Uncounted = UNCOUNTED,
         address: Unaddressed = UNADDRESSED,
         failures: Unfailing = UNFAILING,
         counter: tuple[str, int] | None = None,
@@ -107,7 +122,7 @@ class Exchange:
         self.acknowledged = acknowledged
         self.lasts = lasts
         self.echoed = echoed
-        self.most = most
+        self.counted = counted
         self.address = address
         self.failures = failures
         self.counter = counter
@@ -129,11 +144,21 @@ class Exchange:
 
     def check(self, request: Message) -> None:
         """Raise EncodeError if no reply has room for the answer to `request`."""
-        items = request.SHAPE.items
-        if self.most and items is not None and len(getattr(request, items.name)) > self.most:
+        items, most = request.SHAPE.items, self.most
+        if most and items is not None and len(getattr(request, items.name)) > most:
             size = len(getattr(request, items.name))
-            problem = f"{size} items are requested at once, and a reply has room for {self.most}"
+            problem = f"{size} items are requested at once, and a reply has room for {most}"
             raise EncodeError(items.name, getattr(request, items.name), problem)
+
+    @property
+    def most(self) -> int:
+        """How many items of a request one reply can repeat; 0 where it repeats no list."""
+        items = None if self.reply is None else self.reply.SHAPE.items
+        if items is None or not any(
+            items.name == each.partition(".")[0] for _, each in self.echoed
+        ):
+            return 0
+        return items.counts[-1]
 
     def answers(self, request: Message, message: Message) -> bool:
         """Return whether `message` can be the reply: it holds nothing that was not requested."""
@@ -147,7 +172,7 @@ class Exchange:
                 if value not in left:
                     return False
                 left.remove(value)
-        return True
+        return self.counted.fits(request, message)
 
     def _is_from(self, request: Message, message: Message) -> bool:
         """Return whether a message comes from the device that was asked, or one of all of them."""
@@ -177,7 +202,7 @@ class Exchange:
 
         The smallest is that of an answer in full, where the reply repeats a list.
         """
-        if self._sizes is None or self.echoed:
+        if self._sizes is None or self.echoed or self.counted is not UNCOUNTED:
             sizes = [size for kind in self.kinds for size in self._sizes_of(kind, request)]
             self._sizes = min(sizes, default=0), max(sizes, default=0)
         return self._sizes
@@ -185,14 +210,23 @@ class Exchange:
     def _sizes_of(self, kind: type[Message], request: Message) -> tuple[int, int]:
         """Return the least and the largest size of an answer of a class."""
         items, lengths = kind.SHAPE.items, kind.LENGTHS
-        if items is not None and kind is self.reply:
-            for requested, reported in self.echoed:
-                if reported.partition(".")[0] == items.name:
-                    count = len(column(request, requested))
-                    if count in items.counts:
-                        size = size_of(kind, lengths[items.counts.index(count)])
-                        return size, size
-        return size_of(kind, lengths[0]), size_of(kind, lengths[-1])
+        least, largest = size_of(kind, lengths[0]), size_of(kind, lengths[-1])
+        if items is None or kind is not self.reply:
+            return least, largest
+        count = self._count(request, items.name)
+        if count is None or count not in items.counts:
+            return least, largest
+        size = size_of(kind, lengths[items.counts.index(count)])
+        # One that says that the request has failed may hold fewer.
+        fewer = self.counted is not UNCOUNTED and self.failures.field
+        return (least if fewer else size), size
+
+    def _count(self, request: Message, listed: str) -> int | None:
+        """Return how many items the list of a reply holds at most; None if that is unknown."""
+        for requested, reported in self.echoed:
+            if reported.partition(".")[0] == listed:
+                return len(column(request, requested))
+        return self.counted.asked(request)
 
     def reply_size(self, request: Message) -> int:
         """Return the size in bytes of the largest frame that can answer `request`."""
