@@ -144,6 +144,35 @@ def test_the_newest_released_edition_comes_before_the_last_commit(copy: Path) ->
     assert caught.value.hint.startswith("did you mean `stage_lamp-0.")
 
 
+@pytest.mark.parametrize(
+    ("words", "kept"),
+    [
+        ((), ["0.2.1", "0.2.0", "0.1.0"]),
+        (("lamp",), ["0.2.1", "0.2.0", "0.1.0"]),
+        # The last commit says that it is 0.3.0.
+        (("HEAD",), ["0.3.0", "0.2.1", "0.2.0", "0.1.0"]),
+        (("v0.2.0",), ["0.2.0", "0.1.0"]),
+        (("v0.2.0", "lamp"), ["0.2.0", "0.1.0"]),
+        # An edition that is named is compared with alone.
+        (("stage_lamp-0.2.0",), []),
+        (("v0.2.0:spec/lamp.yaml",), []),
+        (("v0.2.0", "HEAD"), []),
+    ],
+    ids=repr,
+)
+def test_final_editions_before_the_one_that_is_compared_are_kept(
+    copy: Path, words: tuple[str, ...], kept: list[str]
+) -> None:
+    folder = copy / "spec" / "released"
+    folder.mkdir()
+    for number in ("0.1.0", "0.2.0", "0.2.1", "0.2.2-rc.1", "0.3.0"):
+        text = version(LAMPS, number)
+        (folder / f"stage_lamp-{number}.yaml").write_text(text, encoding="utf-8")
+    found = find_editions(*words)
+    (old,) = (old for old, new in found.pairs if new.spec.protocol.name == "stage_lamp")
+    assert [each.edition.version for each in found.kept(old)] == kept
+
+
 def test_one_edition_can_come_from_the_input(clone: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def given(data: bytes) -> None:
         monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))

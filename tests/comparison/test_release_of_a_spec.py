@@ -232,12 +232,14 @@ MISREAD = "messages.LampGlow: old host of 1.0.0 -> new lamp: LampFade is read as
 
 
 @pytest.fixture
-def freed() -> None:
+def freed(capsys: Capture) -> None:
     """Remove a message, and release that; then drop what was reserved for it, and release that."""
     change(WITHOUT_FADE)
     assert main(["release", "--accept", "Nobody has it."]) == 0
     change({"remove": "reserved:"})
     assert (main(["check"]), main(["diff"]), main(["release"])) == (0, UNCERTAIN, 2)
+    # No name changed.
+    assert "was: OldName" not in capsys.readouterr().err
     assert main(["release", "--accept", "Nobody has it."]) == 0
     assert data_of(SPEC)["protocol"]["version"] == "3.0.0"
 

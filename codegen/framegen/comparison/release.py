@@ -117,13 +117,18 @@ def _accepted(effects: Sequence[Effect], reason: str | None) -> dict[str, str]:
             "\n".join([f"{what}:", *shown, *more]),
             hint='give one reason for all, --accept "No board has it.", or one for each in the '
             "`breaks` of the new version in `history`"
-            + ("" if all(each.certain for each in left) else _RENAMED),
+            + (_RENAMED if any(map(_may_be_renamed, left)) else ""),
         )
     return {
         path: reason.strip()
         for path in paths
         if not any(path.startswith((f"{other}.", f"{other}[")) for other in paths)
     }
+
+
+def _may_be_renamed(effect: Effect) -> bool:
+    """Tell whether `was` may settle an effect: not where something is reserved no more."""
+    return not effect.certain and effect.new is not None
 
 
 def _said(effect: Effect) -> str:
