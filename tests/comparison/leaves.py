@@ -52,8 +52,9 @@ def told_at_their_places(data: Data, each: int, first: int = 0) -> int:
             continue
         seen += 1
         told = changes(Pair(old, new))
-        places = [place for change in told for place in (change.old, change.new)]
-        assert any(place is not None and path[: len(place)] == place for place in places), path
+        places = [place for change in told for place in (change.old, change.new) if place]
+        # What is written in short is told at the key that it stands for.
+        assert any(path[: len(each)] == each or each[: len(path)] == path for each in places), path
         assert mirrored(told) == turned(changes(Pair(new, old)))
     return seen
 

@@ -27,14 +27,20 @@ RULE = ChangeRule(
     id="field-kind",
     title="A number became a list of elements, or the other way round",
     subject="field",
-    why="The bytes of the frame mean something else, and so does the argument of the class.",
+    why=(
+        "The argument of the class is another, and the bytes of the frame mean something else "
+        "unless each element is one number of the same type."
+    ),
     do="Add a message.",
     at="messages.LampsSet",
     before=("fields:\n  lamp_count: {type: u8}\n  lamps: {type: u8, counted_by: lamp_count}"),
     after=(
         "fields:\n"
         "  lamp_count: {type: u8}\n"
-        "  lamps: {element: Lamp, counted_by: lamp_count, fields: {lamp_id: {type: u8}}}"
+        "  lamps:\n"
+        "    element: Lamp\n"
+        "    counted_by: lamp_count\n"
+        "    fields: {lamp_id: {type: u8}, level: {type: u8}}"
     ),
     look=_look,
 )
