@@ -44,6 +44,9 @@ VERSION =
 # Which mutants, and how many of them: make mutants ONLY='busservo._client.*' SAMPLE=60 SEED=7
 ONLY =
 
+# Where Python keeps nothing of what it has compiled, each process of the tests compiles it again.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
@@ -122,7 +125,7 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 	mkdir -p mutants/src
 	cp -R generated/busservo codegen/framegen mutants/src
 	cp -R tests spec pyproject.toml mutants
-	cd mutants && PYTHONHASHSEED=0 PYTHONDONTWRITEBYTECODE= ../$(MUTATION_VENV)/bin/python -m tests.mutate \
+	cd mutants && PYTHONHASHSEED=0 ../$(MUTATION_VENV)/bin/python -m tests.mutate \
 		'$(or $(ONLY),*)' $(if $(filter command line,$(origin SAMPLE)),$(SAMPLE) $(SEED))
 	cd mutants/mutants && HYPOTHESIS_PROFILE=quick PYTHONHASHSEED=0 \
 		../../$(MUTATION_VENV)/bin/python -m tests.mutants '$(or $(ONLY),*)'
