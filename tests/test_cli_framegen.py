@@ -23,6 +23,7 @@ from hypothesis import strategies as st
 
 from tests.bad_specs import bad_spec
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -337,7 +338,7 @@ def test_a_rule_says_why_and_shows_both_sides(capsys: Capture) -> None:
     )
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@in_turn("rule", lambda: RULES)
 def test_every_rule_can_be_looked_up(rule: AnyRule, capsys: Capture) -> None:
     assert main(["rules", rule.id]) == 0
     shown = capsys.readouterr().out

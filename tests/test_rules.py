@@ -15,6 +15,7 @@ from framegen.reading.source import Source
 
 from tests import bad_specs
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_of, data_of
+from tests.in_turn import in_turn
 from tests.spec_edits import edited
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 FILED = [rule for rule in RULES if rule not in READING_RULES]
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@in_turn("rule", lambda: RULES)
 def test_a_rule_says_what_it_is_for(rule: AnyRule) -> None:
     assert re.fullmatch(r"[a-z]+(?:-[a-z]+)*", rule.id)
     assert rule.title
@@ -39,7 +40,7 @@ def test_no_two_rules_share_an_id() -> None:
     assert sorted(set(ids)) == sorted(ids)
 
 
-@pytest.mark.parametrize("rule", FILED, ids=lambda rule: rule.id)
+@in_turn("rule", lambda: FILED)
 def test_a_rule_is_a_file_of_its_own(rule: AnyRule) -> None:
     module = getattr(checks, rule.id.replace("-", "_"))
     assert module.RULE is rule

@@ -15,6 +15,7 @@ from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
 
 from tests.factories import BUSSERVO, DEMO, ROOT, data_of, files_of, layout_of
+from tests.in_turn import in_turn
 
 CODEGEN = ROOT / "codegen" / "framegen"
 TARGET = CODEGEN / "targets" / "python"
@@ -56,7 +57,7 @@ def test_there_are_templates_and_a_runtime() -> None:
     assert len(RUNTIME) >= 10
 
 
-@pytest.mark.parametrize("template", TEMPLATES, ids=named)
+@in_turn("template", lambda: TEMPLATES)
 def test_a_template_has_loops_and_conditions_and_nothing_else(template: Path) -> None:
     """No set, no macro, no include, no arithmetic but for a sum, no comparison, no call."""
     found = {type(node) for node in _walk(parsed(template))}
@@ -69,7 +70,7 @@ def _walk(node: nodes.Node) -> list[nodes.Node]:
     return [node, *(inner for child in node.iter_child_nodes() for inner in _walk(child))]
 
 
-@pytest.mark.parametrize("template", TEMPLATES, ids=named)
+@in_turn("template", lambda: TEMPLATES)
 def test_text_of_the_spec_goes_through_a_filter(template: Path) -> None:
     """Prose is never put in place as it is; names are, and the checks see to names."""
     prose = {"about", "summary", "description", "title", "unit", "vendor_name", "doc", "version"}
@@ -79,7 +80,7 @@ def test_text_of_the_spec_goes_through_a_filter(template: Path) -> None:
                 assert node.attr not in prose, f"{named(template)}:{node.lineno}"
 
 
-@pytest.mark.parametrize("template", TEMPLATES, ids=named)
+@in_turn("template", lambda: TEMPLATES)
 def test_a_template_fails_on_a_name_that_it_is_not_given(template: Path) -> None:
     assert _environment().undefined is StrictUndefined
     name = template.relative_to(TARGET / "templates").as_posix()
@@ -90,7 +91,7 @@ def test_a_template_fails_on_a_name_that_it_is_not_given(template: Path) -> None
         _environment().get_template(name).render()
 
 
-@pytest.mark.parametrize("template", TEMPLATES, ids=named)
+@in_turn("template", lambda: TEMPLATES)
 def test_a_template_is_tidy(template: Path) -> None:
     text = template.read_text(encoding="utf-8")
     assert text.endswith("\n")
@@ -209,7 +210,7 @@ PAGES = sorted(
 )
 
 
-@pytest.mark.parametrize("template", [*TEMPLATES, *PAGES], ids=lambda path: path.name)
+@in_turn("template", lambda: [*TEMPLATES, *PAGES])
 def test_what_is_kept_of_a_template_holds_nothing_that_a_filter_made(template: Path) -> None:
     """Else a filter that is changed later would still be seen to do what it once did."""
     of_kind = {".html": rendering._environment, ".md": markdown_pages._environment}

@@ -16,13 +16,14 @@ from tests.comparison.edits import EDITS, SERVO, SPECS, edition, pair_of, with_
 from tests.comparison.leaves import leaves, mirrored, told_at_their_places, turned
 from tests.comparison.rule_examples import example
 from tests.factories import ROOT, compiled_of, data_of, renamed
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from framegen.comparison.changes.change import ChangeRule
 
 EXPECTED = data_of(ROOT / "tests" / "comparison" / "changes.yaml")
-BY_ID = pytest.mark.parametrize("rule", CHANGE_RULES, ids=lambda rule: rule.id)
-BY_EDIT = pytest.mark.parametrize("name", EDITS)
+BY_ID = in_turn("rule", lambda: CHANGE_RULES)
+BY_EDIT = in_turn("name", lambda: EDITS)
 
 
 @BY_EDIT

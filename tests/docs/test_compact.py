@@ -9,6 +9,8 @@ from framegen.site.compact import compact_script, compact_style
 from pygments.lexers import CssLexer, JavascriptLexer
 from pygments.token import Comment, Whitespace
 
+from tests.in_turn import in_turn
+
 STATIC = Path(__file__).parents[2] / "codegen" / "framegen" / "site" / "static"
 SCRIPTS = sorted((STATIC / "js").glob("*.js"))
 STYLES = sorted((STATIC / "css").glob("*.css"))
@@ -46,13 +48,13 @@ def test_a_style_sheet_has_a_rule_a_line() -> None:
     )
 
 
-@pytest.mark.parametrize("file", SCRIPTS, ids=lambda file: file.name)
+@in_turn("file", lambda: SCRIPTS)
 def test_each_script_has_the_same_tokens(file: Path) -> None:
     text = file.read_text(encoding="utf-8")
     assert _tokens(JavascriptLexer(), compact_script(text)) == _tokens(JavascriptLexer(), text)
 
 
-@pytest.mark.parametrize("file", STYLES, ids=lambda file: file.name)
+@in_turn("file", lambda: STYLES)
 def test_each_style_sheet_has_the_same_tokens(file: Path) -> None:
     text = file.read_text(encoding="utf-8")
     assert _tokens(CssLexer(), compact_style(text)) == _tokens(CssLexer(), text)

@@ -10,6 +10,7 @@ from framegen.site.project import read_project
 
 from tests.docs.lamps import lamps, links, rendered_lamps
 from tests.docs.reference import broken_links
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,7 +35,7 @@ def test_links_of_a_guide_lead_to_pages_or_are_text() -> None:
     assert changes["../first.html#a-step"] == "the steps"
 
 
-@pytest.mark.parametrize("path", sorted(lamps()))
+@in_turn("path", lambda: sorted(lamps()))
 def test_no_link_is_dead(path: str) -> None:
     site = lamps()
     assert broken_links(site, rendered_lamps(), [site[path]]) == []

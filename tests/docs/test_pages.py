@@ -24,11 +24,16 @@ from tests.docs.reference import (
     reference_of,
     respelled,
 )
+from tests.in_turn import in_turn
 
 # Where each spec lies below the root of its project.
 SPEC_PATHS = {"busservo": "spec/busservo.yaml", "greenhouse": "demo.yaml"}
-EVERY = [(name, path) for name in SPECS for path in reference(name).pages]
 MESSAGES = [(name, message) for name in SPECS for message in reference(name).model.messages]
+
+
+def every_page() -> list[tuple[str, str]]:
+    """Return the spec and the path of each page."""
+    return [(name, path) for name in SPECS for path in reference(name).pages]
 
 
 @pytest.fixture(params=SPECS)
@@ -36,20 +41,20 @@ def site(request: pytest.FixtureRequest) -> Reference:
     return reference(str(request.param))
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+@in_turn("name, path", every_page)
 def test_ids_are_unique(name: str, path: str) -> None:
     ids = reference(name).pages[path].ids
     assert sorted(ids) == sorted(set(ids))
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+@in_turn("name, path", every_page)
 def test_every_link_leads_somewhere(name: str, path: str) -> None:
     site = reference(name)
     found = broken_links(site.site, site.rendered, [site.pages[path]])
     assert found == []
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+@in_turn("name, path", every_page)
 def test_nothing_is_loaded_from_anywhere(name: str, path: str) -> None:
     page = reference(name).pages[path]
     assert [each for each in page.loads if not each.startswith("data:")] == []
@@ -60,7 +65,7 @@ def test_nothing_is_loaded_from_anywhere(name: str, path: str) -> None:
         assert "@import" not in text
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+@in_turn("name, path", every_page)
 def test_headings_are_in_order_and_landmarks_are_there(name: str, path: str) -> None:
     page = reference(name).pages[path]
     assert page.headings[0] == 1
@@ -75,7 +80,7 @@ def test_headings_are_in_order_and_landmarks_are_there(name: str, path: str) -> 
     assert len(named) == len(set(named))
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+@in_turn("name, path", every_page)
 def test_the_footer_names_the_spec_and_its_version(name: str, path: str) -> None:
     site = reference(name)
     footer = site.pages[path].text.partition("<footer>")[2]
@@ -144,7 +149,7 @@ def test_a_spec_that_lies_elsewhere_is_named_and_not_linked_to() -> None:
 # ---------------------------------------------------------------------------- messages
 
 
-@pytest.mark.parametrize(("name", "message"), MESSAGES)
+@in_turn("name, message", lambda: MESSAGES)
 def test_a_message_has_a_page_with_all_that_the_spec_says(name: str, message: str) -> None:
     site = reference(name)
     layout = site.model.messages[message]
@@ -169,7 +174,7 @@ def test_a_message_has_a_page_with_all_that_the_spec_says(name: str, message: st
     assert message in page.ids
 
 
-@pytest.mark.parametrize(("name", "message"), MESSAGES)
+@in_turn("name, message", lambda: MESSAGES)
 def test_every_field_has_an_anchor_and_what_the_spec_says_of_it(name: str, message: str) -> None:
     site = reference(name)
     layout = site.model.messages[message]
@@ -193,7 +198,7 @@ def test_every_field_has_an_anchor_and_what_the_spec_says_of_it(name: str, messa
             assert not value.absent or f"At {value.value} the property absent is true." in words
 
 
-@pytest.mark.parametrize(("name", "message"), MESSAGES)
+@in_turn("name, message", lambda: MESSAGES)
 def test_the_links_to_the_spec_land_where_it_speaks_of_the_message(name: str, message: str) -> None:
     site = reference(name)
     page, layout = site.pages[f"messages/{message}.html"], site.model.messages[message]
@@ -226,7 +231,7 @@ def test_the_spec_page_holds_the_spec_to_the_letter(name: str) -> None:
         assert f"{number}{line}\n" in text
 
 
-@pytest.mark.parametrize(("name", "message"), MESSAGES)
+@in_turn("name, message", lambda: MESSAGES)
 def test_every_example_is_there_twice_and_can_be_copied(name: str, message: str) -> None:
     site = reference(name)
     for path in (f"messages/{message}.html", "examples.html"):

@@ -13,6 +13,7 @@ from framegen.site.site import render_site
 
 from tests.docs.lamps import greenhouse, lamps, links, metas, part, title
 from tests.docs.reference import Page
+from tests.in_turn import in_turn
 
 
 def test_the_sidebar_is_the_plan_in_its_order_and_words() -> None:
@@ -82,7 +83,7 @@ def test_previous_and_next_go_through_every_page_of_the_sidebar() -> None:
     assert seen == listed
 
 
-@pytest.mark.parametrize("path", sorted(lamps()))
+@in_turn("path", lambda: sorted(lamps()))
 def test_contents_name_the_headings_and_lead_to_them(path: str) -> None:
     page = lamps()[path]
     found = links(part(page, "On this page"))
@@ -92,7 +93,7 @@ def test_contents_name_the_headings_and_lead_to_them(path: str) -> None:
     assert {link.removeprefix("#") for link, _ in found} <= set(page.ids)
 
 
-@pytest.mark.parametrize("path", sorted(lamps()))
+@in_turn("path", lambda: sorted(lamps()))
 def test_no_heading_is_read_aloud_with_its_link(path: str) -> None:
     page = lamps()[path].text
     for _, inside in re.findall(r"<h([1-6])[^>]*>(.*?)</h\1>", page, re.DOTALL):
@@ -177,7 +178,7 @@ def test_every_page_has_a_title_and_a_description_of_its_own() -> None:
     assert metas(lamps()["index.html"])["description"] == "Lamps on a line."
 
 
-@pytest.mark.parametrize("path", sorted(lamps()))
+@in_turn("path", lambda: sorted(lamps()))
 def test_the_icon_is_part_of_the_page_and_the_policy_allows_it(path: str) -> None:
     page = lamps()[path]
     (icon,) = [given["href"] for tag, given in page.tags if given.get("rel") == "icon"]
@@ -186,7 +187,7 @@ def test_the_icon_is_part_of_the_page_and_the_policy_allows_it(path: str) -> Non
     assert re.search(r"img-src [^;]*data:", policy)
 
 
-@pytest.mark.parametrize("path", sorted(lamps()))
+@in_turn("path", lambda: sorted(lamps()))
 def test_without_an_address_nothing_claims_to_have_one(path: str) -> None:
     page = lamps()[path]
     assert {"og:title", "og:description"} <= metas(page).keys()

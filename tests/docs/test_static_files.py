@@ -3,11 +3,11 @@
 import re
 from functools import cache
 
-import pytest
 from framegen.comparison.report.verdict import STANDINGS
 
 from tests.docs.editions import three
 from tests.docs.reference import ROOT
+from tests.in_turn import in_turn
 
 FRAMEGEN = ROOT / "codegen" / "framegen"
 SITE = FRAMEGEN / "site"
@@ -100,7 +100,7 @@ def test_no_two_scripts_give_the_same_name() -> None:
     assert owners["DETAIL_MORE"] == ["workbench_detail"]
 
 
-@pytest.mark.parametrize("name", SCRIPTS)
+@in_turn("name", lambda: SCRIPTS)
 def test_a_script_says_what_it_is_and_is_strict(name: str) -> None:
     assert re.match(r'(?://.*\n)+"use strict";\n', SCRIPTS[name])
 

@@ -16,6 +16,7 @@ from framegen.render import render
 from pydantic import BaseModel
 
 from tests.guide_specs import BLOCKS, GUIDE, NAMES, SPECS
+from tests.in_turn import in_turn
 
 SPEC = SPECS["kiln"]
 # The remarks that the guide shows, by spec.
@@ -107,7 +108,7 @@ def test_everything_can_be_generated_from_it() -> None:
     assert "docs/reference/kiln/messages/ProgramRun.md" in files
 
 
-@pytest.mark.parametrize(("model", "key"), KEYS)
+@in_turn("model, key", lambda: KEYS)
 def test_every_key_is_shown_and_explained(model: str, key: str) -> None:
     prose = re.sub(r"```yaml\n.*?```", "", GUIDE, flags=re.DOTALL)
     assert re.search(rf"^[\s-]*{key}:|[{{ ]{key}: ", ALL, re.MULTILINE), f"{model}.{key}"
