@@ -16,6 +16,7 @@ SMALL = with_(SERVO, "messages", "ServoPositions", "fields", "positions", "count
 TURNED = with_(SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items())))
 BOARDLESS = with_(SERVO, "link", "usb_hid", GONE)
 DYNAMIXEL, LX, MSP = (data_of(FILES[name]) for name in ("dynamixel1", "lxservo", "msp"))
+MODBUS = data_of(FILES["modbus"])
 BATTERY = ("messages", "BatteryVoltageRead")
 VOLTAGE = ("messages", "BatteryVoltage")
 HOLDING = ("messages", "HoldingRead")
@@ -199,6 +200,16 @@ CASES: dict[str, Case] = {
             Said(_NEW_DXL, "error", "Ping"),
             Said(_NEW_DXL, "no error", "Ping"),
         ],
+    ),
+    "a reply may be of another size no longer": Case(
+        with_(MODBUS, "messages", "HoldingRead", "asks_for", GONE),
+        MODBUS,
+        [Said("new client, old device", "not recognized", "HoldingRead")],
+    ),
+    "a reply may be of another size": Case(
+        MODBUS,
+        with_(MODBUS, "messages", "HoldingRead", "asks_for", GONE),
+        [Said("old client, new device", "not recognized", "HoldingRead")],
     ),
     "an answer may be taken for another": Case(
         DYNAMIXEL,

@@ -148,6 +148,10 @@ EDITS: dict[str, tuple[Data, Data]] = {
         with_(ALL, "messages", "Texts", "failure", "size"),
         with_(ALL, "messages", "Texts", "failure", "size unless 1"),
     ),
+    "items asked for": (
+        with_(SPECS["modbus"], "messages", "HoldingRead", "asks_for", GONE),
+        SPECS["modbus"],
+    ),
     "local echo": (ALL, with_(ALL, "link", "local_echo", True)),
     "bytes of a constant field": (
         ALL,
