@@ -125,6 +125,11 @@ class LibraryView:
         return all(frame.checksums for frame in self.model.envelopes.values())
 
     @property
+    def lengthened(self) -> bool:
+        """Whether a frame may be the beginning of a longer one."""
+        return any(begun(self.model))
+
+    @property
     def outgrown(self) -> bool:
         """Whether a frame that the client receives may be the beginning of a longer one."""
         received = self.model.roles.received
