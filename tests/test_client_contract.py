@@ -10,6 +10,7 @@ import json
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
+from busservo import AsyncController, Controller
 from busservo._client.exchanges import EXCHANGES
 from framegen.model.exchanges import STEPS_PER_SECOND
 
@@ -96,6 +97,15 @@ def results_of(data: Data) -> dict[str, Any]:
         for each in layout_of(data).exchanges
         if each.acknowledged is not None or each.lasts is not None
     }
+
+
+@pytest.mark.parametrize("client", [Controller, AsyncController])
+@pytest.mark.parametrize("row", CONTRACT.values(), ids=CONTRACT)
+def test_a_method_raises_for_its_values_if_it_is_given_any(client: type, row: Row) -> None:
+    method, arguments, *_ = row
+    said = " ".join(str(getattr(client, method).__doc__).split())
+    assert ("EncodeError for values" in said) is bool(arguments)
+    assert "TransportError." in said
 
 
 def test_the_spec_says_what_the_table_says() -> None:

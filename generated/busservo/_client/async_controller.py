@@ -101,7 +101,7 @@ class AsyncController(AsyncClient):
         Returns once the frame is handed over; `delay` of the result is how many seconds later it
         is on the wire.
 
-        Raises EncodeError for values that no frame can carry, and TransportError.
+        Raises TransportError.
 
         >>> sent = await controller.stop_action_group()
         """
@@ -140,8 +140,7 @@ class AsyncController(AsyncClient):
         Returns `voltage_mv` of the BatteryVoltage: The voltage of the controller board (0..65535
         mV, in steps of 0.001 V).
 
-        Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
-        time, and TransportError.
+        Raises NoReplyError if no reply comes in time, and TransportError.
 
         >>> await controller.read_battery_voltage()
         7500

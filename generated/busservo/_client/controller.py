@@ -97,7 +97,7 @@ class Controller(Client):
         Returns once the frame is handed over; `delay` of the result is how many seconds later it
         is on the wire.
 
-        Raises EncodeError for values that no frame can carry, and TransportError.
+        Raises TransportError.
 
         >>> sent = controller.stop_action_group()
         """
@@ -136,8 +136,7 @@ class Controller(Client):
         Returns `voltage_mv` of the BatteryVoltage: The voltage of the controller board (0..65535
         mV, in steps of 0.001 V).
 
-        Raises EncodeError for values that no frame can carry, NoReplyError if no reply comes in
-        time, and TransportError.
+        Raises NoReplyError if no reply comes in time, and TransportError.
 
         >>> controller.read_battery_voltage()
         7500

@@ -37,7 +37,7 @@ _ACKNOWLEDGED = (
     "`started` of the result is True once {} acknowledges it, and False if none comes in time, on "
     "a line that has carried such reports before."
 )
-_REFUSED = "Raises EncodeError for values that no frame can carry"
+_REFUSED = "EncodeError for values that no frame can carry"
 _LATE = "NoReplyError if no reply comes in time, and TransportError."
 _SPLIT = "longer lists take several requests, one after the other."
 _PARTLY = (
@@ -131,7 +131,8 @@ class MethodView:
     def _returns_and_raises(self) -> list[str]:
         reply, result = self.exchange.reply, self._result
         if reply is None:
-            return [*self._handed_over, f"{_REFUSED}, and TransportError."]
+            raises = [_REFUSED, "and TransportError."] if self._names else ["TransportError."]
+            return [*self._handed_over, f"Raises {', '.join(raises)}"]
         returned = f"Returns the {reply.name}."
         if result is not None:
             about, *rest = self._shown(result, reply).argument_doc
@@ -140,7 +141,8 @@ class MethodView:
         if self.exchange.split is not None:
             lines.append(f"A reply has room for {self.exchange.most}: {_SPLIT}")
         partly = any("." in path for _, path in self.exchange.echoed)
-        lines.append(f"{_REFUSED}, {_LATE}{_PARTLY if partly else ''}")
+        refused = f"{_REFUSED}, " if self._names else ""
+        lines.append(f"Raises {refused}{_LATE}{_PARTLY if partly else ''}")
         return lines
 
     @property
