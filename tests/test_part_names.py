@@ -75,11 +75,11 @@ def _names(data: Data, message: Data, turn: int) -> dict[str, str]:
         for name, part in data["frames"][message["frame"]].items()
         if part["is"] not in _GIVEN and not (sized and part["is"] == "length")
     ]
-    fields = [*message["fields"]]
+    fields, at = [*message["fields"]], turn % len(parts)
     turned = [*fields[turn % len(fields) :], *fields[: turn % len(fields)]]
-    return dict(
-        zip(turned, [*parts[turn % len(parts) :], *parts[: turn % len(parts)]], strict=False)
-    )
+    names = dict(zip(turned, [*parts[at:], *parts[:at]], strict=False))
+    # A field may have the name of a part already; no other can have it then.
+    return {old: new for old, new in names.items() if new not in fields or new in names}
 
 
 def _renamed(message: Data, names: dict[str, str]) -> Data:
