@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from framegen.render import snippets
 from framegen.site.project import Project
+from framegen.site.rendering import render_page
 from framegen.site.scripts.javascript_module import javascript_module
-from framegen.site.site import render_site
+from framegen.site.site import Site
 
 from tests.conformance.harness import run
 from tests.docs.reference import NODE
@@ -38,9 +39,15 @@ def of_the_page(compiled: Compiled, folder: Path, questions: Sequence[str]) -> l
 def page_command(compiled: Compiled, folder: Path) -> list[str]:
     """Write the page with the decoder to `folder`; return the command that runs its script."""
     page = folder / "decoder.html"
-    path = f"reference/{compiled.spec.protocol.name}/{page.name}"
-    page.write_text(render_site(Project([compiled]), snippets())[path], encoding="utf-8")
+    page.write_text(decoder_page(compiled), encoding="utf-8")
     return [str(NODE), str(ANSWER), str(page)]
+
+
+def decoder_page(compiled: Compiled) -> str:
+    """Return the page with the decoder, as it is in a site, of which it is one of many."""
+    site = Site(Project([compiled]), snippets())
+    path = f"reference/{compiled.spec.protocol.name}/decoder.html"
+    return next(render_page(site, page) for page in site.pages if page.path == path)
 
 
 def of_the_module(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
