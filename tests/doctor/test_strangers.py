@@ -125,7 +125,7 @@ CASES = {
         lambda: Stranger(Print(0.1, BANNER), resets=True),
         UNKNOWN,
         'they are text: "ets Jun  8 2016 00:22:57',
-        "a board that restarts prints text",
+        "a device that restarts prints text",
         silence="126 bytes of text came unsolicited",
         rate="nothing came at all",
     ),

@@ -10,7 +10,7 @@ from ..plain_text import plain_text
 
 OTHER_DEVICE = (
     "another device may be on this port, such as a GPS receiver, a modem or an Arduino: unplug it, "
-    "and see which port goes; a board that restarts prints text, too: see to its supply"
+    "and see which port goes; a device that restarts prints text, too: see to its supply"
 )
 _CUT = (
     "bytes are lost on the way, or the device stops within a frame: see to loose plugs, the "
