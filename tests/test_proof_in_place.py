@@ -53,6 +53,13 @@ IN_FRONT = {
     "body": BODY,
 }
 WITH_HIDDEN = {**sealed(checksum("inverted sum", [*ALL, "extra"])), "extra": HIDDEN}
+BEHIND_A_LENGTH = {
+    "length": LENGTH,
+    "header": HEADER,
+    "id": ID,
+    "body": BODY,
+    "end": checksum("inverted sum", ["id", "body"]),
+}
 TWO_STRETCHES = sealed(checksum("inverted sum", ["length", "body"]))
 
 # The frames of a protocol, and the test that its decoders make; none where they call for one.
@@ -60,6 +67,7 @@ CASES = {
     "inverted": (sealed(checksum("inverted sum", ALL)), "sum(frame) & 0xFF == 0xFE"),
     "negated": (sealed(checksum("negated sum", ALL)), "sum(frame) & 0xFF == 0xFF"),
     "behind a gap": (WITH_GAP, "sum(frame[3:]) & 0xFF == 0xFF"),
+    "behind a length and a constant": (BEHIND_A_LENGTH, "sum(frame[3:]) & 0xFF == 0xFF"),
     "in front": (IN_FRONT, "~sum(frame[3:]) & 0xFF == frame[2]"),
     "in front of an end": (
         sealed(checksum("inverted sum", ALL), END),

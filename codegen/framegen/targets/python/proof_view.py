@@ -60,8 +60,12 @@ class ProofView:
         """The sum of the bytes in front of what is covered; None if it is not always the same."""
         total, at = 0, 0
         for slot in self.frame.head:
-            if slot.at < self.start and isinstance(slot, Constant) and slot.role == "constant":
-                total, at = total + sum(slot.data), slot.at + slot.size
+            if (
+                slot.at == at < self.start
+                and isinstance(slot, Constant)
+                and slot.role == "constant"
+            ):
+                total, at = total + sum(slot.data), at + slot.size
         return total if at == self.start else None
 
     @property
