@@ -21,18 +21,22 @@ from busservo._client.local_echo import LocalEcho
 from busservo._codec.careful_decoder import GAP
 from busservo._codec.decoder import StreamDecoder
 from busservo._frame.direction import RECEIVED
+from framegen.model.codec import encode
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.line_data import LINE_SCRIPT, line_data
 from framegen.site.scripts.protocol_data import protocol_data
 
+from tests.bad_specs import BASES
 from tests.docs.reference import NODE, reference
 from tests.docs.scripts import STATIC
 from tests.docs.serial_host import ADAPTER, FAKE_SERIAL
+from tests.factories import compiled_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from busservo._client.request import Request
+    from framegen.model.model import Model
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 MODEL = reference("busservo").model
@@ -255,9 +259,11 @@ return { said, counts: session.counts, due: session.due };
 """
 
 
-def talk(steps: Iterable[tuple[float, str, bytes]], **settings: object) -> dict[str, Any]:
+def talk(
+    steps: Iterable[tuple[float, str, bytes]], model: Model = MODEL, **settings: object
+) -> dict[str, Any]:
     """Return what a session says of these steps: a time in ms, what happens, and bytes."""
-    data = {**protocol_data(MODEL), "line": line_data(MODEL)}
+    data = {**protocol_data(model), "line": line_data(model)}
     asked = {"protocol": data, "steps": [(at, what, data.hex()) for at, what, data in steps]}
     found: dict[str, Any] = answers(_SESSION, {**asked, **settings})
     return found
@@ -334,6 +340,27 @@ ANSWERS: dict[str, tuple[list[tuple[float, str, bytes]], list[list[Any]]]] = {
 def test_a_reply_answers_what_was_asked(case: str) -> None:
     steps, expected = ANSWERS[case]
     assert outcomes(talk(steps)) == expected
+
+
+@pytest.mark.parametrize(
+    ("request_", "asked", "reply", "held", "fits"),
+    [
+        ("BytesRead", {"start": 16, "count": 2}, "Bytes", {"stored": [1, 2]}, True),
+        ("BytesRead", {"start": 16, "count": 1}, "Bytes", {"stored": [1, 2]}, False),
+        ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 1, "found": [1, 2]}, True),
+        ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 1, "found": [1]}, False),
+        ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 0, "found": []}, True),
+    ],
+)
+def test_a_reply_of_another_size_is_no_answer(
+    request_: str, asked: dict[str, Any], reply: str, held: dict[str, Any], fits: bool
+) -> None:
+    model = compiled_file(BASES / "memory.yaml").model
+    assert model is not None
+    sent, received = encode(model.messages[request_], asked), encode(model.messages[reply], held)
+    found = talk([(0, "sent", sent), (40, "received", received), (900, "tick", b"")], model)
+    outcome = ["answer", request_, reply, 40, False, []] if fits else ["silence", request_]
+    assert outcomes(found) == [outcome]
 
 
 def test_half_a_frame_does_not_grow_together_with_the_next() -> None:
