@@ -46,9 +46,12 @@ def is_searchable(messages: Sequence[Layout]) -> bool:
 
 def _is_regular(envelope: Envelope) -> bool:
     roles = [placed.slot.role for placed in envelope.head]
+    constants = sum(placed.slot.size for placed in envelope.head if placed.slot.role == "constant")
     behind = [slot for slot in envelope.slots if slot.at < 0]
     return (
         bool(envelope.header)
+        # What a frame of an unknown id claims, and no checksum proves, is held to the header alone.
+        and (constants == len(envelope.header) or bool(envelope.checksums))
         and {"length", "id"} <= {*roles} <= {*_IN_FRONT}
         and all(slot.size <= _WIDEST for slot in envelope.slots if slot.role in _COMPARED)
         and not envelope.unsent
