@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pyarrow as pa
 
-from .layout import DIRECTIONS, REASONS, described, layouts
+from .._frame.free_name import free_name
+from .layout import DIRECTIONS, EVENT_COLUMNS, REASONS, described, layouts
 from .places import dtype_of
 
 if TYPE_CHECKING:
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 NOISE = "noise"
 """The name of the table of what is no message."""
+# Its columns behind those of every event.
+_REASON, _UNKNOWN = "reason", "unknown"
+PARAMETERS = "parameters"
 
 
 class _Names:
@@ -70,31 +74,33 @@ def schema_of(layout: Layout) -> pa.Schema:
 def noise_schema() -> pa.Schema:
     """Return the schema of the table of noise and unknown frames."""
     numbers = [
-        _field(name, kind, {"about": "Of an unknown frame."})
-        for name, kind in unknown_numbers().items()
+        _field(column, kind, {"about": "Of an unknown frame."})
+        for column, kind in unknown_numbers().values()
     ]
     return pa.schema(
         [
             *_event_fields(),
-            _field("reason", REASON.type, {"about": "Why it is no message."}),
-            _field("unknown", pa.bool_(), {"about": "Whether it is a frame that is not known."}),
+            _field(_REASON, REASON.type, {"about": "Why it is no message."}),
+            _field(_UNKNOWN, pa.bool_(), {"about": "Whether it is a frame that is not known."}),
             *numbers,
-            _field("parameters", pa.binary(), {"about": "The fields of an unknown frame."}),
+            _field(PARAMETERS, pa.binary(), {"about": "The fields of an unknown frame."}),
         ],
         metadata={"summary": "Noise and unknown frames.", "protocol": described().title},
     )
 
 
 @cache
-def unknown_numbers() -> dict[str, pa.DataType]:
-    """Return the types of the numbers by which unknown frames are told apart, by their names."""
+def unknown_numbers() -> dict[str, tuple[str, pa.DataType]]:
+    """Return columns and types of the numbers that tell unknown frames apart, by their names."""
     sizes: dict[str, int] = {}
     for envelope in described().envelopes.values():
         for slot in envelope.slots:
             if slot.role in ("address", "id"):
                 sizes[slot.name] = max(slot.size, sizes.get(slot.name, 0))
+    taken = (*EVENT_COLUMNS, _REASON, _UNKNOWN, PARAMETERS)
     # None is negative, and one of eight bytes needs all of its bits.
-    return {name: pa.uint64() if size == 8 else pa.int64() for name, size in sizes.items()}
+    types = {name: pa.uint64() if size == 8 else pa.int64() for name, size in sizes.items()}
+    return {name: (free_name(name, taken), kind) for name, kind in types.items()}
 
 
 def arrow_type(layout: Layout, column: Column) -> Any:

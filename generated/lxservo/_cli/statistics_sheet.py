@@ -7,6 +7,7 @@ import json
 import sys
 from datetime import datetime, timezone
 
+from .._frame.free_name import freely_named
 from .._frame.pluralize import pluralize
 from .._frame.protocol import BITS_PER_BYTE, LOCAL_ECHO
 from .._recording.file import EITHER
@@ -66,7 +67,8 @@ def as_json(found: Statistics, baud: float) -> str:
                     for each in found.noise
                 ],
                 "unknown_frames": [
-                    {**each.numbers, "count": each.count, "bytes": each.size}
+                    freely_named(each.numbers, ["count", "bytes"])
+                    | {"count": each.count, "bytes": each.size}
                     for each in found.unknown
                 ],
             },

@@ -11,6 +11,7 @@ from .._codec.codec import table_for
 from .._explanation.carried_model import classes, protocol
 from .._frame.direction import Direction
 from .._frame.errors import Reason
+from .._frame.free_name import free_name
 from ..messages import MESSAGES
 
 if TYPE_CHECKING:
@@ -59,12 +60,11 @@ class Layout:
     def columns(self) -> tuple[Column, ...]:
         """A column for each field that a user gives."""
         slots = [slot for slot in self.described.slots if slot.role in _GIVEN]
-        return tuple(Column(*self._named(slot), slot) for slot in slots)
-
-    def _named(self, slot: Slot) -> tuple[str, str]:
-        """Return the attribute of a field, and the name of its column."""
-        attribute = _attribute(slot.name, self.kind.__match_args__)
-        return attribute, f"{attribute}_" if attribute in EVENT_COLUMNS else attribute
+        attributes = [_attribute(slot.name, self.kind.__match_args__) for slot in slots]
+        return tuple(
+            Column(attribute, free_name(attribute, EVENT_COLUMNS), slot)
+            for attribute, slot in zip(attributes, slots, strict=True)
+        )
 
     def element_names(self, column: Column) -> tuple[str, ...]:
         """Return the names of the fields in an element of a list; none if it has bare numbers."""

@@ -14,7 +14,7 @@ import pyarrow as pa
 
 from ..layout import EVENT_COLUMNS, layouts
 from ..reader import BLOCK, events
-from ..schema import NOISE, REASON, schemas, unknown_numbers
+from ..schema import NOISE, PARAMETERS, REASON, schemas, unknown_numbers
 from ..source import opened
 from .write_error import naming
 
@@ -149,7 +149,7 @@ def _fields(schema: pa.Schema) -> Sequence[pa.Field]:
 
 
 def _of_unknown() -> Sequence[str]:
-    return [*unknown_numbers(), "parameters"]
+    return [*(column for column, _ in unknown_numbers().values()), PARAMETERS]
 
 
 def names_in(source: Source, form: str, direction: Direction | None) -> set[str]:

@@ -2,6 +2,8 @@
 "use strict";
 
 const EXPORT_COLUMNS = "offset,time,from,direction,message,or,fields,hex,reason";
+// What is said of an unknown frame beside its numbers.
+const NOISE_KEYS = ["offset", "time", "from", "noise", "reason", "parameters"];
 
 // A line of text for an event, without its end.
 function makeExport(codec, protocol) {
@@ -39,11 +41,10 @@ function makeExport(codec, protocol) {
     const frame = protocol.frames.find(({ header }) => header.every((byte, i) => bytes[i] === byte));
     if (!frame) return "";
     const body = frame.slots.findIndex(({ role }) => role === "body");
-    const known = ["id", "address", "counter"];
-    const numbers = frame.slots.filter(({ role, at }) => at >= 0 && known.includes(role));
+    const numbers = ["address", "id"].flatMap((each) => frame.slots.filter(({ role }) => role === each));
     const tail = frame.slots.slice(body + 1).reduce((sum, { size }) => sum + size, 0);
     const said = numbers.map(({ name, at, size, order }) =>
-      `, ${asciiJson(name)}: ${readWide({ size, order, signed: false }, bytes, at)}`);
+      `, ${asciiJson(NOISE_KEYS.includes(name) ? `${name}_` : name)}: ${readWide({ size, order, signed: false }, bytes, at)}`);
     const parameters = bytes.slice(frame.slots[body].at, bytes.length - tail);
     return `${said.join("")}, "parameters": "${toHex(parameters)}"`;
   }

@@ -7,6 +7,7 @@ import json
 from .._codec.codec import table_for, twins
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
+from .._frame.free_name import freely_named
 from .._frame.pluralize import pluralize
 from .._recording.entry import SENDERS
 from .._recording.file import EITHER, NOISE
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 # Noise that has the shape of a frame.
 UNKNOWN = "unknown"
 KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
+# What is said of an unknown frame beside its numbers: behind them, and all of it as JSON.
+_PARAMETERS = "parameters"
+_NOISE_KEYS = ["offset", "time", "from", "noise", "reason", _PARAMETERS]
 
 
 def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
@@ -51,7 +55,8 @@ def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str,
 def in_words(event: Message | Noise, direction: Direction | None) -> str:
     """Return the name and the fields with their units; for noise, why it is noise."""
     if isinstance(event, UnknownFrame):
-        said = {**event.numbers, "parameters": format_hex(event.parameters) or "none"}
+        parameters = format_hex(event.parameters) or "none"
+        said = freely_named(event.numbers, [_PARAMETERS]) | {_PARAMETERS: parameters}
         return " ".join(f"{name}={value}" for name, value in said.items())
     if isinstance(event, Noise):
         return _why(event, direction)
@@ -66,7 +71,8 @@ def in_json(event: Message | Noise, direction: Direction | None) -> str:
         record: dict[str, Any] = {"from": sender, "noise": format_hex(event.data)}
         record["reason"] = event.reason.value
         if isinstance(event, UnknownFrame):
-            record |= {**event.numbers, "parameters": format_hex(event.parameters)}
+            record |= freely_named(event.numbers, _NOISE_KEYS)
+            record[_PARAMETERS] = format_hex(event.parameters)
         return json.dumps(record)
     name, *others = names
     way, fields = event.DIRECTION.value, fields_in_json(event)

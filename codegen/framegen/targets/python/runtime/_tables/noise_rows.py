@@ -59,7 +59,7 @@ def _batch(runs: NoiseRuns) -> pa.RecordBatch:
         reasons,
         pa.array([frame is not None for frame in frames]),
     ]
-    for name, kind in unknown_numbers().items():
+    for name, (_, kind) in unknown_numbers().items():
         values = [None if each is None else each.get(name) for each in numbers]
         columns.append(pa.array(values, kind))
     parameters = [None if frame is None else frame.parameters for frame in frames]
