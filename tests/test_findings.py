@@ -9,7 +9,7 @@ from framegen import checks
 from framegen.compile import compile_spec
 from framegen.language import misfit
 from framegen.model import facts
-from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean
+from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean, slip_of
 from framegen.reading.source import Source, Span
 
 from tests.bad_specs import bad_spec
@@ -112,24 +112,27 @@ def unknown_facts(data: Any, words: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "searching"),
+    ("change", "searching", "search"),
     [
-        (unknown_keys, misfit),
-        (unknown_replies, checks.reply),
-        (unknown_sources, checks.unknown_source),
-        (unknown_facts, facts),
+        (unknown_keys, misfit, did_you_mean),
+        (unknown_replies, checks.reply, did_you_mean),
+        (unknown_sources, checks.unknown_source, did_you_mean),
+        (unknown_facts, facts, slip_of),
     ],
 )
 def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
-    change: Callable[[Any, list[str]], None], searching: object, monkeypatch: pytest.MonkeyPatch
+    change: Callable[[Any, list[str]], None],
+    searching: object,
+    search: Callable[..., str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     searched: list[str] = []
 
-    def noted(word: str, known: Iterable[str], *, otherwise: str = "") -> str:
+    def noted(word: str, known: Iterable[str], **more: str) -> str:
         searched.append(word)
-        return did_you_mean(word, known, otherwise=otherwise)
+        return search(word, known, **more)
 
-    monkeypatch.setattr(searching, "did_you_mean", noted)
+    monkeypatch.setattr(searching, search.__name__, noted)
     data, words = data_of(DEMO), [f"Odd{number}" for number in range(1000, 1500)]
     change(data, words)
     findings = compiled_of(data).findings
