@@ -41,10 +41,12 @@ function makeExport(codec, protocol) {
     const frame = protocol.frames.find(({ header }) => header.every((byte, i) => bytes[i] === byte));
     if (!frame) return "";
     const body = frame.slots.findIndex(({ role }) => role === "body");
-    const numbers = ["address", "id"].flatMap((each) => frame.slots.filter(({ role }) => role === each));
+    const numbers = ["address", "id"].flatMap((each) =>
+      frame.slots.filter(({ role }) => role === each));
     const tail = frame.slots.slice(body + 1).reduce((sum, { size }) => sum + size, 0);
+    const keyOf = (name) => asciiJson(NOISE_KEYS.includes(name) ? `${name}_` : name);
     const said = numbers.map(({ name, at, size, order }) =>
-      `, ${asciiJson(NOISE_KEYS.includes(name) ? `${name}_` : name)}: ${readWide({ size, order, signed: false }, bytes, at)}`);
+      `, ${keyOf(name)}: ${readWide({ size, order, signed: false }, bytes, at)}`);
     const parameters = bytes.slice(frame.slots[body].at, bytes.length - tail);
     return `${said.join("")}, "parameters": "${toHex(parameters)}"`;
   }
