@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import importlib
+import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.codec import encode
 
 from tests.bad_specs import BASES
-from tests.factories import compiled_file, library, library_files
+from tests.factories import compiled_file, library, library_files, vectors_of
+from tests.independent.memory import MemoryPort
+from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
     from types import ModuleType
 
 MODEL = compiled_file(BASES / "memory.yaml").model
@@ -157,3 +161,33 @@ def test_the_model_knows_the_size_as_well() -> None:
     assert not some.miscounts(asked, {"status": 1, "found": [1, 2]})
     assert some.miscounts(asked, {"status": 1, "found": [1]})
     assert not some.miscounts(asked, {"status": 0, "found": [1]})
+
+
+@pytest.mark.parametrize(
+    "spec", [BASES / "memory.yaml", FILES["modbus"]], ids=lambda file: file.stem
+)
+def test_the_vectors_say_which_replies_answer(spec: Path) -> None:
+    compiled = compiled_file(spec)
+    model, vectors = compiled.model, vectors_of(compiled)
+    sent, received = model.roles.sent, model.roles.received
+    with library(library_files(compiled)) as made:
+        exchanges = importlib.import_module(f"{made.__name__}._client.exchanges").EXCHANGES
+        for vector in vectors["replies"]:
+            request, reply = (
+                made.decode(bytes.fromhex(vector[key]), made.Direction(way.key))
+                for key, way in (("request", sent), ("reply", received))
+            )
+            fits = exchanges[type(request)].counted.fits(request, reply)
+            assert fits is vector["answers"], vector["title"]
+    said = {vector["answers"] for vector in vectors["replies"]}
+    assert said == {True, False}
+
+
+def test_a_memory_written_by_hand_answers_as_the_vectors_say() -> None:
+    for vector in vectors_of(compiled_file(BASES / "memory.yaml"))["replies"]:
+        if vector["title"].startswith("BytesRead"):
+            port = MemoryPort(late={})
+            port.write(bytes.fromhex(vector["request"]))
+            answer = port.read(math.inf)
+            same_size = len(answer) == len(bytes.fromhex(vector["reply"]))
+            assert same_size is vector["answers"], vector["title"]

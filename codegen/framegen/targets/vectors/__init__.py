@@ -1,4 +1,4 @@
-"""Test vectors for codecs in any language: frames, invalid frames, and streams.
+"""Test vectors for codecs in any language: frames, invalid frames, streams, and replies.
 
 Made from the spec's examples and the ends of its ranges by the reference codec, never by a
 generated library, so that a library can be tested against them.
@@ -10,6 +10,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from framegen.cases.invalid import invalid_frames
+from framegen.cases.replies import replies
 from framegen.cases.streams import streams
 from framegen.cases.unencodable import unencodable
 from framegen.cases.valid import valid_frames
@@ -21,6 +22,7 @@ from framegen.targets.target import Target
 
 if TYPE_CHECKING:
     from framegen.cases.invalid import InvalidFrame
+    from framegen.cases.replies import Reply
     from framegen.cases.stream_case import StreamCase
     from framegen.cases.unencodable import UnencodableValues
     from framegen.cases.valid import ValidFrame
@@ -43,6 +45,9 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
         "invalid": [_invalid(frame) for frame in invalid_frames(model)],
         "streams": [_stream(model, case) for case in streams(model)],
     }
+    # Few protocols say how many items a reply holds.
+    if found := [_reply(each) for each in replies(model)]:
+        document["replies"] = found
     return {f"generated/{protocol.name}/vectors.json": _one_vector_a_line(document)}
 
 
@@ -89,6 +94,15 @@ def _stream(model: Model, case: StreamCase) -> dict[str, Any]:
         "max_frame": case.max_frame,
         "parts": ["quiet" if part is None else to_hex(part) for part in case.parts],
         "events": [_event(event) for event in line.follow(case.parts)],
+    }
+
+
+def _reply(reply: Reply) -> dict[str, Any]:
+    return {
+        "title": reply.title,
+        "request": to_hex(reply.request),
+        "reply": to_hex(reply.reply),
+        "answers": reply.answers,
     }
 
 
