@@ -23,8 +23,12 @@ def alike(model: Model) -> Iterator[tuple[MessageLayout, MessageLayout]]:
     for way in model.ways:
         # One without any legal count is too long: another rule speaks of it.
         sent = [message for message in model.sent(way) if message.counts]
-        marks = {message.name: _marks(message) for message in sent}
+        marks: dict[str, dict[int, range]] = {}
         for one, other in _pairs(sent):
+            # Most messages have an id of their own, and are in no pair.
+            for message in (one, other):
+                if message.name not in marks:
+                    marks[message.name] = _marks(message)
             if not _differ(marks[one.name], marks[other.name]):
                 yield one, other
 

@@ -120,7 +120,8 @@ class Envelope:
     @cached_property
     def checksums(self) -> tuple[Number, ...]:
         """The numbers worked out from other parts, in turn."""
-        return in_turn(self._of_role("checksum"))
+        sums = {part.name: part for part in self._of_role("checksum")}
+        return tuple(sums[name] for name in in_turn({name: sums[name].of for name in sums}))
 
     @property
     def proven(self) -> bool:

@@ -267,7 +267,8 @@ class Envelope:
     @cached_property
     def checksums(self) -> tuple[Slot, ...]:
         """The numbers worked out from other parts, in turn."""
-        return in_turn(slot for slot in self.slots if slot.role == "checksum")
+        sums = {slot.name: slot for slot in self.slots if slot.role == "checksum"}
+        return tuple(sums[name] for name in in_turn({name: sums[name].of for name in sums}))
 
     def right(self, part: Slot, frame: bytes, unsent: Sequence[int] = ()) -> bytes:
         """Return a checksum as a whole frame should have it; `unsent` are the ids not in it."""

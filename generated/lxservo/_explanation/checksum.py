@@ -5,33 +5,21 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-    from typing import Any, Protocol, TypeVar
-
-    class Part(Protocol):
-        """A part of a frame, and those that it is worked out from."""
-
-        @property
-        def name(self) -> str:
-            """What it is called."""
-
-        @property
-        def of(self) -> Sequence[str]:
-            """What those are called."""
-
-    Checksum = TypeVar("Checksum", bound=Part)
+    from collections.abc import Collection, Mapping
+    from typing import Any
 
 
-def in_turn(parts: Iterable[Checksum]) -> tuple[Checksum, ...]:
-    """Return the checksums of a frame in turn: one that another covers comes first."""
-    left = [*parts]
-    found: list[Checksum] = []
+def in_turn(covered: Mapping[str, Collection[str]]) -> list[str]:
+    """Return the checksums of a frame in turn: one that another covers comes first.
+
+    `covered` are the parts that each is worked out from, by their names.
+    """
+    left, found = [*covered], list[str]()
     while left:
-        names = {each.name for each in left}
-        free = (each for each in left if not names & {*each.of} - {each.name})
+        free = (each for each in left if not {*left} & {*covered[each]} - {each})
         found.append(next(free, left[0]))
         left.remove(found[-1])
-    return tuple(found)
+    return found
 
 
 def checksum(terms: Mapping[str, Any], width: int, data: bytes) -> int:
