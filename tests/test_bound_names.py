@@ -4,15 +4,16 @@ import pytest
 from framegen.language.package_names import why_taken
 from framegen.render import render
 
-from tests.bound_crowds import CROWDS, crowd_of
+from tests.bound_crowds import crowd_of
 from tests.bound_names import imported, snake_names
 from tests.crowd import Crowd
 from tests.factories import compiled_of, rules_broken
 from tests.names_at_work import at_work
 
-# Classes meet what modules import, which depends on the kind; tests/all has all others of both.
-KINDS = [(kind, at % 2 == 0) for at, kind in enumerate(CROWDS)]
-KINDS += [("messages", False), ("elements", True)]
+# Classes meet what modules import, which depends on the kind of frames, so that these have both.
+# tests/all has every kind of name in frames of both kinds.
+KINDS = [("fields", True), ("halves", False), ("ends", True), ("parts", False)]
+KINDS += [(kind, plain) for kind in ("messages", "elements") for plain in (True, False)]
 
 
 @pytest.mark.parametrize(("kind", "plain"), KINDS)

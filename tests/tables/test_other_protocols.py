@@ -136,12 +136,12 @@ def test_tables_hold_what_the_decoder_and_the_reference_find(
 ) -> None:
     made, model = libraries[name], model_of(name)
     line = data.draw(lines_of(name, made))
-    if VECTORISED[name, sender(way)] is None:
+    block = data.draw(st.sampled_from([1, 7, 64, 600, None]))
+    # Kilobytes in stretches of a few bytes show nothing that a short line does not.
+    if VECTORISED[name, sender(way)] is None and (block is None or block > 7):
         line += data.draw(st.sampled_from([b"", filler(name)]))
     direction = None if way is None else direction_of(made, way)
-    found = rows_in_tables(
-        made, line, direction, block=data.draw(st.sampled_from([1, 7, 64, 600, None]))
-    )
+    found = rows_in_tables(made, line, direction, block=block)
     assert found == rows_of_decoder(made, line, direction)
     reference = ReferenceDecoder(model, model.directions if way is None else [way])
     assert [row.place for row in found] == places_of_reference(reference.decode(line))
