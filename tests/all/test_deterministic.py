@@ -129,7 +129,9 @@ def test_every_python_at_hand_gives_the_same_bytes() -> None:
     assert digests(specs=list(SPECS.values())) == expected()
     for python in other_pythons():
         needs = subprocess.run(
-            [python, "-c", "import jinja2, pydantic, yaml"], capture_output=True, check=False
+            [python, "-c", "import jinja2, markdown_it, pydantic, pygments, yaml"],
+            capture_output=True,
+            check=False,
         )
         if needs.returncode == 0:
             assert digests(python, specs=list(SPECS.values())) == expected()
