@@ -179,3 +179,16 @@ def test_a_spec_may_note_something_everywhere() -> None:
     shown = " ".join(page.words for path, page in site.pages.items() if path != "spec.html")
     kept = " ".join(site.files.values())
     assert [text for text in texts if text not in shown or text not in kept] == []
+
+
+def test_the_bytes_come_first_and_wide_numbers_say_their_order() -> None:
+    wrong = []
+    for message in MESSAGES:
+        page = page_of(message).text
+        order = [page.find(f'id="{part}"') for part in ("bytes", "fields", "facts", "errata")]
+        found = [place for place in order if place >= 0]
+        if found != sorted(found) or -1 in order[:3]:
+            wrong.append(f"{message}: {order}")
+        wrong += [f"{message}: {tail}" for tail in re.findall(r'"field">[iu](?:16|32)<', page)]
+    assert wrong == []
+    assert "u16, low byte first" in page_of("ServoMove").text

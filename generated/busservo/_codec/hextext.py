@@ -2,7 +2,8 @@
 """Hex as people paste it: `0A 1B 02 FF`, `0x0A, 0x1B`, `0A1B02FF`, over any lines.
 
 Bytes may be separated by blanks, commas, colons, semicolons, dashes and underscores, and a comment
-goes from a `#` to the end of the line. A byte is two digits, with or without `0x` before it, or the
+goes from a `#` to the end of the line. A byte is two digits, with or without `0x` before it (its
+x may be a multiplication sign, as in printed manuals), or the
 backslash and x of strings in C and Python; after one of these prefixes, a single digit at the end
 of a word is a byte, too. Nothing else is hex.
 
@@ -17,7 +18,7 @@ _BETWEEN = " \t\n\r\v\f\N{NO-BREAK SPACE}\N{ZERO WIDTH NO-BREAK SPACE},:;_-"
 _COMMENT = re.compile(r"#[^\n]*")
 _WORD = re.compile(f"[^{_BETWEEN}]+")
 _AS_BLANKS = str.maketrans(dict.fromkeys(_BETWEEN, " "))
-_PREFIX = r"(?:0[xX]|\\[xX])"
+_PREFIX = r"(?:0[xX\u00d7]|\\[xX])"
 _BYTES = re.compile(rf"(?:{_PREFIX}?[0-9A-Fa-f]{{2}})*")
 _LAST = re.compile(rf"{_PREFIX}[0-9A-Fa-f]")
 # What may stand at the end of a piece, when the rest of the byte comes in the next one.

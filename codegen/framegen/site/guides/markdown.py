@@ -10,6 +10,7 @@ from markdown_it import MarkdownIt
 from markdown_it.rules_inline import image, link
 
 from framegen.reading.source import Span
+from framegen.site.guides.forge import use_forge
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -35,7 +36,7 @@ def parser() -> MarkdownIt:
     made.inline.ruler.at("link", _placed(link))
     made.inline.ruler.at("image", _placed(image))
     made.inline.ruler.at("html_inline", _note_html)
-    return made
+    return use_forge(made)
 
 
 def _placed(rule: Rule) -> Rule:

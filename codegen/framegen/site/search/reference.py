@@ -49,7 +49,7 @@ def _pages(reference: ReferenceView, folder: str) -> Iterator[Entry]:
             "Reference",
             sentences(page.about, *said.get(page.name, [])),
             reference.protocol.name,
-            names=(page.label,),
+            names=(page.label, reference.protocol.name) if page.name == "index" else (page.label,),
         )
     for example in reference.stream_examples:
         yield Entry(

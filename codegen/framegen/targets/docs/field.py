@@ -141,7 +141,8 @@ def _type(slot: Number | Text | Packed | Constant) -> str:
         case Packed():
             return f"{slot.count} of {slot.number_type.name}"
         case Number() if not slot.field.text:
-            return slot.number_type.name
+            name = slot.number_type.name
+            return name if slot.size == 1 else f"{name}, {_first(slot.order)} byte first"
         case Constant():
             return slot.field.type if slot.field is not None else ""
         case _:
@@ -193,7 +194,7 @@ class _Maker:
             values=_values(
                 spec, path, values, NUMBER_TYPES.get(getattr(field, "type", "")), source
             ),
-            beside=[*_on_the_wire(spec, field), *_beside(path.rpartition(".")[2], field)],
+            beside=[*_on_the_wire(field), *_beside(path.rpartition(".")[2], field)],
             bits=_bits(field),
             notes=note_views(spec, field.notes),
             cite=cite_view(spec, source),
@@ -260,7 +261,7 @@ def _bits(field: NumberField | ListField) -> list[BitsView]:
     ]
 
 
-def _on_the_wire(spec: Spec, field: NumberField | ListField) -> Iterator[str]:
+def _on_the_wire(field: NumberField | ListField) -> Iterator[str]:
     """Say what its bytes are, where that is not as usual."""
     if isinstance(field, ListField):
         return
@@ -270,13 +271,15 @@ def _on_the_wire(spec: Spec, field: NumberField | ListField) -> Iterator[str]:
         yield f"Reserved: written as {field.reserved}, read as anything, and never given."
     if field.optional:
         yield "May be absent, with all that is behind it."
-    if field.byte_order not in (None, spec.byte_order):
-        yield order_in_words(field.byte_order)
 
 
-def order_in_words(order: str | None) -> str:
+def order_in_words(order: str) -> str:
     """Say which byte of a number comes first."""
-    return f"Its {'low' if order == 'little' else 'high'} byte comes first."
+    return f"Its {_first(order)} byte comes first."
+
+
+def _first(order: str) -> str:
+    return "low" if order == "little" else "high"
 
 
 def _beside(name: str, field: NumberField | ListField) -> list[str]:

@@ -32,10 +32,10 @@ function parseHex(text) {
 
 // The digits of each byte in a word that stands at `at`.
 function digitsIn(word, at) {
-  if (/^(?:(?:0x|\\x)?[0-9a-f]{2})*(?:(?:0x|\\x)[0-9a-f])?$/i.test(word)) {
-    return Array.from(word.matchAll(/(?:0x|\\x)?([0-9a-f]{1,2})/gi), ([, digits]) => digits);
+  if (/^(?:(?:0[x\u00d7]|\\x)?[0-9a-f]{2})*(?:(?:0[x\u00d7]|\\x)[0-9a-f])?$/i.test(word)) {
+    return Array.from(word.matchAll(/(?:0[x\u00d7]|\\x)?([0-9a-f]{1,2})/gi), ([, digits]) => digits);
   }
-  const digits = word.replace(/0x|\\x/gi, (prefix) => "0".repeat(prefix.length));
+  const digits = word.replace(/0[x\u00d7]|\\x/gi, (prefix) => "0".repeat(prefix.length));
   const wrong = /[^0-9a-f]/iu.exec(digits);
   const place = wrong ? { at: at + wrong.index, size: wrong[0].length } : { at, size: word.length };
   if (!wrong) throw new Unusable(`“${word}” is no whole number of bytes`, place);

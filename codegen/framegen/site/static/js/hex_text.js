@@ -12,7 +12,7 @@ const HEX_BETWEEN = new Uint8Array(0x10000);
 for (const character of " \t\n\r\v\f\u00a0\ufeff,:;_-") HEX_BETWEEN[character.charCodeAt(0)] = 1;
 
 const HASH = 35, SLASH = 47;
-const HEX_PREFIXED = /^(?:(?:0x|\\x)?[0-9a-f]{2})*(?:(?:0x|\\x)[0-9a-f])?$/i;
+const HEX_PREFIXED = /^(?:(?:0[x\u00d7]|\\x)?[0-9a-f]{2})*(?:(?:0[x\u00d7]|\\x)[0-9a-f])?$/i;
 const HEX_SUFFIXED = /^(?:0?[0-9a-f]{1,2}h)+$/i;
 
 // A reader of text in pieces, each cut between words: `read` returns bytes. Throws Unreadable.
@@ -79,7 +79,7 @@ function readHexWord(text, start, end, bytes, size) {
   }
   if (plain) return count;
   const word = text.slice(start, end);
-  const form = HEX_PREFIXED.test(word) ? /(?:0x|\\x)?([0-9a-f]{1,2})/gi : /0?([0-9a-f]{1,2})h/gi;
+  const form = HEX_PREFIXED.test(word) ? /(?:0[x\u00d7]|\\x)?([0-9a-f]{1,2})/gi : /0?([0-9a-f]{1,2})h/gi;
   if (!HEX_PREFIXED.test(word) && !HEX_SUFFIXED.test(word)) throw refusedHex(word, start);
   count = size;
   for (const [, digits] of word.matchAll(form)) bytes[count++] = parseInt(digits, 16);
@@ -88,8 +88,8 @@ function readHexWord(text, start, end, bytes, size) {
 
 // What is wrong with a word.
 function refusedHex(word, at) {
-  const whole = /^(?:(?:0x|\\x)?[0-9a-f]{2})*/i.exec(word)[0].length;
-  const prefix = /^(?:0x|\\x)/i.exec(word.slice(whole));
+  const whole = /^(?:(?:0[x\u00d7]|\\x)?[0-9a-f]{2})*/i.exec(word)[0].length;
+  const prefix = /^(?:0[x\u00d7]|\\x)/i.exec(word.slice(whole));
   const start = whole + (prefix ? prefix[0].length : 0);
   if (prefix && start === word.length) {
     const hint = `write the byte whole, like ${prefix[0]}1B`;
@@ -100,7 +100,7 @@ function refusedHex(word, at) {
     const said = "is no hex digit" + (word === wrong[0] ? "" : `, in “${shortened(word)}”`);
     return new Unreadable(wrong[0], at + start + wrong.index, said, "write two digits a byte, like 0A 1B FF");
   }
-  const run = /(?:^|0x|\\x)([0-9a-f]+)$/i.exec(word), digits = run ? run[1] : word;
+  const run = /(?:^|0[x\u00d7]|\\x)([0-9a-f]+)$/i.exec(word), digits = run ? run[1] : word;
   const place = at + word.length - digits.length;
   if (digits.length === 1) {
     const hint = `did you mean 0${digits}? Decimal numbers are read in brackets: [10, 27, 255]`;

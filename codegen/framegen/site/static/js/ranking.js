@@ -4,9 +4,22 @@
 // Letters and digits, by ranges: browsers are ten times slower with the names of such classes.
 const WORD = /[A-Za-z0-9\u00c0-\u1fff\u3040-\uffee]+(?:[-_.][A-Za-z0-9\u00c0-\u1fff\u3040-\uffee]+)*/g;
 const BETWEEN = /[^a-z0-9\u00c0-\u1fff\u3040-\uffee]+/g;
-// How much it is worth where a word stands.
-const PLACES = { title: 8, names: 8, also: 7, where: 3, text: 2 };
-const EXACT_TITLE = 100, EXACT_NAME = 90, EXACT_HEADING = 60, TITLE_BEGINS = 6;
+// How much it is worth where a word stands, and how much less it is worth in a long text of that kind.
+const PLACES = { title: [8, 0.3], names: [8, 0], also: [7, 0], path: [4, 0], where: [3, 0.3],
+  sort: [3, 0], text: [2, 0.6] };
+// What people call an entry of a kind.
+const SORTS = { message: "command packet layout format bytes", method: "function call Python" };
+// How soon more of the same word adds nothing, and what a name within a question is worth.
+const SATURATION = 3, NAME_WITHIN = 0.8, MOST_NAME_WORDS = 5;
+// Hits have this much of what the best one has of the words, rare ones counting more.
+const LEAST_SHARE = 0.3;
+// What questions are made of. It says nothing about the place, and is too rare in reference text for
+// its frequency there to tell so.
+const QUESTION_WORDS = new Set(`a about am an and any are as at be can could did do does for from get
+  gets had has have how i if in is it its me mean means my of on or our should so that the their them
+  there these they this to too use used using want was we what when where which while who why will
+  with would you your`.split(/\s+/));
+const EXACT_TITLE = 100, EXACT_NAME = 90, EXACT_HEADING = 60, TITLE_BEGINS = 2, KIND = 0.4, LATER = 0.8;
 const LEAST_TO_CORRECT = 4, LEAST_STEM = 3, MOST_SUGGESTIONS = 3, MOST_WORDS = 16;
 
 // A name as it is compared: "LX-16A", "lx_16a" and "lx16a" are one.
@@ -36,7 +49,7 @@ function readQuery(query) {
 
 // A word without the ends that English gives to it, or "" where too little is left.
 function stemOf(word) {
-  const stem = word.replace(/ies$/, "y").replace(/(?:ing|ed|es|s)$/, "");
+  const stem = word.replace(/ies$/, "y").replace(/(?:ing|ed|es|s|e)$/, "");
   return stem !== word && stem.length >= LEAST_STEM ? stem : "";
 }
 
@@ -53,29 +66,34 @@ function isOneSlip(one, other) {
 
 function makeSearch(index) {
   const { entries } = index, ranks = Object.keys(index.kinds);
+  const protocols = index.protocols.map(({ name }) => name);
   const whole = entries.map((entry) => [entry.title, ...(entry.names ?? []), ...(entry.also ?? []),
     entry.where, entry.text ?? ""].join("\n").toLowerCase());
   const titles = entries.map(({ title }) => glued(title));
   // What is called so, what has such words, and how names of several parts are written.
   const exact = new Map(), vocabulary = new Map(), written = new Map();
+  // A page is called what its address says, its sections are not.
+  const pathOf = ({ path }) => (path.includes("#") ? ""
+    : path.replace(/(?:\/index)?\.html$/, "").replace(/^.*\//, ""));
+  const placesIn = (entry) => ({ ...entry, path: pathOf(entry), sort: SORTS[entry.kind] });
+  const said = entries.map(placesIn).map((entry) => Object.keys(PLACES).map((place) => (
+    [entry[place] ?? ""].flat().join("\n").match(WORD) ?? [])));
+  const usual = Object.keys(PLACES).map((_, place) => (
+    said.reduce((sum, words) => sum + words[place].length, 1) / entries.length));
 
   entries.forEach((entry, number) => {
-    const places = { ...entry, names: (entry.names ?? []).join("\n"), also: (entry.also ?? []).join("\n") };
     const seen = new Map();
-    for (const [place, worth] of Object.entries(PLACES)) {
-      for (const word of (places[place] ?? "").match(WORD) ?? []) {
+    Object.values(PLACES).forEach(([worth, shrinks], place) => {
+      const words = said[number][place];
+      const each = worth / (1 - shrinks + shrinks * words.length / usual[place]);
+      for (const word of words) {
         if (keysOf(word).length > 1 && !written.has(glued(word))) written.set(glued(word), word);
-        for (const key of keysOf(word)) {
-          const before = seen.get(key) ?? 0;
-          // What prose says again and again counts a little more.
-          if (!before) seen.set(key, worth);
-          else if (before < PLACES.where) seen.set(key, before + 0.2);
-        }
+        for (const key of keysOf(word)) seen.set(key, (seen.get(key) ?? 0) + each);
       }
-    }
+    });
     for (const [key, worth] of seen) {
       if (!vocabulary.has(key)) vocabulary.set(key, []);
-      vocabulary.get(key).push([number, worth]);
+      vocabulary.get(key).push([number, worth / (worth + SATURATION)]);
     }
     const names = [entry.title, ...(entry.names ?? []), ...(entry.also ?? [])];
     names.forEach((name, at) => {
@@ -131,48 +149,80 @@ function makeSearch(index) {
     });
   }
 
-  // The entries with all words and phrases. Where none has, `loose` tells that hits have some of
-  // the words, and `suggestions` are queries that have a hit.
-  function find(query, { kind = "", protocol = "" } = {}) {
-    const { words, phrases } = readQuery(query), sought = taken(words), key = glued(query);
-    const said = phrases.length ? entries.map((_, number) => phrases.every(
-      (phrase) => whole[number].includes(phrase))) : null;
-    const counts = {};
-    const rank = (most) => {
-      const hits = [];
-      entries.forEach((entry, number) => {
-        if ((said && !said[number]) || (protocol && entry.protocol !== protocol)) return;
-        const had = sought.filter(({ found }) => found[number]);
-        if (!had.length || had.length < most) return;
-        counts[entry.kind] = (counts[entry.kind] ?? 0) + 1;
-        if (kind && entry.kind !== kind) return;
-        const named = exact.get(key)?.get(number) ?? 0;
-        const begins = titles[number].startsWith(key) ? TITLE_BEGINS * key.length / titles[number].length : 0;
-        const score = had.reduce((sum, { found }) => sum + found[number], named + begins)
-          - ranks.indexOf(entry.kind) - number / entries.length;
-        hits.push({ entry, score, number });
-      });
-      return hits.sort((one, other) => other.score - one.score || one.number - other.number);
-    };
-    const wrong = sought.filter(({ found }) => !found.some(Boolean));
-    let hits = rank(sought.length);
-    const better = wrong.length ? corrected(query, wrong.map(({ word }) => word)) : [];
-    const suggestions = better.filter((text) => {
-      const answer = find(text);
-      return answer.hits.length && !answer.loose;
+  // How much a word tells: the fewer entries have it, the more.
+  function weightOf({ word, found }) {
+    if (QUESTION_WORDS.has(word)) return 0;
+    const many = found.reduce((sum, each) => sum + (each ? 1 : 0), 0);
+    return Math.log(1 + (entries.length - many + 0.5) / (many + 0.5));
+  }
+
+  // What each entry gains by names that stand within a question.
+  function namedWithin(sought) {
+    const gained = new Map();
+    sought.forEach((_, from) => {
+      let key = "", weight = 0;
+      for (const { word, weight: own } of sought.slice(from, from + MOST_NAME_WORDS)) {
+        key += word;
+        weight += own;
+        for (const number of weight ? exact.get(key)?.keys() ?? [] : []) {
+          gained.set(number, Math.max(gained.get(number) ?? 0, NAME_WITHIN * weight));
+        }
+      }
     });
-    const loose = !hits.length && sought.length > 1 && !suggestions.length && wrong.length < sought.length;
-    if (loose) {
-      const had = (_, number) => sought.filter(({ found }) => found[number]).length;
-      hits = rank(Math.max(...entries.map(had)));
+    return gained;
+  }
+
+  // The entries with all phrases and with most of what the words tell. If none has all words, `loose`
+  // says so; if a word stands nowhere, hits are those of one like it, and
+  // `suggestions` are queries that have all words with it.
+  function find(query, { kind = "", protocol = "" } = {}) {
+    const { words, phrases } = readQuery(query), key = glued(query);
+    const sought = taken(words).map((each) => ({ ...each, weight: weightOf(each) }));
+    const wrong = sought.filter(({ found }) => !found.some(Boolean));
+    const better = exact.has(key) ? [] : corrected(query, wrong.map(({ word }) => word));
+    const answers = better.map((text) => find(text, { kind, protocol }));
+    if (answers.some(({ hits }) => hits.length)) {
+      const suggestions = better.filter((_, at) => answers[at].hits.length && !answers[at].loose);
+      return { ...answers.find(({ hits }) => hits.length), suggestions };
     }
-    return { hits, counts, loose, suggestions, words: sought.map(({ word }) => word) };
+    // Where nothing but a question is asked, its words are all there is.
+    if (!sought.some(({ weight }) => weight)) sought.forEach((each) => { each.weight = 1; });
+    const within = namedWithin(sought), hits = [], counts = {};
+    entries.forEach((entry, number) => {
+      if (!phrases.every((phrase) => whole[number].includes(phrase))) return;
+      if (protocol && entry.protocol !== protocol) return;
+      let share = 0, score = within.get(number) ?? 0, missing = 0;
+      for (const { found, weight } of sought) {
+        if (found[number]) share += weight;
+        else if (weight) missing++;
+        score += weight * found[number];
+      }
+      const named = exact.get(key)?.get(number) ?? 0;
+      if (!share && !named) return;
+      const begins = titles[number].startsWith(key) ? TITLE_BEGINS * key.length / titles[number].length : 0;
+      const behind = LATER * Math.max(0, protocols.indexOf(entry.protocol))
+        + KIND * (ranks.indexOf(entry.kind) + number / entries.length);
+      hits.push({ entry, score, number, share, missing, sure: named + begins - behind });
+    });
+    const best = hits.reduce((most, { share }) => Math.max(most, share), 0);
+    const enough = hits.filter(({ share }) => share >= LEAST_SHARE * best || !share);
+    // Of two that have the same of some words, the one that has the others as well leads.
+    for (const hit of enough) hit.score = hit.score * (hit.share / (best || 1)) + hit.sure;
+    for (const { entry } of enough) counts[entry.kind] = (counts[entry.kind] ?? 0) + 1;
+    return {
+      hits: enough.filter(({ entry }) => !kind || entry.kind === kind)
+        .sort((one, other) => other.score - one.score || one.number - other.number),
+      counts,
+      loose: enough.length > 0 && enough.every(({ missing }) => missing),
+      suggestions: [],
+      words: sought.filter(({ weight }) => weight).map(({ word }) => word),
+    };
   }
 
   // The query with other words in the place of those that stand nowhere.
   function corrected(query, wrong) {
     const choices = wrong.map(near);
-    if (!choices.every((each) => each.length)) return [];
+    if (!choices.length || !choices.every((each) => each.length)) return [];
     return choices[0].map((_, place) => [...query.matchAll(WORD)].map(([word]) => {
       const at = wrong.indexOf(glued(word));
       const right = choices[at]?.[place] ?? choices[at]?.[0];

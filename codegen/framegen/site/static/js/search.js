@@ -122,7 +122,7 @@
     results.hidden = !visible.length;
     byId("search-count").replaceChildren(summary(request, answer), " ", ...suggested(suggestions));
     byId("search-more").hidden = !request.query || instead.hits.length <= shown;
-    byId("search-advice").hidden = !request.query || hits.length > 0;
+    byId("search-advice").hidden = !request.query || (hits.length > 0 && !suggestions.length);
     for (const link of byId("search-advice").querySelectorAll("[data-workbench]")) {
       link.search = answer.bytes ? `?hex=${toHex(answer.bytes).replace(/ /g, "").toLowerCase()}` : "";
     }
