@@ -328,6 +328,16 @@ BAD_VALUES = (
     BadValue(
         *_move({1: 2, 3: 4}), "targets[0]", {1: 2, 3: 4}, "{1: 2, 3: 4} is not (servo_id, position)"
     ),
+    # Pairs as a mapping.
+    *(
+        BadValue(ServoMove, {"time_ms": 1, "targets": pairs}, path, value, text)
+        for pairs, path, value, text in (
+            ({1: 2, 3: 70000}, "targets[1].position", 70000, "70000 is outside 0..65535"),
+            ({300: 2}, "targets[0].servo_id", 300, "300 is outside 0..255"),
+            ({"a": 2}, "targets[0].servo_id", "a", "'a' is not a whole number, but a str"),
+            ({}, "targets", {}, "0 items is outside 1..83"),
+        )
+    ),
     # No list.
     BadValue(*_unload(1), "servo_ids", 1, "1 is not a list of whole numbers"),
     BadValue(*_unload(None), "servo_ids", None, "None is not a list of whole numbers"),

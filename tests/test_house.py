@@ -113,6 +113,11 @@ def test_there_is_one_version() -> None:
     assert {*versions, *required, *changes[1:2], busservo.__version__} == {framegen.__version__}
 
 
+def test_the_form_of_a_report_begins_with_the_title_that_is_asked_for() -> None:
+    form = yaml.safe_load(TEXTS[".github/ISSUE_TEMPLATE/report.yml"])
+    assert f'titled "{form["title"]}"' in TEXTS["CONTRIBUTING.md"]
+
+
 def test_everything_under_generated_is_what_the_generator_makes() -> None:
     compiled = [compile_spec(read_source(spec)) for spec in SPECS]
     rendered = [render(each) for each in compiled]

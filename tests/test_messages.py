@@ -11,6 +11,7 @@ import weakref
 from collections.abc import Callable, Iterator
 from enum import IntEnum
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import busservo
@@ -131,6 +132,8 @@ def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
     [
         list,
         tuple,
+        dict,
+        lambda items: MappingProxyType(dict(items)),
         iter,
         np.array,
         lambda items: (item for item in items),

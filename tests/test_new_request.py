@@ -217,7 +217,7 @@ def test_it_is_a_method_of_both_clients_and_a_handler_of_the_device(project: Pat
         "LampBlinking(lamp_id=7) True",
         "(LampLevel(lamp_id=7, level=9), LampLevel(lamp_id=1, level=3))",
         "60",
-        "nothing was reported of lamp_ids 5; what did arrive (1) is kept in `arrived`",
+        "nothing was reported of lamp_ids 5; 1 did arrive",
         "(LampLevel(lamp_id=2, level=200),)",
         "Rejects(0)",
     ]

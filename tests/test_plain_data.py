@@ -90,7 +90,7 @@ TARGET = {"servo_id": 1, "position": 800}
         (
             ServoMove,
             {"time_ms": 1, "targets": TARGET},
-            "targets: {'servo_id': 1, 'position': 800} is not a list of (servo_id, position)",
+            "targets[0].servo_id: 'servo_id' is not a whole number, but a str",
         ),
         (ServoUnload, {"servo_ids": [{"id": 1}]}, "servo_ids[0]: {'id': 1} is not a whole number"),
         (ActionGroupStop, {"group": 1}, "group: there is no such field; ActionGroupStop has no"),

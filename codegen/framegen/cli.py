@@ -37,7 +37,7 @@ VERBS = (
 _CLOSING = """\
 `framegen VERB --help` shows what else a verb can do.
 The exit code is 0 when all is well, 1 when something was found (or the bytes are no frame), and
-2 when the input or the command line was of no use."""
+2 when the input or the command line cannot be used."""
 
 
 class Verb(Protocol):
@@ -162,7 +162,7 @@ def _overview() -> str:
         (
             console.table("verbs", summaries),
             console.table("examples", examples),
-            *(about for verb in verbs.values() for about in _about(verb)),
+            *_about(verbs["generate"]),
             _CLOSING,
         )
     )

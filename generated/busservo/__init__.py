@@ -12,6 +12,12 @@ command and, where it has one, its count.
 
 No frame reports an error. All that the host sees of wrong data is silence. (Other vendor
 documents and several independent clients)
+
+Of the line, the vendor's document says the rate alone, 9600 baud. Eight data bits, no parity and
+one stop bit are what others use. (Other vendor documents and several independent clients)
+
+Sibling boards have no time-out between bytes: a frame that is cut short takes the first bytes of
+the next one for its own, and that one is lost as well. (Firmware of sibling boards)
 """
 
 # Each is imported when it is first needed: nobody waits for what is not used. Editors and type

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ._frame.direction import Direction
 from ._frame.element import Element
@@ -107,7 +107,11 @@ class ServoMove(Message):
     targets = Items(7, ServoTarget, 1, 83, count=servo_count)
     """The servos to turn and where to, in the order of the frame."""
 
-    def __new__(cls, time_ms: int, targets: Iterable[tuple[int, int]]) -> typing.Self:
+    def __new__(
+        cls,
+        time_ms: int,
+        targets: Mapping[int, int] | Iterable[tuple[int, int]],
+    ) -> typing.Self:
         flat = cls.targets.flat(targets)
         servo_count = len(flat) // 2
         return cls._packed(
@@ -471,7 +475,7 @@ class ServoPositions(Message):
     (Client code in public repositories)
     """
 
-    def __new__(cls, positions: Iterable[tuple[int, int]]) -> typing.Self:
+    def __new__(cls, positions: Mapping[int, int] | Iterable[tuple[int, int]]) -> typing.Self:
         flat = cls.positions.flat(positions)
         servo_count = len(flat) // 2
         return cls._packed(

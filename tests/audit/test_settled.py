@@ -200,10 +200,10 @@ def test_facts_are_counted_by_what_they_are_known_from(cite: str, seen: set[str]
     )
 
 
-def test_the_readme_counts_facts_and_questions() -> None:
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+def test_the_guide_counts_facts_and_questions() -> None:
+    guide = (ROOT / "docs" / "audit-a-recording.md").read_text(encoding="utf-8")
     for file in sorted((ROOT / "spec").glob("*.yaml")):
-        assert f"\n{evidence(compiled_file(file).model)}\n" in readme
+        assert f"\n{evidence(compiled_file(file).model)}\n" in guide
 
 
 @pytest.mark.parametrize(("value", "written"), [(1e30, True), (-2.5e-7, True), (math.inf, False)])

@@ -20,6 +20,7 @@ from busservo._client import session
 from busservo._client.client import Client
 from busservo._serial.hid_devices import HidDevice
 from busservo._serial.link_errors import PortNotFoundError
+from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
 
@@ -138,6 +139,74 @@ def test_the_rate_is_that_of_the_port(
     assert opened == [("COM7", float(baud))]
 
 
+ADAPTER = SerialPortSeen("COM3", "1A86:7523", "USB Serial")
+OTHER = SerialPortSeen("COM4", "10C4:EA60", "CP2102")
+BUILT_IN = SerialPortSeen("COM1", "", "")
+BOARD = HidDevice(0x0483, 0x5750, "1-1", "")
+
+# Which port is taken, by the words, the environment, the ports and the devices there are; or what
+# the error says.
+PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] = [
+    (["--port", "COM9"], "COM8", [ADAPTER], [], "COM9"),
+    ([], "COM8", [ADAPTER], [], "COM8"),
+    ([], "", [ADAPTER], [], "COM3"),
+    ([], "", [BUILT_IN, ADAPTER], [], "COM3"),
+    (
+        [],
+        "",
+        [BUILT_IN],
+        [],
+        (
+            "busservo: error: which port is meant? 1 port may be it, so name it: "
+            "--port COM1 (not USB)\n"
+        ),
+    ),
+    ([], "", [BUILT_IN], [BOARD], "hid://"),
+    ([], "", [ADAPTER], [BOARD], "COM3"),
+    (
+        [],
+        "",
+        [BUILT_IN, ADAPTER, OTHER],
+        [],
+        (
+            "busservo: error: which port is meant? 2 ports may be it, so name it: "
+            "--port COM3 (USB Serial) or --port COM4 (CP2102)\n"
+        ),
+    ),
+    (
+        [],
+        "",
+        [],
+        [],
+        (
+            "busservo: error: no port is plugged in; plug in the device, or name a port: "
+            "--port PORT, or BUSSERVO_PORT=PORT; `busservo doctor` looks closer\n"
+        ),
+    ),
+]
+
+
+def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    taken: list[str] = []
+
+    def refuse(port: str, *, baud: float) -> object:
+        taken.append(port)
+        raise PortNotFoundError(port, f"it is a test at {baud}", "look elsewhere")
+
+    monkeypatch.setattr(link, "open_transport", refuse)
+    found = []
+    for words, variable, ports, devices, _ in PORTS:
+        monkeypatch.setenv("BUSSERVO_PORT", variable)
+        monkeypatch.setattr(link, "serial_ports", lambda ports=ports: ports)
+        monkeypatch.setattr(link, "hid_devices_at_hand", lambda devices=devices: devices)
+        assert main(["send", "ActionGroupStop", *words]) == 2
+        errors = capsys.readouterr().err
+        found.append(taken.pop() if taken else errors)
+    assert found == [expected for *_, expected in PORTS]
+
+
 @pytest.mark.parametrize("echoes", [True, False])
 def test_a_local_echo_is_expected_where_it_was_said(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *, echoes: bool
@@ -164,7 +233,6 @@ def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFix
         (["send", "--port", "gopher://x", "ActionGroupStop"], "that begins with gopher://"),
         (["send", "--port", "loop://", "ActionGroupStopped"], "is never sent from here"),
         (["send", "--port", "loop://", "ServoMov"], "did you mean ServoMove?"),
-        (["send", "ActionGroupStop"], "--port"),
         (["send", "--port", "loop://", "ServoMove", "time_ms=1"], "ServoMove needs targets"),
         (
             ["send", "--port", "loop://", "ServoPositionsRead", f"servo_ids={100 * '1,'}300"],
@@ -286,7 +354,7 @@ def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
         assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 3
         errors = capsys.readouterr().err
         assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
-        assert errors.endswith("; see to the cable and the power, then run this again\n")
+        assert errors.endswith("; check the cable and the power, then run this again\n")
 
 
 def test_simulate_runs_the_simulator(capsys: pytest.CaptureFixture[str]) -> None:

@@ -139,7 +139,7 @@ def test_a_lost_line_is_reported_and_the_log_is_kept(tmp_path: Path, via: str) -
     totals, error = errors.splitlines()
     assert totals == "9 bytes: 1 message, 3 bytes of noise"
     assert error.startswith(f"busservo: error: {board.port if via == 'tcp' else '/dev/'}")
-    assert error.endswith("see to the cable and the power, then run this again")
+    assert error.endswith("check the cable and the power, then run this again")
     # A machine that paused before the line was lost has found it quiet, and says so.
     assert len([line for line in log.read_text().splitlines() if line != "# quiet"]) == 3
 

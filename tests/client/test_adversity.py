@@ -104,7 +104,7 @@ def again(controller: Controller) -> None:
 def test_pulled_in_the_middle_of_a_reply(board: VirtualController) -> None:
     board.faults = Faults(hang_up=1)
     with open_controller(board.port, **LIVE) as controller:
-        with bounded(), pytest.raises(DisconnectedError, match=r"was lost .*; see to the cable"):
+        with bounded(), pytest.raises(DisconnectedError, match=r"was lost .*; check the cable"):
             controller.read_battery_voltage()
         with pytest.raises(DisconnectedError):
             controller.stop_action_group()

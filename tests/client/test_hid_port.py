@@ -227,7 +227,7 @@ def test_a_board_that_is_gone_is_lost() -> None:
     with pytest.raises(DisconnectedError, match="the report was not taken"):
         port.write(b"UU")
     device.lost = True
-    with pytest.raises(DisconnectedError, match=r"the device was lost \(write error\); see to"):
+    with pytest.raises(DisconnectedError, match=r"the device was lost \(write error\); check the"):
         port.write(b"UU")
     with pytest.raises(DisconnectedError, match="read error"):
         port.read(0.1)

@@ -366,7 +366,7 @@ def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
 
         thread = threading.Thread(target=half)
         thread.start()
-        with pytest.raises(DisconnectedError, match=r"the line was lost .*; see to the cable"):
+        with pytest.raises(DisconnectedError, match=r"the line was lost .*; check the cable"):
             controller.read_battery_voltage()
         thread.join()
         with pytest.raises(DisconnectedError):

@@ -77,7 +77,7 @@ def test_the_recording_of_a_lost_line_is_kept(tmp_path: Path) -> None:
     line.lasts = 2
     with pytest.raises(Unusable, match="a line: the cable was pulled") as caught:
         run(MODEL, line, "--log", str(log))
-    assert caught.value.hint == "see to the cable and the power, then run this again"
+    assert caught.value.hint == "check the cable and the power, then run this again"
     assert [type(entry.event).__name__ for entry in read(log)][:4] == [
         "BatteryVoltageRead",
         "BatteryVoltage",

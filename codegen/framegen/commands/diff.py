@@ -41,7 +41,7 @@ What breaks on purpose, as `breaks` in the history of the spec says, is shown an
 _EXIT_CODES = """\
 0  nothing that counts
 1  something breaks
-2  of no use, or nothing to compare
+2  the input cannot be used, or there is nothing to compare
 3  only what is uncertain breaks
 4  only the version is missing"""
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 TIMEOUT = 0.25
 # Seconds in which a device that nobody asks has to report something.
 LISTENING = 3.0
-_LOST = "see to the cable and the power, then run this again"
+_LOST = "check the cable and the power, then run this again"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

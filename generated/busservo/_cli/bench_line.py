@@ -18,7 +18,7 @@ from .._serial.link_errors import NoReplyError
 from . import link
 from .console import visible
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
-from .link import add_port, add_timeout, failures_reported, open_client
+from .link import add_port, add_timeout, failures_reported, open_client, port_of
 from .numerals import at_least
 from .progress_thread import shown_progress
 from .questions import exchange_named
@@ -57,7 +57,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Send the requests, and print the result, also when it ended early."""
-    trips = Trips(_question(arguments), arguments.port, arguments.baud)
+    question = _question(arguments)
+    arguments.port = port_of(arguments)
+    trips = Trips(question, arguments.port, arguments.baud)
     with failures_reported(), open_client(arguments, settle=0) as client:
         try:
             trips.make(client, arguments.n)

@@ -7,33 +7,59 @@ PROGRAM = "busservo"
 SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 
 VERBS = {
+    "ports": "List the serial ports, and devices that have none.",
+    "doctor": "Diagnose a port, a line or a device.",
+    "monitor": "Show the traffic of a line as it arrives.",
+    "teach": "Switch the device off, and record poses set by hand.",
+    "play": "Play recorded poses.",
+    "decode": "Decode bytes: messages, and noise with the reason.",
+    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
+    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
+    "encode": "Make the frame of a message.",
+    "send": "Send a message to a port, and print the reply.",
+    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
+    "replay": "Send a recording again.",
+    "simulate": "Run a virtual device to talk to.",
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
-    "decode": "Decode bytes: messages, and noise with the reason.",
-    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
-    "doctor": "Diagnose a port, a line or a device.",
-    "encode": "Make the frame of a message.",
-    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
-    "monitor": "Show the traffic of a line as it arrives.",
-    "play": "Play recorded poses.",
-    "ports": "List the serial ports, and devices that have none.",
-    "replay": "Send a recording again.",
-    "send": "Send a message to a port, and print the reply.",
-    "simulate": "Run a virtual device to talk to.",
-    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
-    "teach": "Release the device, and record poses set by hand.",
 }
 
 EXAMPLES = {
-    "answer": (("busservo answer", "questions on standard input, until it ends"),),
-    "bench-line": (
+    "ports": (
+        ("busservo ports", "the name, VID:PID and description of each"),
+        ("busservo ports --json", "a line of JSON for each"),
+    ),
+    "doctor": (
+        ("busservo doctor", "the only port, and the device behind it"),
+        ("busservo doctor --port COM7", "this port"),
+        ('busservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
+        ("busservo doctor --port COM7 --json", "for a program to read"),
+        ("busservo doctor --port COM7 --move 1", "also move that id, after asking"),
+    ),
+    "monitor": (
+        ("busservo monitor --port COM7", "every frame and all noise"),
+        ("busservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
+        ("busservo monitor --port COM7 --only noise", "what is no frame"),
+        ("busservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
         (
-            "busservo bench-line --port COM7 BatteryVoltageRead",
-            "how long BatteryVoltage takes to arrive",
+            "busservo monitor --port COM7 --direction any -t absolute",
+            "both ends of a line, the time of day",
         ),
+        ("busservo monitor --port COM7 --hide noise --json", "messages, for a program to read"),
+    ),
+    "teach": (
+        ("busservo teach poses.json --port COM7", "all ids that answer, at each Enter"),
         (
-            "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
-            "how long ServoPositions takes to arrive",
+            "busservo teach poses.json --port COM7 --ids 1-3 --append",
+            "three ids, added to the file",
+        ),
+    ),
+    "play": (
+        ("busservo play poses.json --dry-run", "what would be sent, and when"),
+        ("busservo play poses.json --port COM7", "from pose to pose, each in a second"),
+        (
+            "busservo play poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3",
+            "faster, and three times",
         ),
     ),
     "decode": (
@@ -49,6 +75,11 @@ EXAMPLES = {
         ),
         ("busservo decode line.bin --arrow line.arrow", "all events in one table"),
     ),
+    "explain": (
+        ("busservo explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
+        ("busservo explain 5555080301E803012003 --direction host", "as sent by the host alone"),
+        ("busservo explain 55 55 08 03 01 E8 03 01 20", "where and why it is no frame"),
+    ),
     "docs": (
         ("busservo docs", "every message, in a line"),
         ("busservo docs ServoMove", "a message: its bytes, fields and examples"),
@@ -56,13 +87,6 @@ EXAMPLES = {
         ("busservo docs servo", "whatever has this in its name or its text"),
         ("busservo docs errata", "where the documents are wrong, and what they leave open"),
         ("busservo docs lookalikes", "protocols that are easily taken for this one"),
-    ),
-    "doctor": (
-        ("busservo doctor", "the only port, and the device behind it"),
-        ("busservo doctor --port COM7", "this port"),
-        ('busservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
-        ("busservo doctor --port COM7 --json", "for a program to read"),
-        ("busservo doctor --port COM7 --move 1", "also move that id, after asking"),
     ),
     "encode": (
         (
@@ -78,40 +102,6 @@ EXAMPLES = {
             "busservo encode ServoUnload servo_ids=1,2,3",
             "Switch off the force of one or more servos, so that they can be turned by hand.",
         ),
-    ),
-    "explain": (
-        ("busservo explain 55 55 08 03 01 E8 03 01 20 03", "each byte, and what it says"),
-        ("busservo explain 5555080301E803012003 --direction host", "as sent by the host alone"),
-        ("busservo explain 55 55 08 03 01 E8 03 01 20", "where and why it is no frame"),
-    ),
-    "monitor": (
-        ("busservo monitor --port COM7", "every frame and all noise"),
-        ("busservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
-        ("busservo monitor --port COM7 --only noise", "what is no frame"),
-        ("busservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
-        (
-            "busservo monitor --port COM7 --direction any -t absolute",
-            "both ends of a line, the time of day",
-        ),
-        ("busservo monitor --port COM7 --hide noise --json", "messages, for a program to read"),
-    ),
-    "play": (
-        ("busservo play poses.json --dry-run", "what would be sent, and when"),
-        ("busservo play poses.json --port COM7", "from pose to pose, each in a second"),
-        (
-            "busservo play poses.json --port COM7 --time-ms 500 --pause 1 --repeat 3",
-            "faster, and three times",
-        ),
-    ),
-    "ports": (
-        ("busservo ports", "the name, VID:PID and description of each"),
-        ("busservo ports --json", "a line of JSON for each"),
-    ),
-    "replay": (
-        ("busservo replay line.hex --dry-run", "what would be sent, and when"),
-        ("busservo replay line.hex --port COM7", "the recording again"),
-        ("busservo replay line.hex --port COM7 --speed 0.5", "at half the speed"),
-        ("busservo replay line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
     ),
     "send": (
         (
@@ -133,20 +123,30 @@ EXAMPLES = {
             "Ask where one or more servos are.",
         ),
     ),
-    "simulate": (
-        ("busservo simulate", "a device behind a port, whose name is printed first"),
-        ("busservo simulate --help", "all its options"),
-    ),
     "stats": (
         ("busservo stats line.hex", "a recording: what came how often, and when"),
         ("busservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
         ("busservo stats --json line.hex", "for a program to read"),
     ),
-    "teach": (
-        ("busservo teach poses.json --port COM7", "all ids that answer, at each Enter"),
+    "replay": (
+        ("busservo replay line.hex --dry-run", "what would be sent, and when"),
+        ("busservo replay line.hex --port COM7", "the recording again"),
+        ("busservo replay line.hex --port COM7 --speed 0.5", "at half the speed"),
+        ("busservo replay line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
+    ),
+    "simulate": (
+        ("busservo simulate", "a device behind a port, whose name is printed first"),
+        ("busservo simulate --help", "all its options"),
+    ),
+    "answer": (("busservo answer", "questions on standard input, until it ends"),),
+    "bench-line": (
         (
-            "busservo teach poses.json --port COM7 --ids 1-3 --append",
-            "three ids, added to the file",
+            "busservo bench-line --port COM7 BatteryVoltageRead",
+            "how long BatteryVoltage takes to arrive",
+        ),
+        (
+            "busservo bench-line --port COM7 ServoPositionsRead servo_ids=1,2,3,4,5,6 -n 20",
+            "how long ServoPositions takes to arrive",
         ),
     ),
 }

@@ -43,7 +43,7 @@ _POLL_INTERVAL = 0.1
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="poses that `teach` has recorded")
-    add_port(parser, required=False)
+    add_port(parser)
     parser.add_argument(
         "--time-ms",
         type=_time,
@@ -69,8 +69,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Play a file, or only print what it would send."""
     pose, limits = the_pose(), limits_of(arguments)
-    if not arguments.port and not arguments.dry_run:
-        raise UsageError("play needs --port PORT, or --dry-run to see what it would send")
     poses = read_poses(arguments.file, pose)
     check_limits(arguments.file, poses, limits)
     if not poses:

@@ -33,12 +33,14 @@ if TYPE_CHECKING:
     from .._client.limits import Bounds
     from .._client.pose import Pose
 
-ENDS = link.ENDS | {NOT_ALL: "no reply came in time, or nothing was there to let go"}
+ENDS = link.ENDS | {
+    NOT_ALL: "no reply came in time, nothing was there to switch off, or nothing was recorded"
+}
 ABOUT = """\
-Lets go, after asking: whatever is held up falls, so hold it. Then move it by hand, and press Enter:
-each time, where everything is goes into FILE as a pose, for `play`. q and Enter, or Ctrl-D, ends
-it; Ctrl-C does so at once. What is recorded is in FILE from that moment on. FILE is JSON, and made
-to be edited. A file that is there already is left alone unless an option says otherwise."""
+Asks first, then switches the force off: whatever it holds up falls, so support it. Move it by hand
+and press Enter: each time, all positions are added to FILE as a pose, for `play`. q and Enter, or
+Ctrl-D, end the recording; Ctrl-C ends it at once. Each pose is saved as soon as it is recorded.
+FILE is JSON, and can be edited. An existing file is left alone unless an option says otherwise."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,12 +51,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--ids",
         type=_numbers,
         metavar="1-6,9",
-        help="which to let go and to record (default: all that are there)",
+        help="which to switch off and to record (default: all that answer)",
     )
     kept = parser.add_mutually_exclusive_group()
-    kept.add_argument("--append", action="store_true", help="record behind the poses of FILE")
-    kept.add_argument("--force", action="store_true", help="record in place of what FILE holds")
-    parser.add_argument("--yes", action="store_true", help="let go without asking")
+    kept.add_argument("--append", action="store_true", help="add to the poses of FILE")
+    kept.add_argument("--force", action="store_true", help="replace what FILE holds")
+    parser.add_argument("--yes", action="store_true", help="switch off without asking")
     parser.add_argument(
         "--hold", action="store_true", help="at the end, hold everything there without asking"
     )
@@ -81,10 +83,10 @@ def run(arguments: argparse.Namespace) -> int:
             raise UsageError(f"{problem}; choose some by --ids")
         lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits_of(arguments))
         if not arguments.yes and not _agreed(
-            f"{listed(pose, ids)} will go limp, and what they hold up falls: hold it. Let go?"
+            f"{listed(pose, ids)} will go limp, and what they hold up falls: support it. Go on?"
         ):
-            print("nothing was let go, and nothing recorded", file=sys.stderr)
-            return DONE
+            print("nothing was switched off, and nothing recorded", file=sys.stderr)
+            return NOT_ALL
         return lesson.give(hold_after=arguments.hold)
 
 
@@ -127,7 +129,7 @@ class _Lesson:
             if recorded:
                 hint = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
                 print(hint, file=sys.stderr)
-        return DONE
+        return DONE if recorded else NOT_ALL
 
     def _record(self) -> bool:
         """Record at each Enter; return whether the user ended it, rather than the input."""
@@ -137,7 +139,9 @@ class _Lesson:
             if word in {"q", "quit"}:
                 return True
             if word:
-                print(f"{word[:40]!r} is nothing that can be done here", file=sys.stderr)
+                print(
+                    f"{word[:40]!r} is not an answer; press Enter, or q and Enter", file=sys.stderr
+                )
                 continue
             try:
                 targets = read_targets(self._controller, self._pose, self._ids, self._limits)

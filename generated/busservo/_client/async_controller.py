@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ..messages import (
     ActionGroupRun,
@@ -37,7 +37,7 @@ class AsyncController(AsyncClient):
 
     async def move_servos(
         self,
-        targets: Iterable[tuple[int, int]],
+        targets: Mapping[int, int] | Iterable[tuple[int, int]],
         time_ms: int,
         *,
         latest: bool = False,

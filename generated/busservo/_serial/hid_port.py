@@ -209,5 +209,5 @@ class HidPort:
     def _failed(self, why: str) -> TransportError:
         if self._closed:
             return self._is_closed()
-        advice = "see to the cable and the power, then reconnect()"
+        advice = "check the cable and the power, then reconnect()"
         return DisconnectedError(self.name, f"the device was lost ({why})", advice)

@@ -7,22 +7,137 @@ PROGRAM = "lxservo"
 SUMMARY = "Send, read and replay frames of: LX-16A servo bus."
 
 VERBS = {
+    "ports": "List the serial ports, and devices that have none.",
+    "doctor": "Diagnose a port, a line or a device.",
+    "monitor": "Show the traffic of a line as it arrives.",
+    "decode": "Decode bytes: messages, and noise with the reason.",
+    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
+    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
+    "encode": "Make the frame of a message.",
+    "send": "Send a message to a port, and print the reply.",
+    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
+    "replay": "Send a recording again.",
+    "simulate": "Run a virtual device to talk to.",
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
-    "decode": "Decode bytes: messages, and noise with the reason.",
-    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
-    "doctor": "Diagnose a port, a line or a device.",
-    "encode": "Make the frame of a message.",
-    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
-    "monitor": "Show the traffic of a line as it arrives.",
-    "ports": "List the serial ports, and devices that have none.",
-    "replay": "Send a recording again.",
-    "send": "Send a message to a port, and print the reply.",
-    "simulate": "Run a virtual device to talk to.",
-    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
 }
 
 EXAMPLES = {
+    "ports": (
+        ("lxservo ports", "the name, VID:PID and description of each"),
+        ("lxservo ports --json", "a line of JSON for each"),
+    ),
+    "doctor": (
+        ("lxservo doctor", "the only port, and the device behind it"),
+        ("lxservo doctor --port COM7", "this port"),
+        ('lxservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
+        ("lxservo doctor --port COM7 --json", "for a program to read"),
+    ),
+    "monitor": (
+        ("lxservo monitor --port COM7", "every frame and all noise"),
+        ("lxservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
+        ("lxservo monitor --port COM7 --only noise", "what is no frame"),
+        ("lxservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
+        (
+            "lxservo monitor --port COM7 --direction any -t absolute",
+            "both ends of a line, the time of day",
+        ),
+        ("lxservo monitor --port COM7 --hide noise --json", "messages, for a program to read"),
+    ),
+    "decode": (
+        ("lxservo decode 55 55 01 07 01 F4 01 E8 03 16", "bytes in hex, in any notation"),
+        ("lxservo decode line.bin", "a recording, hex or raw bytes"),
+        ("lxservo decode --direction host -", "what arrives on standard input"),
+        ("lxservo decode --json line.bin", "a line of JSON for each message and noise"),
+        ("lxservo decode -t absolute line.hex", "a recording, with the time of day"),
+        ("lxservo decode --csv line.hex", "a row for each, for a spreadsheet"),
+        (
+            "lxservo decode line.bin --parquet tables",
+            "a folder of tables, for pandas, Polars or DuckDB",
+        ),
+        ("lxservo decode line.bin --arrow line.arrow", "all events in one table"),
+    ),
+    "explain": (
+        ("lxservo explain 55 55 01 07 01 F4 01 E8 03 16", "each byte, and what it says"),
+        ("lxservo explain 5555010701F401E80316 --direction host", "as sent by the host alone"),
+        ("lxservo explain 55 55 01 07 01 F4 01 E8 03", "where and why it is no frame"),
+    ),
+    "docs": (
+        ("lxservo docs", "every message, in a line"),
+        ("lxservo docs Move", "a message: its bytes, fields and examples"),
+        ("lxservo docs 0x01", "the messages with this command"),
+        ("lxservo docs move", "whatever has this in its name or its text"),
+        ("lxservo docs errata", "where the documents are wrong, and what they leave open"),
+        ("lxservo docs lookalikes", "protocols that are easily taken for this one"),
+    ),
+    "encode": (
+        (
+            "lxservo encode Move servo_id=1 position=500 time_ms=1000",
+            "Turn to a position, at even speed, and arrive after the given time.",
+        ),
+    ),
+    "send": (
+        (
+            "lxservo send --port COM7 Move servo_id=1 position=500 time_ms=1000",
+            "Turn to a position, at even speed, and arrive after the given time.",
+        ),
+        (
+            "lxservo send --port COM7 MovePrepare servo_id=2 position=250 time_ms=2000",
+            "Prepare a move that MoveStart sets off.",
+        ),
+        ("lxservo send --port COM7 MoveStart servo_id=254", "Set off the move that was prepared."),
+        ("lxservo send --port COM7 MoveStop servo_id=1", "Stop turning, at once."),
+        (
+            "lxservo send --port COM7 MoveRead servo_id=1",
+            "Ask for the position and time of the last Move.",
+        ),
+        (
+            "lxservo send --port COM7 PreparedMoveRead servo_id=2",
+            "Ask for the position and time of the move that was prepared.",
+        ),
+        ("lxservo send --port COM7 ServoIdRead servo_id=254", "Ask for the number of a servo."),
+        ("lxservo send --port COM7 OffsetRead servo_id=1", "Ask for the offset."),
+        (
+            "lxservo send --port COM7 PositionLimitsRead servo_id=1",
+            "Ask for the lowest and the highest position.",
+        ),
+        (
+            "lxservo send --port COM7 VoltageLimitsRead servo_id=1",
+            "Ask for the lowest and the highest supply voltage.",
+        ),
+        (
+            "lxservo send --port COM7 TemperatureLimitRead servo_id=1",
+            "Ask for the highest temperature.",
+        ),
+        ("lxservo send --port COM7 TemperatureRead servo_id=1", "Ask how warm the servo is."),
+        ("lxservo send --port COM7 VoltageRead servo_id=1", "Ask for the supply voltage."),
+        ("lxservo send --port COM7 PositionRead servo_id=1", "Ask where the servo is."),
+        (
+            "lxservo send --port COM7 ModeRead servo_id=1",
+            "Ask whether it turns to positions or on and on, and how fast.",
+        ),
+        ("lxservo send --port COM7 TorqueRead servo_id=1", "Ask whether the servo has force."),
+        ("lxservo send --port COM7 LedRead servo_id=1", "Ask whether the LED is on."),
+        (
+            "lxservo send --port COM7 LedErrorsRead servo_id=1",
+            "Ask at which faults the LED blinks.",
+        ),
+    ),
+    "stats": (
+        ("lxservo stats line.hex", "a recording: what came how often, and when"),
+        ("lxservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
+        ("lxservo stats --json line.hex", "for a program to read"),
+    ),
+    "replay": (
+        ("lxservo replay line.hex --dry-run", "what would be sent, and when"),
+        ("lxservo replay line.hex --port COM7", "the recording again"),
+        ("lxservo replay line.hex --port COM7 --speed 0.5", "at half the speed"),
+        ("lxservo replay line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
+    ),
+    "simulate": (
+        ("lxservo simulate", "a device behind a port, whose name is printed first"),
+        ("lxservo simulate --help", "all its options"),
+    ),
     "answer": (("lxservo answer", "questions on standard input, until it ends"),),
     "bench-line": (
         ("lxservo bench-line --port COM7 MoveRead servo_id=1", "how long LastMove takes to arrive"),
@@ -75,120 +190,5 @@ EXAMPLES = {
             "lxservo bench-line --port COM7 LedErrorsRead servo_id=1 -n 20",
             "how long LedErrors takes to arrive",
         ),
-    ),
-    "decode": (
-        ("lxservo decode 55 55 01 07 01 F4 01 E8 03 16", "bytes in hex, in any notation"),
-        ("lxservo decode line.bin", "a recording, hex or raw bytes"),
-        ("lxservo decode --direction host -", "what arrives on standard input"),
-        ("lxservo decode --json line.bin", "a line of JSON for each message and noise"),
-        ("lxservo decode -t absolute line.hex", "a recording, with the time of day"),
-        ("lxservo decode --csv line.hex", "a row for each, for a spreadsheet"),
-        (
-            "lxservo decode line.bin --parquet tables",
-            "a folder of tables, for pandas, Polars or DuckDB",
-        ),
-        ("lxservo decode line.bin --arrow line.arrow", "all events in one table"),
-    ),
-    "docs": (
-        ("lxservo docs", "every message, in a line"),
-        ("lxservo docs Move", "a message: its bytes, fields and examples"),
-        ("lxservo docs 0x01", "the messages with this command"),
-        ("lxservo docs move", "whatever has this in its name or its text"),
-        ("lxservo docs errata", "where the documents are wrong, and what they leave open"),
-        ("lxservo docs lookalikes", "protocols that are easily taken for this one"),
-    ),
-    "doctor": (
-        ("lxservo doctor", "the only port, and the device behind it"),
-        ("lxservo doctor --port COM7", "this port"),
-        ('lxservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
-        ("lxservo doctor --port COM7 --json", "for a program to read"),
-    ),
-    "encode": (
-        (
-            "lxservo encode Move servo_id=1 position=500 time_ms=1000",
-            "Turn to a position, at even speed, and arrive after the given time.",
-        ),
-    ),
-    "explain": (
-        ("lxservo explain 55 55 01 07 01 F4 01 E8 03 16", "each byte, and what it says"),
-        ("lxservo explain 5555010701F401E80316 --direction host", "as sent by the host alone"),
-        ("lxservo explain 55 55 01 07 01 F4 01 E8 03", "where and why it is no frame"),
-    ),
-    "monitor": (
-        ("lxservo monitor --port COM7", "every frame and all noise"),
-        ("lxservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
-        ("lxservo monitor --port COM7 --only noise", "what is no frame"),
-        ("lxservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
-        (
-            "lxservo monitor --port COM7 --direction any -t absolute",
-            "both ends of a line, the time of day",
-        ),
-        ("lxservo monitor --port COM7 --hide noise --json", "messages, for a program to read"),
-    ),
-    "ports": (
-        ("lxservo ports", "the name, VID:PID and description of each"),
-        ("lxservo ports --json", "a line of JSON for each"),
-    ),
-    "replay": (
-        ("lxservo replay line.hex --dry-run", "what would be sent, and when"),
-        ("lxservo replay line.hex --port COM7", "the recording again"),
-        ("lxservo replay line.hex --port COM7 --speed 0.5", "at half the speed"),
-        ("lxservo replay line.bin --port COM7 --skip-noise", "raw bytes, without the noise"),
-    ),
-    "send": (
-        (
-            "lxservo send --port COM7 Move servo_id=1 position=500 time_ms=1000",
-            "Turn to a position, at even speed, and arrive after the given time.",
-        ),
-        (
-            "lxservo send --port COM7 MovePrepare servo_id=2 position=250 time_ms=2000",
-            "Prepare a move that MoveStart sets off.",
-        ),
-        ("lxservo send --port COM7 MoveStart servo_id=254", "Set off the move that was prepared."),
-        ("lxservo send --port COM7 MoveStop servo_id=1", "Stop turning, at once."),
-        (
-            "lxservo send --port COM7 MoveRead servo_id=1",
-            "Ask for the position and time of the last Move.",
-        ),
-        (
-            "lxservo send --port COM7 PreparedMoveRead servo_id=2",
-            "Ask for the position and time of the move that was prepared.",
-        ),
-        ("lxservo send --port COM7 ServoIdRead servo_id=254", "Ask for the number of a servo."),
-        ("lxservo send --port COM7 OffsetRead servo_id=1", "Ask for the offset."),
-        (
-            "lxservo send --port COM7 PositionLimitsRead servo_id=1",
-            "Ask for the lowest and the highest position.",
-        ),
-        (
-            "lxservo send --port COM7 VoltageLimitsRead servo_id=1",
-            "Ask for the lowest and the highest supply voltage.",
-        ),
-        (
-            "lxservo send --port COM7 TemperatureLimitRead servo_id=1",
-            "Ask for the highest temperature.",
-        ),
-        ("lxservo send --port COM7 TemperatureRead servo_id=1", "Ask how warm the servo is."),
-        ("lxservo send --port COM7 VoltageRead servo_id=1", "Ask for the supply voltage."),
-        ("lxservo send --port COM7 PositionRead servo_id=1", "Ask where the servo is."),
-        (
-            "lxservo send --port COM7 ModeRead servo_id=1",
-            "Ask whether it turns to positions or on and on, and how fast.",
-        ),
-        ("lxservo send --port COM7 TorqueRead servo_id=1", "Ask whether the servo has force."),
-        ("lxservo send --port COM7 LedRead servo_id=1", "Ask whether the LED is on."),
-        (
-            "lxservo send --port COM7 LedErrorsRead servo_id=1",
-            "Ask at which faults the LED blinks.",
-        ),
-    ),
-    "simulate": (
-        ("lxservo simulate", "a device behind a port, whose name is printed first"),
-        ("lxservo simulate --help", "all its options"),
-    ),
-    "stats": (
-        ("lxservo stats line.hex", "a recording: what came how often, and when"),
-        ("lxservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
-        ("lxservo stats --json line.hex", "for a program to read"),
     ),
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import logging
 import math
+import os
 import signal
 import sys
 from argparse import BooleanOptionalAction
@@ -14,9 +15,11 @@ from .._client.base_client import REPLY_TIMEOUT
 from .._client.client import Client
 from .._client.controller import Controller
 from .._client.exchanges import LIMITS
+from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD, LOCAL_ECHO
+from .._serial.hid_devices import hid_devices_at_hand
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
-from .._serial.serial_port import open_transport
+from .._serial.serial_port import open_transport, serial_ports
 from .console import visible
 from .examples import PROGRAM
 from .exit_codes import LINE_LOST, TERMINATED
@@ -27,31 +30,34 @@ from .usage_error import LineLostError, UsageError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from .._client.limits import Bounds
+    from .._serial.hid_devices import HidDevice
+    from .._serial.serial_port import SerialPortSeen
     from .._serial.transport import Transport
 
 ENDS = {
     LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
     TERMINATED: "ended by SIGTERM, as `timeout 10 ...` does",
 }
+# The environment variable that names the port where no option does.
+VARIABLE = f"{PROGRAM.upper()}_PORT"
 # The longest wait that can be chosen, so that none is without end.
 _LONGEST = 3600.0
 
 
-def add_port(
-    parser: argparse.ArgumentParser, *, required: bool = True, client: bool = True
-) -> None:
+def add_port(parser: argparse.ArgumentParser, *, client: bool = True) -> None:
     """Declare the options that name the port and describe its line.
 
     `client` is whether a client is opened on it; only a client handles a local echo.
     """
     parser.add_argument(
         "--port",
-        required=required,
+        default=os.environ.get(VARIABLE) or None,
         metavar="PORT",
-        help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them",
+        help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them "
+        f"(default: the environment variable {VARIABLE}, else the only port on USB)",
     )
     parser.add_argument(
         "--baud",
@@ -67,6 +73,43 @@ def add_port(
             default=LOCAL_ECHO,
             help="the line gives back what is sent, as adapters for half-duplex wires do",
         )
+
+
+def port_of(arguments: argparse.Namespace) -> str:
+    """Return the port that is named, or the only one that is plugged in by USB.
+
+    Raises UsageError where there are several, or none.
+    """
+    if arguments.port is not None:
+        return str(arguments.port)
+    ports = serial_ports()
+    only = only_port(ports, hid_devices_at_hand() or [])
+    if only is not None:
+        return only
+    likely = plugged_in(ports) or ports
+    if not likely:
+        advice = f"plug in the device, or name a port: --port PORT, or {VARIABLE}=PORT"
+        raise UsageError(f"no port is plugged in; {advice}; `{PROGRAM} doctor` looks closer")
+    named = " or ".join(f"--port {each.name} ({each.product or 'not USB'})" for each in likely)
+    several = pluralize(len(likely), "port")
+    raise UsageError(f"which port is meant? {several} may be it, so name it: {named}")
+
+
+def only_port(ports: Sequence[SerialPortSeen], devices: Sequence[HidDevice]) -> str | None:
+    """Return the only port that is plugged in by USB; None for none or several.
+
+    Other ports are built in, and may be the console of the machine: they have to be named. A device
+    by USB HID is taken where no port is on USB.
+    """
+    by_usb = plugged_in(ports)
+    if devices and not by_usb:
+        return "hid://"
+    return by_usb[0].name if len(by_usb) == 1 else None
+
+
+def plugged_in(ports: Sequence[SerialPortSeen]) -> list[SerialPortSeen]:
+    """Return the ports that are plugged in by USB."""
+    return [each for each in ports if each.usb]
 
 
 def _rate(text: str) -> float:
@@ -110,7 +153,7 @@ def open_client(
     if not any(isinstance(each, _Warnings) for each in logger.handlers):
         logger.addHandler(_Warnings(logging.WARNING))
     return Controller(
-        open_line(arguments.port, arguments.baud),
+        open_line(port_of(arguments), arguments.baud),
         baud=arguments.baud,
         reply_timeout=arguments.timeout,
         retries=retries,
@@ -139,7 +182,7 @@ def failures_reported() -> Iterator[None]:
             yield
     except (ClosedError, DisconnectedError, WriteStuckError) as error:
         # The library would say `reconnect()`, which cannot be typed here.
-        advice = "see to the cable and the power, then run this again"
+        advice = "check the cable and the power, then run this again"
         raise LineLostError(f"{error.port}: {error.happened}; {advice}") from None
     except TransportError as error:
         raise UsageError(str(error)) from None

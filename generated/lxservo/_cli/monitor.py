@@ -21,7 +21,7 @@ from .events import KINDS, UNKNOWN, names_of, sender_of, totals
 from .examples import VERBS
 from .exit_codes import DONE, INTERRUPTED
 from .lines import TIMES, Lines
-from .link import add_port, failures_reported, open_line
+from .link import add_port, failures_reported, open_line, port_of
 from .numerals import at_least
 from .progress import PROGRESS_INTERVAL, Progress
 from .recorder import Recorder
@@ -101,12 +101,13 @@ def run(arguments: Namespace) -> int:
     """Print until Ctrl-C, -n or the loss of the line, and then the totals."""
     # Names are checked before a port is opened or a file begun.
     monitor = Monitor(arguments, sys.stdout)
+    port = port_of(arguments)
     with (
         failures_reported(),
-        closing(open_line(arguments.port, arguments.baud)) as line,
+        closing(open_line(port, arguments.baud)) as line,
         Recorder(arguments.log) as recorder,
     ):
-        recorder.begin(arguments.port, time.monotonic())
+        recorder.begin(port, time.monotonic())
         try:
             monitor.watch(line, recorder)
         except KeyboardInterrupt:

@@ -20,7 +20,7 @@ from . import link
 from .events import in_words
 from .exit_codes import DONE, INTERRUPTED
 from .lines import Lines
-from .link import add_port, failures_reported, open_line
+from .link import add_port, failures_reported, open_line, port_of
 from .numerals import above_zero
 from .playback import Playback
 from .recording import opened
@@ -49,7 +49,7 @@ room, and look at --dry-run first."""
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording; - is standard input")
-    add_port(parser, required=False, client=False)
+    add_port(parser, client=False)
     parser.add_argument(
         "--speed",
         type=above_zero(),
@@ -84,9 +84,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Send the chosen entries, or only print them."""
-    port = arguments.port or ""
-    if not port and not arguments.dry_run:
-        raise UsageError("replay needs --port PORT, or --dry-run to see what it would send")
+    port = "" if arguments.dry_run else port_of(arguments)
     direction = NAMED.get(arguments.direction)
     with opened(arguments.file) as given, rereadable(given) as recording:
         # All of it is checked before any of it is sent.

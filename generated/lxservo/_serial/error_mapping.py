@@ -72,7 +72,7 @@ class ErrorMapping:
 
     def _failed(self, error: Exception) -> TransportError:
         if isinstance(error, OSError):
-            advice = "see to the cable and the power, then reconnect()"
+            advice = "check the cable and the power, then reconnect()"
             happened = f"the line was lost ({error})"
             return DisconnectedError(self.name, happened, advice, errno_of(error))
         # Whoever waits for the line must hear of it, in whichever thread it happened.

@@ -178,10 +178,7 @@ class IncompleteReplyError(ProtocolError):
 
     def __str__(self) -> str:
         missing = ", ".join(str(number) for number in self.missing)
-        return (
-            f"nothing was reported of {self.field} {missing}; "
-            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
-        )
+        return f"nothing was reported of {self.field} {missing}; {len(self.arrived)} did arrive"
 
 
 class AbsentError(IncompleteReplyError):
@@ -191,7 +188,7 @@ class AbsentError(IncompleteReplyError):
         missing = ", ".join(str(number) for number in self.missing)
         return (
             f"nothing was sent, since these are off or missing: {self.field} {missing}; "
-            f"what did arrive ({len(self.arrived)}) is kept in `arrived`"
+            f"{len(self.arrived)} did arrive"
         )
 
 

@@ -290,11 +290,12 @@ class ClientView:
         return names | ({self.pose.element} if self.pose else set())
 
     @property
-    def iterables(self) -> bool:
-        """Whether a method takes a list."""
-        return self.pose is not None or any(
-            "Iterable[" in method.signature for method in self.methods
-        )
+    def lists_taken(self) -> str:
+        """The types that methods take lists as, to be imported; empty where none does."""
+        declared = " ".join(method.signature for method in self.methods)
+        needed = {"Iterable"} if self.pose is not None else set()
+        needed |= {name for name in ("Iterable", "Mapping") if f"{name}[" in declared}
+        return ", ".join(sorted(needed))
 
 
 def _bounds(range_: Range) -> str:

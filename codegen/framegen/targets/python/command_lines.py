@@ -17,23 +17,23 @@ if TYPE_CHECKING:
 
 # What stands behind a verb, and what it does.
 _Line: TypeAlias = tuple[str, str]
-# What each verb is for.
+# What each verb is for, in the order of a day's work; what programs call is last.
 _ABOUT = {
+    "ports": "List the serial ports, and devices that have none.",
+    "doctor": "Diagnose a port, a line or a device.",
+    "monitor": "Show the traffic of a line as it arrives.",
+    "teach": "Switch the device off, and record poses set by hand.",
+    "play": "Play recorded poses.",
+    "decode": "Decode bytes: messages, and noise with the reason.",
+    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
+    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
+    "encode": "Make the frame of a message.",
+    "send": "Send a message to a port.",
+    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
+    "replay": "Send a recording again.",
+    "simulate": "Run a virtual device to talk to.",
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
-    "decode": "Decode bytes: messages, and noise with the reason.",
-    "docs": "Look up a message: its bytes, fields and examples, and what is known of it.",
-    "doctor": "Diagnose a port, a line or a device.",
-    "encode": "Make the frame of a message.",
-    "explain": "Take a frame apart byte by byte, or show where and why bytes are no frame.",
-    "monitor": "Show the traffic of a line as it arrives.",
-    "play": "Play recorded poses.",
-    "ports": "List the serial ports, and devices that have none.",
-    "replay": "Send a recording again.",
-    "send": "Send a message to a port.",
-    "simulate": "Run a virtual device to talk to.",
-    "stats": "Show what a line carried: counts, rates, gaps, noise and values.",
-    "teach": "Release the device, and record poses set by hand.",
 }
 
 
@@ -56,11 +56,13 @@ class VerbView:
 
 
 def verbs(model: Model) -> list[VerbView]:
-    """Return the verbs that this protocol has a use for, in alphabetical order."""
+    """Return the verbs that this protocol has a use for, in the order of the help."""
     program = model.spec.protocol.name
     about = _ABOUT | (_OF_QUESTIONS if _questions(model) else {})
     found: list[VerbView] = []
-    for verb, lines in sorted(_examples(model).items()):
+    examples = _examples(model)
+    for verb in [each for each in about if each in examples]:
+        lines = examples[verb]
         shown = [(f"{program} {verb} {words}".rstrip(), meaning) for words, meaning in lines]
         found.append(VerbView(verb, about[verb], _pairs(shown)))
     return found

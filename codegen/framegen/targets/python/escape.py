@@ -89,17 +89,18 @@ def _pieces(text: str, first: int, others: int) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class Sum:
-    """Terms with a plus between: a term a line where they are too long for one."""
+    """Terms with a plus between, or another sign: a line each where they are too long for one."""
 
     terms: Sequence[str]
+    sign: str = "+"
 
     def __str__(self) -> str:
-        return " + ".join(self.terms)
+        return f" {self.sign} ".join(self.terms)
 
     def fitted(self, indent: int, *, last: str = "") -> str:
         """Format it on one line where it fits, `last` included, or else a term a line."""
         fits = indent + columns(str(self)) + len(last) <= WIDTH
-        return str(self) if fits else f"\n{' ' * indent}+ ".join(self.terms)
+        return str(self) if fits else f"\n{' ' * indent}{self.sign} ".join(self.terms)
 
 
 @dataclass(frozen=True, slots=True)

@@ -173,10 +173,13 @@ class LibraryView:
         return [field for field in fields if isinstance(field, ListView)]
 
     @property
-    def iterables(self) -> bool:
-        """Whether anything is given as a list."""
-        fields = (field for message in self.messages for field in message.fields)
-        return any(isinstance(field, ListView | PackedView) for field in fields)
+    def lists_taken(self) -> str:
+        """The types that lists are given as, to be imported; empty where there are none."""
+        fields = [field for message in self.messages for field in message.fields]
+        if not any(isinstance(field, ListView | PackedView) for field in fields):
+            return ""
+        paired = any(isinstance(field, ListView) and field.is_paired for field in fields)
+        return "Iterable, Mapping" if paired else "Iterable"
 
     @property
     def floats(self) -> bool:

@@ -9,7 +9,7 @@ from framegen.model.slots import Constant as Fixed
 from framegen.model.slots import Items, Packed
 from framegen.model.slots import Text as TextSlot
 from framegen.targets.python.element_view import ElementView
-from framegen.targets.python.escape import WIDTH, Bracketed, Part, literal
+from framegen.targets.python.escape import WIDTH, Bracketed, Part, Sum, literal
 from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import RETURN, NumberView, bounded
 from framegen.targets.python.text_view import TextView, counters
@@ -149,11 +149,19 @@ class ListView:
         return [about, *noted(slot.field.notes, self.spec)]
 
     @property
+    def is_paired(self) -> bool:
+        """Whether each element is a pair, so that a mapping of the first to the second is one."""
+        return self.element is not None and len(self.fields) == 2
+
+    @property
     def argument(self) -> Part:
         """The declaration as an argument."""
         if self.element is None:
             return f"{self.name}: Iterable[{self.value_type}]"
         element = Bracketed("tuple[", self.element.types, "]")
+        if self.is_paired:
+            mapping = Bracketed(f"{self.name}: Mapping[", self.element.types, "]")
+            return Sum([str(mapping), f"Iterable[{element}]"], "|")
         return Bracketed(f"{self.name}: Iterable[", [element], "]", comma="")
 
     @property

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from ..link import only_port, plugged_in
 from .check import Check
 from .result import failed, passed, unknown
 
@@ -33,10 +34,10 @@ def _look(diagnosis: Diagnosis) -> Result:
 
 def _choose(diagnosis: Diagnosis, found: str) -> Result:
     """Choose the only port there is; or a device without any."""
-    by_usb = [each for each in diagnosis.ports if each.usb]
+    by_usb = plugged_in(diagnosis.ports)
     devices = diagnosis.hid_devices or []
+    diagnosis.port = only_port(diagnosis.ports, devices)
     if not by_usb and devices:
-        diagnosis.port = "hid://"
         seen = f"{_NONE}, but a USB HID device is, which has none"
         return passed(f"{seen}: {devices[0].ids} {devices[0].product}".rstrip())
     if not by_usb and len(diagnosis.ports) == 1:
@@ -52,7 +53,6 @@ def _choose(diagnosis: Diagnosis, found: str) -> Result:
             f"{len(by_usb)} ports are plugged in: {', '.join(str(each) for each in by_usb)}",
             "name the device's: --port NAME; it is the one that goes when you unplug the device",
         )
-    diagnosis.port = by_usb[0].name
     return passed(f"the one that is plugged in is taken: {by_usb[0]}")
 
 

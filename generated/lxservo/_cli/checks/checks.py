@@ -75,5 +75,5 @@ def _looked(check: Check, diagnosis: Diagnosis) -> Result:
     except TransportError as error:
         # The library would say `reconnect()`, which cannot be done here.
         diagnosis.lost = True
-        advice = "see to the cable and the power, then run this again"
+        advice = "check the cable and the power, then run this again"
         return failed(f"{error.port}: {error.happened}", advice)

@@ -22,7 +22,7 @@ _NO_HEADER = (
 )
 _NO_FRAME = (
     "compare the bytes with the reference: the device may be another, or speak another edition; or "
-    "bytes are damaged: see to the rate and the grounds"
+    "bytes are damaged: check the rate and the grounds"
 )
 
 

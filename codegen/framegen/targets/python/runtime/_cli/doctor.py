@@ -51,7 +51,7 @@ _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    add_port(parser, required=False)
+    add_port(parser)
     add_timeout(parser)
     if _ADDRESS:
         about = "the address of the device that is asked (default: the likeliest)"

@@ -16,7 +16,7 @@ TERMINATED = 143
 
 MEANINGS = {
     DONE: "done",
-    UNUSABLE: "what was given is of no use, or the port cannot be opened; the error says why",
+    UNUSABLE: "the input, an option or the port cannot be used; the error says why",
     INTERRUPTED: "ended by Ctrl-C",
-    READER_GONE: "whoever read the output has gone",
+    READER_GONE: "the program that read the output has ended",
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .._frame.items import as_tuple
 from .exchanges import EXCHANGES
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -20,12 +19,13 @@ def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
     """
     (name,) = kind.__match_args__
     most = EXCHANGES[kind].most
-    whole = as_tuple(items)
+    listed = kind.SHAPE.items
+    whole = None if listed is None else listed.listed(items)
     # A value that is no list, or an empty one, is for the message to refuse.
-    if not whole or kind.SHAPE.items is None:
+    if not whole or listed is None:
         return [kind(**{name: items})]
     for position, item in enumerate(whole):
-        kind.SHAPE.items.checked_one(item, position)
+        listed.checked_one(item, position)
     return [kind(**{name: whole[at : at + most]}) for at in range(0, len(whole), most)]
 
 

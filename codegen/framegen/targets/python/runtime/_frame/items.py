@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import repeat
 from struct import Struct, calcsize
 
@@ -28,6 +29,7 @@ class Items(Field["tuple[Item, ...]"]):
     """The list at the end of a message, from `least` to `most` elements, as many as `count` says.
 
     `at` is the offset of its first byte; each element is an `of`: a class of elements, or a number.
+    A list of pairs may be given as a mapping of the first to the second.
     """
 
     __slots__ = (
@@ -122,7 +124,7 @@ class Items(Field["tuple[Item, ...]"]):
 
     def checked(self, values: Any) -> list[int]:
         """Return all numbers of all elements. Raises EncodeError for the first bad one."""
-        items = as_tuple(values)
+        items = self.listed(values)
         if items is None:
             raise EncodeError(self.name, values, f"{shown(values)} is not a list of {self._wanted}")
         if not self.least <= len(items) <= self.most:
@@ -132,6 +134,12 @@ class Items(Field["tuple[Item, ...]"]):
         for position, item in enumerate(items):
             numbers += self.checked_one(item, position)
         return numbers
+
+    def listed(self, values: Any) -> tuple[Any, ...] | None:
+        """Return the elements given as a list, or pairs as a mapping; None if it is neither."""
+        if self.element is not None and self.width == 2 and isinstance(values, Mapping):
+            return tuple(values.items())
+        return as_tuple(values)
 
     def checked_one(self, item: Any, position: int) -> list[int]:
         """Return the numbers of the element at a position. Raises EncodeError for a bad one."""

@@ -277,7 +277,7 @@ class SerialPort:
         return DisconnectedError(
             self.name,
             f"the line was lost ({error})",
-            "see to the cable and the power, then reconnect()",
+            "check the cable and the power, then reconnect()",
             errno_of(error),
         )
 
