@@ -1,5 +1,5 @@
 # `make` and `make test` are all that a newcomer needs; `make help` lists the rest.
-# Where there is no make, as on Windows, README.md has the same commands spelt out.
+# Where there is no make, as on Windows, CONTRIBUTING.md has the same commands spelt out.
 
 VENV = .venv
 # The first Python on the path that is new enough, unless one is named: make PYTHON=python3.12

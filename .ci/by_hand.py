@@ -1,6 +1,6 @@
 """Run what pages say for Windows: their `bat` blocks in one shell, and there `powershell` as well.
 
-    python .ci/by_hand.py                           README.md, where there is no make
+    python .ci/by_hand.py                           CONTRIBUTING.md, where there is no make
     python .ci/by_hand.py docs/getting-started.md
 
 Where there is no Windows, bash runs the `bat` blocks as it would write them, for a try in a clone
@@ -49,7 +49,7 @@ def run(script: Path, lines: list[str], *command: str) -> int:
 
 def main() -> int:
     """Run the blocks of the named pages; return the exit code of the first line that fails."""
-    for page in sys.argv[1:] or ["README.md"]:
+    for page in sys.argv[1:] or ["CONTRIBUTING.md"]:
         lines = commands(page, "bat")
         if not lines:
             sys.exit(f"{page} has no block of commands for Windows")
