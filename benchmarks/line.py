@@ -136,7 +136,7 @@ CONTENDERS: dict[str, Callable[[str, int], Taken]] = {
 @contextmanager
 def board(via: str) -> Iterator[str]:
     """Run a virtual controller in a process of its own, and yield the name of its port."""
-    command = [sys.executable, "-m", "busservo_simulator", "--baud", "--quiet"]
+    command = [sys.executable, "-m", "busservo_simulator", "--quiet"]
     command += ["--tcp", "0"] if via == "tcp" else []
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True

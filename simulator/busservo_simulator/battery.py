@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+# No battery falls below this, but one that began below it, which stays where it began.
 EMPTY_MV = 6000
 IDLE_MV_PER_HOUR = 60.0
 BUSY_MV_PER_HOUR = 300.0
@@ -29,4 +30,4 @@ class Battery:
     def voltage_mv(self) -> int:
         """The voltage at the terminals, in mV."""
         now = self.full_mv - self._drawn_mv - self._travelling() * SAG_MV
-        return min(max(round(now), EMPTY_MV), 65535)
+        return min(max(round(now), min(EMPTY_MV, self.full_mv)), 65535)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from busservo_simulator import command
 from busservo_simulator.command import Simulator, via
 from busservo_simulator.faults import Faults
-from busservo_simulator.line_options import faults_of
+from busservo_simulator.line_options import faults_of, pace
 from busservo_simulator.options import PROGRAM, add_arguments, parser_of
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def _board(arguments: argparse.Namespace) -> VirtualController:
         servos=arguments.servos,
         battery_mv=arguments.battery,
         start_report=not arguments.no_start_report,
-        baud=arguments.baud,
+        baud=pace(arguments),
         local_echo=arguments.local_echo,
         faults=faults_of(arguments, Faults),
         link=arguments.link,

@@ -59,14 +59,14 @@ def _run(
     make: Callable[[argparse.Namespace], VirtualLine], arguments: argparse.Namespace, program: str
 ) -> int:
     """Serve what `make` makes until a signal ends it. Raises ValueError for what cannot be."""
-    if arguments.host not in {LOOPBACK, "::1", "localhost"}:
-        host = console.visible(arguments.host)
-        print(f"{program.partition(' ')[0]}: the network reaches it at {host}", file=sys.stderr)
     with _ended_by_signals() as ended, _opened(make(arguments), arguments) as line:
         log = line.log
         named = threading.Event()
         if not arguments.quiet:
             log.listener = _printer(named, ended)
+        if via(arguments) == "tcp" and arguments.host not in {LOOPBACK, "::1", "localhost"}:
+            host = console.visible(arguments.host)
+            print(f"{program.partition(' ')[0]}: the network reaches it at {host}", file=sys.stderr)
         print(console.visible(line.port), flush=True)
         named.set()
         gone = over = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from typing import TYPE_CHECKING, TypeVar
 
@@ -44,12 +45,11 @@ def add_line_arguments(parser: argparse.ArgumentParser, baud: int) -> None:
     )
     where.add_argument(
         "--baud",
-        nargs="?",
-        const=float(baud),
         type=_baud,
+        default=float(baud),
         metavar="BAUD",
-        help=f"bytes take their time, as at so many baud (without a number: {baud}); "
-        f"without this option they are there at once, and the rate of the device is {baud}",
+        help="the rate of the line, at which bytes take their time; inf: they are there at once, "
+        f"and a pty is at {baud} all the same (default: {baud})",
     )
     where.add_argument(
         "--local-echo",
@@ -155,10 +155,17 @@ def _number(text: str, what: str) -> int:
     return int(text)
 
 
+def pace(arguments: argparse.Namespace) -> float | None:
+    """Return the baud at which bytes take their time; None where they take none."""
+    return None if math.isinf(arguments.baud) else arguments.baud
+
+
 def _baud(text: str) -> float:
-    baud = _decimal(text)
+    baud = math.inf if text == "inf" else _decimal(text)
     if baud is None or not baud:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no rate: write one above 0, as 9600")
+        raise argparse.ArgumentTypeError(
+            f"{text[:40]!r} is no rate: write one above 0, as 9600, or inf"
+        )
     return baud
 
 

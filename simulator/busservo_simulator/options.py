@@ -30,14 +30,15 @@ examples:
   {PROGRAM}                            a board behind a pty, whose name is printed first
   {PROGRAM} --link COM7                the same, by a name that you choose
   {PROGRAM} --tcp 4000                 a board at socket://{LOOPBACK}:4000, on any system
-  {PROGRAM} --baud                     as slow as the real line, {BAUD} baud
+  {PROGRAM} --baud inf                 quicker than the real line: bytes take no time
   {PROGRAM} --servos 1-6,9 --off 9     seven servos, the last of them off
   {PROGRAM} --fault noise=0.2 --fault dropped=0.1 --seed 7
-  {PROGRAM} --baud --fault late=0.05 --late-by 3 --fault duplicated=0.05
+  {PROGRAM} --fault late=0.05 --late-by 3 --fault duplicated=0.05
 
 faults, each by its chance from 0 to 1:
 {listed_faults(Faults)}
 
+Bytes take as long as on the real line, at {BAUD} baud, unless --baud says otherwise.
 A host that sets another rate on the pty than the board's reads garbage, and is read as garbage.
 TCP has no rate that could be wrong. Mono's SerialPort opens no pty: have it talk to --tcp.
 

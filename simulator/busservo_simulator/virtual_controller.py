@@ -27,7 +27,8 @@ class VirtualController(VirtualLine):
 
     `via` is "memory" (`port` is then a transport), "pty" (a name such as /dev/pts/3, or `link`) or
     "tcp" (a name such as socket://127.0.0.1:40123). With `baud`, bytes take the time both ways
-    that they take on a wire. A host that sets another rate on the pty than `baud`, or than that of
+    that they take on a wire; without it none, for quick tests, unlike the command, whose rate is
+    that of the protocol. A host that sets another rate on the pty than `baud`, or than that of
     the protocol, receives garbage and sends garbage; "memory" and "tcp" have no rate to set.
     With `local_echo`, the adapter returns what the host sends, in front of what the board sends.
     With a VirtualClock, time stands still until `advance`.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from busservo_simulator import command
 from busservo_simulator.command import Simulator, via
 from busservo_simulator.line_faults import LineFaults
-from busservo_simulator.line_options import faults_of
+from busservo_simulator.line_options import faults_of, pace
 
 from lxservo_simulator.options import PROGRAM, add_arguments, parser_of
 
@@ -36,7 +36,7 @@ def _bus(arguments: argparse.Namespace) -> VirtualBus:
     bus = VirtualBus(
         via(arguments),
         servos=arguments.servos,
-        baud=arguments.baud,
+        baud=pace(arguments),
         local_echo=arguments.local_echo,
         faults=faults_of(arguments, LineFaults),
         link=arguments.link,

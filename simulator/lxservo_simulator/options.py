@@ -28,13 +28,15 @@ examples:
   {PROGRAM}                            servos behind a pty, whose name is printed first
   {PROGRAM} --link COM7                the same, by a name that you choose
   {PROGRAM} --tcp 4000                 servos at socket://{LOOPBACK}:4000, on any system
-  {PROGRAM} --baud                     as slow as the real line, {BAUD} baud
+  {PROGRAM} --baud inf                 quicker than the real line: bytes take no time
   {PROGRAM} --servos 1-3,7 --dead 3    four servos, one of which does not answer
   {PROGRAM} --local-echo               a wire that both ends share, without an adapter
   {PROGRAM} --fault noise=0.2 --fault dropped=0.1 --seed 7
 
 faults, each by its chance from 0 to 1:
 {listed_faults(LineFaults)}
+
+Bytes take as long as on the real line, at {BAUD} baud, unless --baud says otherwise.
 
 What happens is printed line by line: the seconds since the start, who, and what. Ctrl-C ends it.
 """

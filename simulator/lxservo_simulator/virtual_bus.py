@@ -24,7 +24,8 @@ class VirtualBus(VirtualLine):
 
     `via` is "memory" (`port` is then a transport), "pty" (a name such as /dev/pts/3, or `link`) or
     "tcp" (a name such as socket://127.0.0.1:40123). With `baud`, bytes take the time both ways that
-    they take on a wire. With `local_echo`, the adapter returns what the host sends, as on a wire
+    they take on a wire; without it none, for quick tests, unlike the command, whose rate is that of
+    the protocol. With `local_echo`, the adapter returns what the host sends, as on a wire
     that both ends share. With a VirtualClock, time stands still until `advance`.
     """
 

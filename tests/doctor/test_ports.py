@@ -15,7 +15,7 @@ from busservo import (
     PortNotFoundError,
     PortPermissionError,
 )
-from busservo._cli.checks import rate
+from busservo._cli.checks import port_listed, rate
 from busservo._cli.checks.checks import CHECKS, examine
 from busservo._cli.checks.diagnosis import Diagnosis
 from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
@@ -28,6 +28,7 @@ from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
     from busservo import TransportError
 
@@ -70,6 +71,30 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
     assert seen in found.seen
     assert advice in found.advice
     assert bool(found.advice) == (state != PASSED)
+
+
+def test_a_link_is_what_it_leads_to(tmp_path: Path) -> None:
+    pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
+    device = tmp_path.resolve() / "ttyUSB0"
+    device.touch()
+    link = tmp_path / "arm"
+    link.symlink_to(device)
+
+    def found(port: Path | str, *ports: SerialPortSeen) -> tuple[str, str]:
+        diagnosis = Diagnosis(str(port), ports=lambda: [*ports], hid_devices=list)
+        state, seen, *_ = port_listed.CHECK.look(diagnosis)
+        return state, seen
+
+    listed = ONE._replace(name=str(device))
+    assert found(link, listed) == (PASSED, f"{link} is {listed}")
+    assert found(link) == (UNKNOWN, f"{link} is not among the ports that are listed (none)")
+    assert found("/dev/pts/no-such")[0] == UNKNOWN
+    name = tmp_path / "board"
+    with VirtualController("pty", link=name) as board:
+        pty = name.resolve()
+        what = "a pseudo terminal, which nothing lists: a program is behind it"
+        assert found(board.port, ONE) == (PASSED, f"{name} is {pty}, {what}")
+        assert found(pty, ONE) == (PASSED, f"{pty} is {what}")
 
 
 @pytest.mark.parametrize(
@@ -168,8 +193,10 @@ def test_a_board_at_the_rate_of_the_protocol_is_at_no_other() -> None:
 def test_a_connection_has_no_rate() -> None:
     with VirtualController("tcp") as board:
         found = rate_of(board.port, reply_timeout=GENEROUS)
-    assert found.state == UNKNOWN
-    assert found.seen.startswith("it answers, over a line that has no rate of its own (socket://")
+    assert found.state == PASSED
+    assert found.seen.startswith(
+        "it answers, over a line on which no rate is set from here (socket:"
+    )
 
 
 @pytest.fixture

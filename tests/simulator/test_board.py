@@ -264,6 +264,14 @@ def test_the_battery_runs_down_but_not_below_empty(board: VirtualController, hos
     assert voltage(host) == 6000
 
 
+@pytest.mark.parametrize("asked_for", [0, 4700, 6000, 65535])
+def test_a_battery_begins_where_it_is_asked_to(asked_for: int) -> None:
+    with VirtualController(clock=VirtualClock(follow_reads=True), battery_mv=asked_for) as board:
+        assert voltage(host_of(board)) == asked_for
+        board.advance(500 * 3600)
+        assert voltage(host_of(board)) == (asked_for if asked_for <= 6000 else 35535)
+
+
 # -------------------------------------------------------------------- LED, buzzer, restart
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
 from busservo._serial.serial_port import open_transport
-from busservo_simulator import Faults
+from busservo_simulator import Faults, line_options
 from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES
 from busservo_simulator.line_options import faults_of
@@ -82,7 +82,7 @@ def test_it_answers_prints_what_happens_and_ends_cleanly(
 def test_over_tcp_it_can_be_quiet(
     start: Callable[..., tuple[subprocess.Popen[str], str]],
 ) -> None:
-    process, port = start("--tcp", "--quiet", "--baud", "--fault", "noise=1", "--seed", "3")
+    process, port = start("--tcp", "--quiet", "--baud", "inf", "--fault", "noise=1", "--seed", "3")
     assert port.startswith("socket://127.0.0.1:")
     host = Host(open_transport(port))
     assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
@@ -166,7 +166,7 @@ def test_it_reports_a_host_at_another_rate(
         (["--tcp", "99999"], "'99999' is no TCP port: write one from 0 to 65535"),
         (["--tcp", "0", "--host", "203.0.113.7"], "203.0.113.7, port 0 cannot be opened: "),
         (["--servos", "300"], "--servos"),
-        (["--baud", "0"], "--baud: '0' is no rate: write one above 0, as 9600"),
+        (["--baud", "0"], "--baud: '0' is no rate: write one above 0, as 9600, or inf"),
         (["--baud", "fast"], "--baud: 'fast' is no rate"),
     ],
 )
@@ -186,6 +186,22 @@ def test_servos_are_listed_as_people_write_them(text: str, servos: list[int]) ->
 def test_what_names_no_servo_is_refused(text: str) -> None:
     with pytest.raises(ValueError):  # noqa: PT011 - argparse shows its own words
         parse_servos(text)
+
+
+@pytest.mark.parametrize(
+    ("words", "pace"), [("", 9600), ("--baud 96000", 96000), ("--baud inf", None)]
+)
+def test_the_line_is_as_slow_as_the_real_one_unless_told_otherwise(
+    words: str, pace: float | None
+) -> None:
+    assert line_options.pace(parser_of(PROGRAM).parse_args(words.split())) == pace
+
+
+def test_a_host_that_cannot_be_listened_at_is_not_said_to_be_reached(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["--tcp", "0", "--host", "203.0.113.7"]) == 2
+    assert capsys.readouterr().err.startswith("busservo-simulator: error: 203.0.113.7, port 0 ")
 
 
 @not_windows

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import math
-import sys
-from pathlib import Path
 
 from ..._serial.link_errors import ClosedError, DisconnectedError, TransportError
 from ..plain_text import plain_text
@@ -25,7 +23,6 @@ _RATES = (115200, 57600, 38400, 19200, 9600, 4800)
 # How much longer than a program waits, so that a late reply is recognised as late.
 EXTRA_TIME = 1.0
 _NO_RATE = ("socket", "loop", "hid")
-_PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
 _SILENT = (
     "see that TX goes to RX and RX to TX, that the grounds are joined, that the device is "
     "supplied, and that it is the device's port: unplug it, and see which one goes"
@@ -49,8 +46,8 @@ def _answered(diagnosis: Diagnosis, question: Message) -> Result:
     if math.isinf(diagnosis.baud):
         return passed("it answers, on a line that you say has no rate", reply)
     if _has_no_rate(port):
-        return unknown(f"it answers, over a line that has no rate of its own ({port})", "", reply)
-    if not _is_pseudo_terminal(port):
+        return passed(f"it answers, over a line on which no rate is set from here ({port})", reply)
+    if not diagnosis.is_pseudo_terminal:
         return passed(f"it answers at {stated}", reply)
     other = next(rate for rate in _RATES if rate != diagnosis.baud)
     trip = diagnosis.connect(other).ask(question)
@@ -117,12 +114,6 @@ def _tried(diagnosis: Diagnosis, question: Message, rate: int) -> Trip | None:
 def _has_no_rate(port: str) -> bool:
     scheme, separator, _ = port.partition("://")
     return bool(separator) and scheme.lower() in _NO_RATE
-
-
-def _is_pseudo_terminal(port: str) -> bool:
-    if sys.platform == "win32" or "://" in port:
-        return False
-    return str(Path(port).resolve()).startswith(_PSEUDO_TERMINALS)
 
 
 def rate_check(question: Message) -> Check:

@@ -79,7 +79,7 @@ def _blinded(text: str, diagnosis: Diagnosis) -> str:
     hidden = {each.name: _PORT for each in diagnosis.ports}
     hidden |= {each.serial: "SERIAL" for each in diagnosis.ports}
     hidden |= {each.path: _PORT for each in diagnosis.hid_devices or []}
-    hidden |= {diagnosis.port or "": _PORT, str(Path.home()): "~"}
+    hidden |= {diagnosis.port or "": _PORT, diagnosis.device: _PORT, str(Path.home()): "~"}
     # The longest first, of which others may be parts; a lone slash would be in every path.
     for each in sorted(hidden, key=len, reverse=True):
         if len(each) > 1:

@@ -23,13 +23,18 @@ def _look(diagnosis: Diagnosis) -> Result:
     found = ", ".join(str(each) for each in diagnosis.ports)
     if diagnosis.port is None:
         return _choose(diagnosis, found)
-    for each in diagnosis.ports:
-        if each.name == diagnosis.port:
-            return passed(str(each))
     if "://" in diagnosis.port:
         return passed(f"{diagnosis.port} is an address, which nothing lists")
+    device = diagnosis.device
+    for each in diagnosis.ports:
+        if each.name in (diagnosis.port, device):
+            link = "" if each.name == diagnosis.port else f"{diagnosis.port} is "
+            return passed(f"{link}{each}")
+    if diagnosis.is_pseudo_terminal:
+        what = f"{'' if device == diagnosis.port else f'{device}, '}a pseudo terminal"
+        return passed(f"{diagnosis.port} is {what}, which nothing lists: a program is behind it")
     seen = f"{diagnosis.port} is not among the ports that are listed ({found or 'none'})"
-    return unknown(seen, "go on if it is a name of your own for a port, or a pseudo terminal")
+    return unknown(seen, "go on if it is a name of your own for a port")
 
 
 def _choose(diagnosis: Diagnosis, found: str) -> Result:

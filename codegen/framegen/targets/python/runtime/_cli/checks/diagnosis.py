@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import time
 from pathlib import Path
 
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from ..._serial.transport import Transport
     from .probe import Entry
     from .trip import Trip
+
+# What pseudo terminals are called: on Linux, and on macOS, whose serial ports have longer names.
+_PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
 
 
 class Diagnosis:
@@ -74,13 +78,25 @@ class Diagnosis:
         return "no rate" if math.isinf(self.baud) else f"{self.baud:g} baud"
 
     @property
+    def device(self) -> str:
+        """The name of the port that is examined; of a link, the name of what it leads to."""
+        name = self.port or ""
+        if sys.platform == "win32" or not name or "://" in name:
+            return name
+        return str(Path(name).resolve())
+
+    @property
+    def is_pseudo_terminal(self) -> bool:
+        """Whether the port is a pseudo terminal, behind which there is a program."""
+        return self.device.startswith(_PSEUDO_TERMINALS) and Path(self.device).is_char_device()
+
+    @property
     def adapter(self) -> str:
         """The adapter that is plugged in, by VID:PID and product; empty if that is not known."""
         port = self.port or ""
         if port.lower().startswith("hid:"):
             return ", ".join(f"{each.ids} {each.product}" for each in self.hid_devices or [])
-        names = (port, str(Path(port).resolve()))
-        found = (each for each in self.ports if each.name in names)
+        found = (each for each in self.ports if each.name in (port, self.device))
         return next((f"{each.usb} {each.product}".strip() for each in found), "")
 
     def connect(self, baud: float | None = None) -> Probe:
