@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo._cli import doctor, main
+from busservo._cli.checks import reply
 from busservo._cli.checks.check import Check
 from busservo._cli.checks.checks import CHECKS, examine
 from busservo._cli.checks.report import Report
-from busservo._cli.checks.result import passed
+from busservo._cli.checks.result import PASSED, passed
 from busservo._serial.link_errors import DisconnectedError
 from busservo_simulator import Faults, VirtualController
 
-from tests.doctor.patient import ADAPTER, PORT, board_with, diagnosis_of
+from tests.doctor.patient import ADAPTER, PORT, board_with, diagnosis_of, examined
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -42,6 +43,18 @@ def test_each_check_is_a_line_with_its_bytes_below_it(capsys: pytest.CaptureFixt
     assert " passed, 0 failed, " in errors
 
 
+def test_a_value_that_no_source_judges_is_noted() -> None:
+    with board_with(battery_mv=4700) as board:
+        found = examined(diagnosis_of(board))["reply"]
+    assert found.state == PASSED
+    assert found.note.startswith("voltage_mv is 4700 mV = 4.700 V. Not known: Which voltage is")
+    shown = doctor._as_text(reply.CHECK, found).splitlines()
+    assert shown[1:] == [
+        "                bytes 55 55 04 0F 5C 12",
+        f"                 note {found.note}",
+    ]
+
+
 def test_a_failed_check_comes_with_advice(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--port", "no-such-port"]) == 1
     output = capsys.readouterr().out
@@ -60,7 +73,8 @@ def test_json_has_a_line_for_each_check(
     records = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [record["check"] for record in records] == [check.id for check in CHECKS[:7]]
     assert all(
-        [*record] == ["check", "title", "state", "seen", "bytes", "next"] for record in records
+        [*record] == ["check", "title", "state", "seen", "bytes", "note", "next"]
+        for record in records
     )
     (rate,) = [record for record in records if record["check"] == "rate"]
     assert rate["bytes"] == ["55 55 04 0F 4C 1D"]

@@ -40,7 +40,7 @@ def test_a_servo_goes_a_little_and_back(began: int, reached: int) -> None:
         assert board.servos[1].position == began
         assert not any(servo.travelling for servo in board.servos.values())
     report = f"servo 1 was at {began}, was sent to {reached}, and was then at {reached}"
-    assert found == (PASSED, f"{report}; sent back, it is at {began}", (), "")
+    assert found == (PASSED, f"{report}; sent back, it is at {began}", (), "", "")
 
 
 def test_it_moves_even_where_replies_are_lost() -> None:

@@ -164,11 +164,11 @@ def _finish(
 def _as_json(check: Check, result: Result) -> str:
     record: dict[str, Any] = {"check": check.id, "title": check.title, "state": result.state}
     record |= {"seen": result.seen, "bytes": [format_hex(each) for each in result.evidence]}
-    return json.dumps(record | {"next": result.advice})
+    return json.dumps(record | {"note": result.note, "next": result.advice})
 
 
 def _as_text(check: Check, result: Result) -> str:
-    """Return the state, the check and the observation; below it bytes or text, and what to do."""
+    """Return the state, the check, what was seen; below it bytes or text, notes, what to do."""
     state = f"{result.state:8}"
     if takes_colour(sys.stdout):
         state = painted(state, _COLOURS[result.state])
@@ -179,6 +179,7 @@ def _as_text(check: Check, result: Result) -> str:
             lines.append(f"{'':8} {'bytes':>12} {format_hex(each)}")
         elif text not in result.seen:
             lines.append(f"{'':8} {'text':>12} {text}")
-    if result.advice:
-        lines.append(f"{'':8} {'next':>12} {visible(result.advice)}")
+    for label, said in (("note", result.note), ("next", result.advice)):
+        if said:
+            lines.append(f"{'':8} {label:>12} {visible(said)}")
     return "\n".join(lines)

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from ..._explanation.carried_model import classes, protocol
+from ..._explanation.explanation import rows_of
 from .check import Check
 from .rate import EXTRA_TIME
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from ..._frame.message import Message
     from .diagnosis import Diagnosis
     from .result import Result
     from .trip import Trip
@@ -49,7 +52,7 @@ def _look(diagnosis: Diagnosis) -> Result:
     if not troubles:
         last = diagnosis.trips[-1].replies[0][1]
         seen = f"{count} of {count} questions were answered, each by one whole reply: {last!r}"
-        return passed(seen, last.encode())
+        return passed(seen, last.encode(), note=_open_questions(last))
     seen = ", ".join(f"{len(trips)} {what}" for what, trips in troubles.items())
     worst = next(what for what in _ADVICE if what in troubles)
     shown = [trip.received for trips in troubles.values() for trip in trips if trip.received]
@@ -74,6 +77,24 @@ def _trouble(trip: Trip, longest: float) -> str:
     if trip.replies[0][0] > longest:
         return "answered too late"
     return "answered with noise around it" if trip.noise else ""
+
+
+def _open_questions(reply: Message) -> str:
+    """Return the values of a reply that no source tells how to judge, and what is not known."""
+    model, data = protocol(), reply.encode()
+    names = {called: name for name, called in classes(model).items()}
+    message = model.messages[names[type(reply).__name__]]
+    unknown = {
+        each["concerns"]: each["what"]
+        for each in model.said["unknowns"]
+        if each["message"] == message.name
+    }
+    rows = rows_of(data, message.lay_out(message.length_of(data) or 0), message)
+    return "; ".join(
+        f"{row.path} is {row.text}. Not known: {unknown[row.path]}"
+        for row in rows
+        if row.path in unknown
+    )
 
 
 CHECK = Check("reply", "each question is answered by one whole reply", ("opening",), _look)

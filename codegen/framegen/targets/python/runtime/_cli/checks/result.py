@@ -10,17 +10,21 @@ _MOST = 3
 
 
 class Result(NamedTuple):
-    """The result of a check. `advice` is empty if nothing is to be done."""
+    """The result of a check.
+
+    `advice` is empty if nothing is to be done, and `note` if nothing else is to be said.
+    """
 
     state: str
     seen: str
     evidence: tuple[bytes, ...] = ()
     advice: str = ""
+    note: str = ""
 
 
-def passed(seen: str, *evidence: bytes) -> Result:
-    """Return the result of a check that passed."""
-    return Result(PASSED, seen, _first(evidence))
+def passed(seen: str, *evidence: bytes, note: str = "") -> Result:
+    """Return the result of a check that passed; `note` says what the check does not judge."""
+    return Result(PASSED, seen, _first(evidence), note=note)
 
 
 def failed(seen: str, advice: str, *evidence: bytes) -> Result:
