@@ -206,7 +206,7 @@ def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(
 
 MISSING = (
     "greenhouse: error: the package greenhouse_simulator is not installed here: install it, or "
-    "else make a virtual device of greenhouse.Device\n"
+    "build a virtual device on greenhouse.Device\n"
 )
 
 

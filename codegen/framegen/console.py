@@ -47,12 +47,15 @@ _WIDTH = 100
 INTERRUPTED, READER_GONE = 130, 141
 
 
-def complain(program: str, message: str, hint: str = "") -> None:
+def complain(program: str, message: str, hint: str = "", *, choices: Iterable[str] = ()) -> None:
     """Print an error as every command does: a line for what is wrong, and one for the way out.
 
-    `program` may go on with a verb, which is left out.
+    `choices` are what could be typed instead, a line each. `program` may go on with a verb, which
+    is left out.
     """
     print(f"{program.partition(' ')[0]}: error: {visible(message)}", file=sys.stderr)
+    for choice in choices:
+        print(f"  {visible(choice)}", file=sys.stderr)
     if hint:
         print(f"  hint: {visible(hint)}", file=sys.stderr)
 

@@ -98,16 +98,21 @@ def test_errors_are_counted_by_kind(
         [],
         [(0.0, ServoPositions([(2, 6)]))],
         [(0.0, BatteryVoltage(7500))],
+        [(0.0, b"noise")],
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
     ]
     line = VirtualLine(lambda _: replies.pop(0))
     client = Client(line, background=False, clock=line.clock, settle=0)
     monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
-    words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "5"]
+    words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "6"]
     assert main(["bench-line", "--port", "COM7", *words]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].endswith(" on COM7: 5 requests, 3 answered")
-    assert lines[-1] == "  errors          2 no reply, 1 incomplete reply"
+    assert lines[0].endswith(" on COM7: 6 requests, 3 answered")
+    assert lines[-2:] == [
+        "  errors          3 no reply, 1 incomplete reply",
+        "  without a reply 5 bytes came that are no frame: wrong baud rate?; "
+        "1 report came, so the device can be heard",
+    ]
 
 
 def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) -> None:
@@ -118,13 +123,24 @@ def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) ->
     assert "the line was lost" in errors
 
 
-def test_silence_alone_gives_no_times(capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_a_reply_there_are_no_times(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--timeout", "0.02", "-n", "2"]
     assert main(["bench-line", "--port", "loop://", *words]) == 1
     assert capsys.readouterr().out.splitlines() == [
         "BatteryVoltageRead on loop://: 2 requests, 0 answered",
         "  errors          2 no reply",
+        "  without a reply 8 bytes came that are no frame: wrong baud rate?",
     ]
+
+
+def test_silence_is_said_to_be_that(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line = VirtualLine(lambda _: [])
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    assert main(["bench-line", "--port", "COM7", "-n", "2"]) == 1
+    assert "  without a reply nothing came at all: is the device" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -140,7 +140,8 @@ def test_the_rate_is_that_of_the_port(
 
 
 ADAPTER = SerialPortSeen("COM3", "1A86:7523", "USB Serial")
-OTHER = SerialPortSeen("COM4", "10C4:EA60", "CP2102")
+# What is foreign stays in its line.
+OTHER = SerialPortSeen("/dev/cu.01", "10C4:EA60", "CP\n2102")
 BUILT_IN = SerialPortSeen("COM1", "", "")
 BOARD = HidDevice(0x0483, 0x5750, "1-1", "")
 
@@ -157,8 +158,8 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
         [BUILT_IN],
         [],
         (
-            "busservo: error: which port is meant? 1 port may be it, so name it: "
-            "--port COM1 (not USB)\n"
+            "busservo: error: no port is plugged in by USB; if it is one of these, name it:\n"
+            "  --port COM1  not USB\n"
         ),
     ),
     ([], "", [BUILT_IN], [BOARD], "hid://"),
@@ -169,8 +170,9 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
         [BUILT_IN, ADAPTER, OTHER],
         [],
         (
-            "busservo: error: which port is meant? 2 ports may be it, so name it: "
-            "--port COM3 (USB Serial) or --port COM4 (CP2102)\n"
+            "busservo: error: 2 ports are plugged in by USB; name the one that is meant:\n"
+            "  --port COM3        USB Serial\n"
+            "  --port /dev/cu.01  CP\\n2102\n"
         ),
     ),
     (

@@ -11,7 +11,7 @@ from framegen.recording_form import FORMS
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-SUMMARY = "Guess a spec to begin from, by a recording of a line whose protocol nobody has written."
+SUMMARY = "Guess a spec to begin from, by a recording of a line whose protocol is unknown."
 EXAMPLES = (
     ("framegen guess line.bin", "print it, with what is undecided in its comments"),
     ("framegen guess line.bin > spec/kiln.yaml", "begin with it"),

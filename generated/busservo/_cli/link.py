@@ -90,9 +90,12 @@ def port_of(arguments: argparse.Namespace) -> str:
     if not likely:
         advice = f"plug in the device, or name a port: --port PORT, or {VARIABLE}=PORT"
         raise UsageError(f"no port is plugged in; {advice}; `{PROGRAM} doctor` looks closer")
-    named = " or ".join(f"--port {each.name} ({each.product or 'not USB'})" for each in likely)
-    several = pluralize(len(likely), "port")
-    raise UsageError(f"which port is meant? {several} may be it, so name it: {named}")
+    width = max(len(each.name) for each in likely)
+    choices = [f"--port {each.name:<{width}}  {each.product or 'not USB'}" for each in likely]
+    if plugged_in(ports):
+        several = pluralize(len(likely), "port")
+        raise UsageError(f"{several} are plugged in by USB; name the one that is meant:", choices)
+    raise UsageError("no port is plugged in by USB; if it is one of these, name it:", choices)
 
 
 def only_port(ports: Sequence[SerialPortSeen], devices: Sequence[HidDevice]) -> str | None:

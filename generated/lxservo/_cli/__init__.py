@@ -35,7 +35,7 @@ def _run(words: Sequence[str]) -> int:
         # Earlier output comes first; if that fails, console.run reports it.
         with suppress(OSError):
             sys.stdout.flush()
-        console.complain(PROGRAM, str(error))
+        console.complain(PROGRAM, str(error), choices=error.choices)
         return error.code
 
 

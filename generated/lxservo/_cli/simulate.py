@@ -37,11 +37,11 @@ def _simulator() -> Any:
         if error.name not in {SIMULATOR, module}:
             raise
         raise UsageError(
-            f"the package {SIMULATOR} is not installed here: install it, or else make a virtual "
-            f"device of {PROGRAM}.Device"
+            f"the package {SIMULATOR} is not installed here: install it, or build a virtual "
+            f"device on {PROGRAM}.Device"
         ) from None
     except ImportError as error:
         raise UsageError(
-            f"the package {SIMULATOR} does not fit {PROGRAM}: {error}; mend it, or make a virtual "
-            f"device of {PROGRAM}.Device"
+            f"the package {SIMULATOR} does not work with this {PROGRAM}: {error}; update it, or "
+            f"build a virtual device on {PROGRAM}.Device"
         ) from None

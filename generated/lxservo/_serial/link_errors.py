@@ -111,23 +111,24 @@ class NoReplyError(ProtocolError, TimeoutError):
     def __str__(self) -> str:
         tries = f" to {self.attempts} requests" if self.attempts > 1 else ""
         problem = f"no {self.reply} came within {self.waited:.3f} s{tries} of {self.request!r}"
-        return f"{problem}; {self._what_came()}"
+        came = what_came(self.noise, self.reports, self.unsolicited)
+        return f"{problem}; {came}"
 
-    def _what_came(self) -> str:
-        came: list[str] = []
-        if self.noise:
-            verb = "is" if self.noise == 1 else "are"
-            came.append(
-                f"{pluralize(self.noise, 'byte')} came that {verb} no frame: wrong baud rate?"
-            )
-        if self.unsolicited:
-            replies = pluralize(self.unsolicited, "reply", "replies")
-            came.append(f"{replies} came that cannot be the answer: late, or sent twice")
-        if self.reports:
-            came.append(f"{pluralize(self.reports, 'report')} came, so the device can be heard")
-        return "; ".join(came) or (
-            "nothing came at all: is the device switched on, and is this its port?"
-        )
+
+def what_came(noise: int, reports: int, unsolicited: int) -> str:
+    """Say what came in place of a reply, and what that hints at."""
+    came: list[str] = []
+    if noise:
+        verb = "is" if noise == 1 else "are"
+        came.append(f"{pluralize(noise, 'byte')} came that {verb} no frame: wrong baud rate?")
+    if unsolicited:
+        replies = pluralize(unsolicited, "reply", "replies")
+        came.append(f"{replies} came that cannot be the answer: late, or sent twice")
+    if reports:
+        came.append(f"{pluralize(reports, 'report')} came, so the device can be heard")
+    return "; ".join(came) or (
+        "nothing came at all: is the device switched on, and is this its port?"
+    )
 
 
 class DoubtfulReplyError(NoReplyError):

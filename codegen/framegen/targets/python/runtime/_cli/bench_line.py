@@ -13,7 +13,7 @@ from .._client.wire_time import WireTime
 from .._frame.errors import EncodeError
 from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD
-from .._serial.link_errors import NoReplyError
+from .._serial.link_errors import NoReplyError, what_came
 from . import link
 from .console import visible
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
@@ -109,6 +109,8 @@ class Trips:
         self._whole = 0.0
         # Replies that answer nothing, and requests with one sooner than the wire allows.
         self._unsolicited = self._impossible = 0
+        # What came to requests without a reply: bytes that are no frame, reports, other replies.
+        self._noise = self._reports = self._others = 0
         self.errors: dict[str, int] = {}
 
     def make(self, client: Client, count: int) -> None:
@@ -127,8 +129,11 @@ class Trips:
         began = time.perf_counter()
         try:
             reply = client.request(self._question)
-        except NoReplyError:
+        except NoReplyError as error:
             self._failed("no reply")
+            self._noise += error.noise
+            self._reports += error.reports
+            self._others += error.unsolicited
             return
         self._taken.append(time.perf_counter() - began)
         self._sizes.append(len(self._question.encode()) + len(reply.encode()))
@@ -152,6 +157,9 @@ class Trips:
             "requests": self._requested,
             "answered": len(taken),
             "errors": self.errors,
+            "noise": self._noise,
+            "reports": self._reports,
+            "others": self._others,
             "unsolicited": self._unsolicited,
             "impossible": self._impossible,
             "min": round(min(taken), 6) if taken else None,
@@ -193,4 +201,9 @@ class Trips:
                 f"  too soon        {early} had a reply that no such wire can have carried"
             )
         errors = ", ".join(f"{number} {kind}" for kind, number in self.errors.items())
-        return "\n".join([*lines, f"  errors          {errors or 'none'}"])
+        lines.append(f"  errors          {errors or 'none'}")
+        came = self._noise, self._reports, self._others
+        # Where others were answered, silence is no hint that the device is off.
+        if any(came) or not self._taken:
+            lines.append(f"  without a reply {what_came(*came)}")
+        return "\n".join(lines)
