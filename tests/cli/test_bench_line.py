@@ -110,8 +110,10 @@ def test_errors_are_counted_by_kind(
     assert lines[0].endswith(" on COM7: 6 requests, 3 answered")
     assert lines[-2:] == [
         "  errors          3 no reply, 1 incomplete reply",
-        "  without a reply 5 bytes came that are no frame: wrong baud rate?; "
-        "1 report came, so the device can be heard",
+        (
+            "  without a reply 5 bytes came that are no frame: wrong baud rate?; "
+            "1 report came, so the device can be heard"
+        ),
     ]
 
 
