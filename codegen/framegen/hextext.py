@@ -4,7 +4,7 @@ Bytes may be separated by blanks, commas, colons, semicolons, dashes and undersc
 goes from a `#` to the end of the line. A byte is two digits, with or without `0x` before it (its
 x may be a multiplication sign, as in printed manuals), or the
 backslash and x of strings in C and Python; after one of these prefixes, a single digit at the end
-of a word is a byte, too. Nothing else is hex.
+of a word is a byte, too; and so is a word of 0b and eight binary digits. Nothing else is hex.
 
 The Python target copies this into each library, and the script of the decoder's page does the same.
 """
@@ -16,6 +16,7 @@ import re
 _BETWEEN = " \t\n\r\v\f\N{NO-BREAK SPACE}\N{ZERO WIDTH NO-BREAK SPACE},:;_-"
 _COMMENT = re.compile(r"#[^\n]*")
 _WORD = re.compile(f"[^{_BETWEEN}]+")
+_BEFORE_COMMENT = re.compile(f"[^#{_BETWEEN}]+")
 _AS_BLANKS = str.maketrans(dict.fromkeys(_BETWEEN, " "))
 _PREFIX = r"(?:0[xX\u00d7]|\\[xX])"
 _BYTES = re.compile(rf"(?:{_PREFIX}?[0-9A-Fa-f]{{2}})*")
@@ -24,6 +25,8 @@ _LAST = re.compile(rf"{_PREFIX}[0-9A-Fa-f]")
 _BEGUN = re.compile(rf"(?:0|\\|{_PREFIX}[0-9A-Fa-f]?|[0-9A-Fa-f])?")
 _DIGITS = re.compile(rf"(?:^|{_PREFIX})([0-9A-Fa-f]+)$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]")
+_BINARY = re.compile(rf"(?<![^{_BETWEEN}])0b([01]{{8}})(?![^{_BETWEEN}])")
+_BINARY_BEGUN = re.compile(r"0b[01]{0,8}")
 
 
 class HexError(ValueError):
@@ -42,13 +45,20 @@ def read_hex(text: str) -> bytes:
     """Read hex text as bytes. Raises HexError."""
     try:
         # As most hex is written, and many times as fast.
-        return bytes.fromhex(text)
+        return bytes.fromhex(_without_binary(text))
     except ValueError:
         plain = _COMMENT.sub(lambda comment: " " * len(comment.group()), text)
     try:
-        return bytes.fromhex(plain.translate(_AS_BLANKS))
+        return bytes.fromhex(_without_binary(plain).translate(_AS_BLANKS))
     except ValueError:
-        return b"".join(_read_word(word.group(), word.start()) for word in _WORD.finditer(plain))
+        return b"".join(_whole_word(word.group(), word.start()) for word in _WORD.finditer(plain))
+
+
+def _without_binary(text: str) -> str:
+    """Write words of binary digits in hex."""
+    if "0b" not in text:
+        return text
+    return _BINARY.sub(lambda word: f"{int(word[1], 2):02x}", text)
 
 
 def is_hex(text: str) -> bool:
@@ -65,6 +75,8 @@ class HexReader:
     def __init__(self) -> None:
         self._begun = ""
         self._in_comment = False
+        # Whether bytes of the word that goes on in the next piece are read already.
+        self._in_word = False
 
     def feed(self, text: str) -> bytes:
         """Read a further piece, except for a byte that has only begun. Raises HexError."""
@@ -72,18 +84,28 @@ class HexReader:
             _, end, text = text.partition("\n")
             self._in_comment = not end
         text = self._begun + text
+        goes_on = _BEFORE_COMMENT.match(text) if self._in_word else None
         comment = text.find("#", text.rfind("\n") + 1)
         if comment >= 0:
             self._in_comment = True
             text = text[:comment]
             self._begun = ""
+            self._in_word = False
         else:
             word = text[max(map(text.rfind, _BETWEEN)) + 1 :]
-            self._begun = _rest(word)
-            if not _BEGUN.fullmatch(self._begun):
-                self._begun = ""
+            is_later = self._in_word and word == text
+            if _BINARY_BEGUN.fullmatch(word) and not is_later:
+                self._begun = word
+            else:
+                self._begun = _rest(word)
+                if not _BEGUN.fullmatch(self._begun):
+                    self._begun = ""
+            self._in_word = is_later or len(word) > len(self._begun)
             text = text[: len(text) - len(self._begun)]
-        return read_hex(text)
+        if goes_on is None:
+            return read_hex(text)
+        first = goes_on.group()[: len(text)]
+        return _read_word(first, 0) + read_hex(text[len(first) :])
 
     def end(self) -> bytes:
         """Read the byte that has begun, now that nothing follows. Raises HexError."""
@@ -97,6 +119,11 @@ def _rest(word: str) -> str:
         return word[len(word) // 2 * 2 :]
     whole = _BYTES.match(word)
     return word[whole.end() :] if whole else word
+
+
+def _whole_word(word: str, at: int) -> bytes:
+    binary = _BINARY.fullmatch(word)
+    return bytes([int(binary[1], 2)]) if binary else _read_word(word, at)
 
 
 def _read_word(word: str, at: int) -> bytes:
