@@ -85,7 +85,11 @@ class HexReader:
             _, end, text = text.partition("\n")
             self._in_comment = not end
         text = self._begun + text
+        # The rest of a word that has begun in another piece, and what there is of one that goes on
+        # in the next, are no words.
         goes_on = _BEFORE_COMMENT.match(text) if self._in_word else None
+        first = goes_on.group() if goes_on else ""
+        last = ""
         comment = text.find("#", text.rfind("\n") + 1)
         if comment >= 0:
             self._in_comment = True
@@ -93,20 +97,21 @@ class HexReader:
             self._begun = ""
             self._in_word = False
         else:
-            word = text[max(map(text.rfind, _BETWEEN)) + 1 :]
-            is_later = self._in_word and word == text
-            if _BINARY_BEGUN.fullmatch(word) and not is_later:
-                self._begun = word
+            last = text[max(map(text.rfind, _BETWEEN)) + 1 :]
+            is_later = self._in_word and last == text
+            if _BINARY_BEGUN.fullmatch(last) and not is_later:
+                self._begun = last
             else:
-                self._begun = _rest(word)
+                self._begun = _rest(last)
                 if not _BEGUN.fullmatch(self._begun):
                     self._begun = ""
-            self._in_word = is_later or len(word) > len(self._begun)
+            self._in_word = is_later or len(last) > len(self._begun)
             text = text[: len(text) - len(self._begun)]
-        if goes_on is None:
-            return read_hex(text)
-        first = goes_on.group()[: len(text)]
-        return _read_word(first, 0) + read_hex(text[len(first) :])
+            last = last[: len(last) - len(self._begun)]
+            if is_later:
+                return _read_word(text, 0)
+        whole = text[len(first) : len(text) - len(last)]
+        return _read_word(first, 0) + read_hex(whole) + _read_word(last, len(text) - len(last))
 
     def end(self) -> bytes:
         """Read the byte that has begun, now that nothing follows. Raises HexError."""
