@@ -72,6 +72,45 @@ NO_HEX = [
     "5\n5",
 ]
 
+# What programs print of a line, and the bytes with the way that each says: tx, rx, or nothing. A
+# reader that knows no ways takes the bytes alone.
+LOGS = [
+    ("14:22:01.123 -> 55 55 02 07", [("", "55550207")]),
+    ("14:22:01.123 -> 55 55\n14:22:01.125 -> 02 07", [("", "5555"), ("", "0207")]),
+    ("14:22:01.123 -> 0x55, 0x55\r\n# a note\n\n14:22:02 -> 0207", [("", "5555"), ("", "0207")]),
+    ("TX: 55 55 02 07", [("tx", "55550207")]),
+    ("TX: 55 55 02 07\nRX: 55 55 04 0F 4C 1D", [("tx", "55550207"), ("rx", "5555040f4c1d")]),
+    ("rx: 5555040f4c1d # it", [("rx", "5555040f4c1d")]),
+    ("[12:01:02] 55 55 02 07", [("", "55550207")]),
+    ("[12:01:02.5] TX: 55 55 02 07", [("tx", "55550207")]),
+    ("12:01:02.5 RX: 55 55 02 07", [("rx", "55550207")]),
+    ("14:22:01.123 -> TX: b'\\x55U\\x02\\x07'", [("tx", "55550207")]),
+    ("[2026-01-02 12:01:02] 0b01010101 55 02 07", [("", "55550207")]),
+    ("2026-01-02 12:01:02,123 DEBUG x: sent b'\\x55U\\x02\\x07'", [("tx", "55550207")]),
+    ("2026-01-02 12:01:02,123 DEBUG x: received 55 55 02 07", [("rx", "55550207")]),
+    ("2026-01-02 12:01:02,123 DEBUG x: 55 55 02 07", [("", "55550207")]),
+    ("2026-01-02 12:01:02,123 - x.y - INFO - a frame: 55 55 02 07", [("", "55550207")]),
+    ('DEBUG:x:read b"U\'\\x02\\n"', [("rx", "5527020a")]),
+    ("t;tx;rx\n0.5;55 55 02 07;\n0.625;;55 55 04 0F\n", [("tx", "55550207"), ("rx", "5555040f")]),
+    ("time,rx,tx\n12:01:02,55,02\n12:01:03,,07\n", [("tx", "02"), ("rx", "55"), ("tx", "07")]),
+    ('tx\trx\n"55 55"\t02', [("tx", "5555"), ("rx", "02")]),
+]
+
+# What is not clear, or has a slip: the text, its line, and what the refusal says.
+NO_LOGS = [
+    ("TX: 55 5", 1, "half a byte"),
+    ("[12:01:02] 55\n02 07", 2, "no line of a log"),
+    ("[12:01:02] 55\n[12:01:03] started", 2, "no hex digit"),
+    ("2026-01-02 12:01:02,123 DEBUG x: opened it", 1, "without bytes"),
+    ("2026-01-02 12:01:02,123 DEBUG x: took 55", 1, "may be no byte"),
+    ("2026-01-02 12:01:02,123 DEBUG x: sent deed 55", 1, "may be no byte"),
+    ("2026-01-02 12:01:02,123 DEBUG x: sent b'U', got b'U'", 1, "several bytes literals"),
+    ("2026-01-02 12:01:02,123 DEBUG x: sent b'\\xZZ'", 1, "no bytes literal"),
+    ("t;tx;rx\n0.5;55", 2, "2 columns, and the header has 3"),
+    ("t;tx;rx\n0.5;55;5", 2, "half a byte"),
+    ("TX: 55\nRX 55", 2, "no line of a log"),
+]
+
 
 def random_texts(count: int) -> list[str]:
     """Return texts that are nearly hex, the same each time."""

@@ -16,7 +16,7 @@ from framegen.cases.malformed import malformed_in
 from framegen.hextext import HexError, read_hex
 from framegen.reading.yamltree import Unusable
 from framegen.recording_file import EITHER, NOISE, QUIET
-from framegen.recording_form import TIMED_LINE, is_text, text_of
+from framegen.recording_form import TIMED_LINE, LogError, is_text, log_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -116,11 +116,15 @@ class _Line(ValueError):  # noqa: N818 - where it is
 def _plain(lines: list[str]) -> Iterator[Stretch]:
     """Yield hex as text, in which the line may have gone quiet."""
     data, size = b"", 0
+    log = log_lines("\n".join(lines))
     for number, line in enumerate(lines, 1):
         if line.strip() == QUIET and data:
             yield Stretch(data, f"byte {size}")
             size, data = size + len(data), b""
-        data += _hex(line, number)
+        try:
+            data += _hex(line if log is None else log.hex_of(line), number)
+        except LogError as error:
+            raise _Line(number, str(error)) from None
     if data:
         yield Stretch(data, f"byte {size}")
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from framegen.hextext import HexError, read_hex
 from framegen.reading.text import shown
+from framegen.recording_form import LogError, without_log
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -52,9 +53,11 @@ def run(arguments: Namespace) -> int:
     spec, words = None, arguments.words
     if _is_spec(words[0]):
         spec, words = Path(words[0]), words[1:]
-    text = " ".join(words)
     try:
+        text = without_log(" ".join(words))
         data = read_hex(text)
+    except LogError as error:
+        raise Unusable(str(error)) from None
     except HexError as error:
         raise Unusable(_pointed(text, error), hint=error.hint) from None
     if not data:

@@ -7,7 +7,7 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from framegen.hextext import HexError, read_hex
-from framegen.recording_form import is_text, text_of
+from framegen.recording_form import LogError, is_text, log_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -51,8 +51,9 @@ def read_capture(content: bytes, form: str = "auto") -> Capture:
 
 
 def _lines(text: str) -> Iterator[bytes]:
+    log = log_lines(text)
     for number, line in enumerate(text.split("\n"), 1):
         try:
-            yield read_hex(line)
-        except HexError as error:
+            yield read_hex(line if log is None else log.hex_of(line))
+        except (HexError, LogError) as error:
             raise ValueError(f"line {number}: {error}") from None

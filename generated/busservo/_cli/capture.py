@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .._codec.hextext import HexError, is_hex, read_hex
 from .._recording.entry import NAMED
+from .._recording.form import log_lines
 from ..recordings import FORMS
 from .recording import Recording, opened
 from .usage_error import UsageError
@@ -59,8 +60,12 @@ def opened_capture(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
     if file is None and len(words) == 1 and words[0] != "-" and _is_file(words[0]):
         file = Path(words[0])
     if file is None and words and words != ["-"]:
+        text = " ".join(words)
+        if log_lines(text) is not None:
+            yield Recording(io.BytesIO(text.encode(errors="replace")), "the command line"), "hex"
+            return
         try:
-            data = read_hex(" ".join(words))
+            data = read_hex(text)
         except HexError as error:
             _refuse_files(words)
             other = f", and there is no file {words[0]!r}" if len(words) == 1 else ""

@@ -38,6 +38,31 @@ _ENOUGH = 16
 _NOT_PRINTABLE = re.compile(rb"[^\n]*[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\xff]")
 _LOOKED_AT = 4096
 
+# Lines as terminals, loggers and tables have them. A bracketed time alone makes such a line: a bare
+# one may be bytes.
+_CLOCK = (
+    r"(?P<{}>(?:[0-9]{{4}}-[0-9]{{2}}-[0-9]{{2}}[ T])?"
+    r"[0-9]{{2}}(?::[0-9]{{2}}){{2}}(?:[.,][0-9]{{1,9}})?)"
+)
+_MONITORED = re.compile(
+    rf"\s*(?:{_CLOCK.format('at')}(?:\s*->|(?=\s+[TR]X\s*:))|\[{_CLOCK.format('in_brackets')}\])?"
+    r"\s*(?:(?P<way>[TR]X)\s*:)?\s*(?P<said>.*)",
+    re.IGNORECASE,
+)
+_LEVEL = r"(?:DEBUG|INFO|WARNING|ERROR|CRITICAL)"
+_LOGGED = re.compile(
+    rf"\s*(?:{_CLOCK.format('at')}\s+(?:-\s+)?(?:{_LEVEL}\s+[\w.-]+:|[\w.-]+\s+-\s+{_LEVEL}\s+-)"
+    rf"|{_LEVEL}:[\w.-]+:)\s*(?P<said>.*)"
+)
+_LITERAL = re.compile(r"""b(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""")
+_BYTES_BEGIN = re.compile(r"(?:b['\"]|(?:0[xX]|\\x)?[0-9A-Fa-f]{2}(?![G-Zg-z]))")
+# Letters alone are a word rather than bytes; unless they are one byte.
+_BYTES_WORD = re.compile(r"(?:(?:0[xX])?(?=[A-Fa-f]*[0-9]|..$)(?:[0-9A-Fa-f]{2})+,?)")
+_SENT = {"tx", "sent", "send", "sends", "sending", "write", "writing", "wrote", "written"}
+_CAME = {"rx", "received", "receive", "receiving", "recv", "read", "reading", "got"}
+_TABLE_TIMES = {"t", "time", "timestamp", "time [s]", "time (s)", "t [s]", "t_s", "time_s"}
+_SECONDS = re.compile(r"[0-9]{1,9}\.[0-9]{1,9}")
+
 
 def begun_as(read_some: Callable[[], bytes], form: str) -> tuple[bytes, bool]:
     """Return how a capture of one of FORMS begins, and whether it is text.
@@ -57,7 +82,7 @@ def is_text(begun: bytes, *, ended: bool) -> bool | None:
     """Return whether bytes that begin so are hex written as text; None while that is undecided.
 
     The answer follows from the first word alone, wherever the bytes are cut: it is made of hex
-    digits; or it is a typing error in a line that has the form of a recording. Without a word, a
+    digits; or it begins a line that has the form of a recording or of a log. Without a word, a
     comment and blanks are text; marks that separate nothing are bytes, of which none is lost.
     `ended` says that no more bytes will come.
     """
@@ -107,8 +132,182 @@ def _is_timed_line(rest: bytes, *, ended: bool) -> bool | None:
     if _NOT_PRINTABLE.match(line):
         return False
     if end or ended or len(rest) >= _LOOKED_AT:
-        return TIMED_LINE.match(line.decode("ascii")) is not None
+        text = line.decode("ascii")
+        return TIMED_LINE.match(text) is not None or log_lines(text) is not None
     return None
+
+
+class LogError(ValueError):
+    """A line of a log that says no bytes, or not clearly which."""
+
+
+def log_lines(text: str) -> LogLines | None:
+    """Return a reader of lines like the first with bytes of a text; None if that is no log.
+
+    A log is what a serial monitor, Python's logging, or a table of two wires says of a line:
+    `12:01:02.123 -> 55 55`, `TX: 55 55`, `... DEBUG x: sent b'UU'`, `t;tx;rx`.
+    """
+    lines = (line for line in text.split("\n") if line.partition("#")[0].strip())
+    first = next(lines, "")
+    if len(first) >= LONGEST_LINE or TIMED_LINE.match(first):
+        return None
+    return _table(first) or _log(first)
+
+
+def without_log(text: str) -> str:
+    """Return the hex alone of a text that may be a log, line by line. Raises LogError."""
+    log = log_lines(text)
+    return text if log is None else "\n".join(map(log.hex_of, text.split("\n")))
+
+
+class LogLines:
+    """A reader of the lines of a log, which holds the clock of the first."""
+
+    def __init__(self) -> None:
+        self._began: float | None = None
+        self._last = 0.0
+
+    def read(self, line: str) -> list[tuple[str, float | None, str]]:
+        """Return what a line says: the hex, the seconds since the first, `tx`, `rx` or nothing.
+
+        Raises LogError, which says what is wrong with the line.
+        """
+        if not line.partition("#")[0].strip():
+            return []
+        logged = _LOGGED.match(line)
+        if logged is not None:
+            text, way = _said(logged["said"])
+            return [(text, self._seconds(logged["at"]), way)]
+        found = _MONITORED.match(line)
+        if found is None or not (found["at"] or found["in_brackets"] or found["way"]):
+            raise LogError(
+                "it is no line of a log, with a time or a direction, and other lines are"
+            )
+        said = found["said"].strip()
+        if _LITERAL.fullmatch(said):
+            said = _hex_of(said)
+        return [(said, self._seconds(found["at"] or found["in_brackets"]), _lower(found["way"]))]
+
+    def hex_of(self, line: str) -> str:
+        """Return the hex of a line alone. Raises LogError."""
+        return " ".join(text for text, _, _ in self.read(line))
+
+    def _seconds(self, clock: str | None) -> float | None:
+        if clock is None:
+            return None
+        day, _, time = clock.replace("T", " ").rpartition(" ")
+        hours, minutes, seconds = time.replace(",", ".").split(":")
+        at = int(hours) * 3600 + int(minutes) * 60 + float(seconds) + 86400 * _days(day)
+        # A clock without a day goes on after midnight.
+        while not day and at < self._last - 43200:
+            at += 86400
+        self._last = at
+        return self._since(at)
+
+    def _since(self, at: float) -> float:
+        if self._began is None:
+            self._began = at
+        return round(at - self._began, 9)
+
+
+class _Table(LogLines):
+    """A reader of a table whose columns are the wires."""
+
+    def __init__(self, head: str, mark: str, names: list[str]) -> None:
+        super().__init__()
+        self._head, self._mark, self._size = head, mark, len(names)
+        self._wires = [(way, names.index(way)) for way in ("tx", "rx") if way in names]
+        self._time = next((at for at, name in enumerate(names) if name in _TABLE_TIMES), None)
+
+    def read(self, line: str) -> list[tuple[str, float | None, str]]:
+        if not line.partition("#")[0].strip() or line == self._head:
+            return []
+        cells = [cell.strip().strip('"') for cell in line.split(self._mark)]
+        if len(cells) != self._size:
+            problem = f"it has {len(cells)} columns, and the header has {self._size}"
+            raise LogError(problem)
+        at = None if self._time is None else self._time_of(cells[self._time])
+        return [(cells[wire], at, way) for way, wire in self._wires if cells[wire]]
+
+    def _time_of(self, cell: str) -> float | None:
+        if _SECONDS.fullmatch(cell):
+            return self._since(float(cell))
+        return self._seconds(cell) if re.fullmatch(_CLOCK.format("at"), cell) else None
+
+
+def _table(first: str) -> LogLines | None:
+    mark = next((mark for mark in ";,\t" if mark in first), None)
+    names = [name.strip().strip('"').lower() for name in first.split(mark)] if mark else []
+    if not {"tx", "rx"} & {*names} or len({*names}) < len(names):
+        return None
+    return _Table(first, mark or "", names)
+
+
+def _log(first: str) -> LogLines | None:
+    logged = _LOGGED.match(first)
+    if logged is not None and logged["at"] is None:
+        try:
+            _said(logged["said"])
+        except LogError:
+            return None
+    found = _MONITORED.match(first)
+    marked = found is not None and (found["at"] or found["in_brackets"] or found["way"])
+    is_monitored = found is not None and marked and _BYTES_BEGIN.match(found["said"])
+    return LogLines() if logged is not None or is_monitored else None
+
+
+def _said(message: str) -> tuple[str, str]:
+    """Return the hex in what somebody logged, and the way that it went. Raises LogError."""
+    literals = [*_LITERAL.finditer(message)]
+    if len(literals) > 1:
+        raise LogError(
+            "it has several bytes literals, and nothing says which of them was on the line"
+        )
+    if literals:
+        return _hex_of(literals[0].group()), _way(message[: literals[0].start()].split())
+    words = message.split()
+    begin = len(words)
+    while begin and _BYTES_WORD.fullmatch(words[begin - 1]):
+        begin -= 1
+    before = words[:begin]
+    if begin == len(words):
+        raise LogError(
+            "it is a line of a log without bytes at its end; remove it, or put a # before it"
+        )
+    if before and not before[-1].endswith(":") and before[-1].lower() not in _SENT | _CAME:
+        problem = f"{before[-1]!r} stands before {words[begin]!r}, so that this may be no byte"
+        raise LogError(f"{problem}; put `sent`, `received` or a colon between them")
+    return " ".join(words[begin:]), _way(before)
+
+
+def _way(words: list[str]) -> str:
+    """Return the way that words name; nothing where they name both, or none."""
+    said = {word.strip(":,").lower() for word in words}
+    sent, came = bool(said & _SENT), bool(said & _CAME)
+    return "" if sent == came else "tx" if sent else "rx"
+
+
+def _hex_of(literal: str) -> str:
+    from ast import literal_eval  # noqa: PLC0415 - only few logs have literals
+
+    try:
+        data: bytes = literal_eval(literal)
+    except (SyntaxError, ValueError):
+        raise LogError(f"{literal[:40]!r} is no bytes literal of Python") from None
+    return data.hex(" ")
+
+
+def _days(day: str) -> int:
+    from datetime import date  # noqa: PLC0415 - only few logs have days
+
+    try:
+        return date.fromisoformat(day).toordinal() if day else 0
+    except ValueError:
+        raise LogError(f"{day} is no day") from None
+
+
+def _lower(way: str | None) -> str:
+    return (way or "").lower()
 
 
 def text_of(content: bytes) -> str:

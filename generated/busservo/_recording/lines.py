@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from datetime import datetime
 
-from .._codec.codec import table_for
+from .._codec.codec import table_for, twins
 from .._codec.decoder import Event, StreamDecoder
 from .._codec.event_bytes import bytes_of
 from .._codec.hextext import HexError, read_hex
@@ -15,7 +15,7 @@ from .._frame.direction import RECEIVED
 from .._frame.errors import Reason
 from .entry import SENDERS, WAYS, Entry, RecordingError
 from .file import EITHER, NOISE
-from .form import LONGEST_LINE, TIMED_LINE
+from .form import LONGEST_LINE, TIMED_LINE, LogError
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._frame.direction import Direction
+    from .form import LogLines
 
 _BEGAN = re.compile(
     r"# recorded of .* from (\d{4}-\d\d-\d\d \d\d:\d\d:\d\d)(\.\d{1,6})? ([+-]\d{4}) on"
@@ -54,6 +55,56 @@ def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Ent
             for event in _events(data, sender, what.strip(), is_noise=is_noise):
                 yield Entry(event, sender, offset, line=number, time=time, began=began)
                 offset += len(bytes_of(event))
+
+
+def logged(blocks: Iterable[str], lines: LogLines, direction: Direction | None) -> Iterator[Entry]:
+    """Yield the entries of a log, in which what each end sends is one stream.
+
+    TX is what this end sends, and RX what comes to it; `direction` is of lines that name neither.
+    """
+    streams: dict[str, tuple[StreamDecoder, str | None]] = {}
+    offset = 0
+    number = 0
+    at: float | None = None
+    for block in blocks:
+        for line in block.removesuffix("\n").split("\n"):
+            number += 1
+            for text, at, way in _logged_line(lines, line, number):
+                try:
+                    data = read_hex(text)
+                except HexError as error:
+                    raise RecordingError(f"line {number}: {error}") from None
+                if way not in streams:
+                    streams[way] = _stream_of(way, direction)
+                stream, who = streams[way]
+                for event in stream.feed(data):
+                    yield Entry(event, who or sender_of(event), offset, line=number, time=at)
+                    offset += len(bytes_of(event))
+    for stream, who in streams.values():
+        for event in stream.flush():
+            yield Entry(event, who or sender_of(event), offset, line=number, time=at)
+            offset += len(bytes_of(event))
+
+
+def _logged_line(lines: LogLines, line: str, number: int) -> list[tuple[str, float | None, str]]:
+    try:
+        return lines.read(line)
+    except LogError as error:
+        raise RecordingError(f"line {number}: {error}") from None
+
+
+def _stream_of(way: str, direction: Direction | None) -> tuple[StreamDecoder, str | None]:
+    """Return a decoder of what goes one way, and who sends it, None for either."""
+    who = {"tx": RECEIVED.receiver, "rx": RECEIVED.sender}.get(way)
+    if who is None:
+        return StreamDecoder(direction), None if direction is None else direction.sender
+    ways = WAYS[who]
+    return StreamDecoder(ways[0] if len(ways) == 1 else None), who
+
+
+def sender_of(event: Event) -> str | None:
+    """Return who alone sends such an event; None for noise, and for what either end may send."""
+    return None if isinstance(event, Noise) or twins(event) else event.DIRECTION.sender
 
 
 def _beginning(line: str, number: int, began: float | None) -> float | None:

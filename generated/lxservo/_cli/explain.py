@@ -12,6 +12,7 @@ from .._explanation.explanation import Judgement, explain
 from .._explanation.text import as_json, as_text
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError
+from .._recording.form import LogError, without_log
 from .exit_codes import DONE, NOT_ALL
 from .usage_error import UsageError
 
@@ -41,8 +42,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print the explanation."""
     try:
-        data = read_hex(" ".join(arguments.bytes))
-    except HexError as error:
+        data = read_hex(without_log(" ".join(arguments.bytes)))
+    except (HexError, LogError) as error:
         raise UsageError(str(error)) from None
     if not data:
         raise UsageError("there are no bytes to explain: give them in hex")

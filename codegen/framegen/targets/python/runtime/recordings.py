@@ -1,10 +1,12 @@
-"""Read recordings of a line: a client's `trace`, a log of `monitor`, hex, or raw bytes.
+"""Read recordings of a line: a client's `trace`, a log of `monitor` or others, hex, or raw bytes.
 
     for entry in read("line.hex"):
         print(entry.time, entry.sender, entry.event)
 
 A recording is read piece by piece, and never held as a whole. Each line of one says when its bytes
-came and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream.
+came and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream, and
+so is each way of a log of other programs, such as `12:01:02.123 -> 55 55`, `TX: 55 55`, a line of
+Python's logging, or a table with columns `tx` and `rx`; TX is what this end sends.
 """
 
 from __future__ import annotations
@@ -15,22 +17,19 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 from pathlib import Path
 
-from ._codec.codec import twins
 from ._codec.decoder import Event, StreamDecoder
 from ._codec.event_bytes import bytes_of
 from ._codec.hextext import HexError, HexReader
-from ._codec.noise import Noise
 from ._frame.direction import Direction
 from ._recording.entry import Entry, RecordingError
 from ._recording.file import QUIET
-from ._recording.form import FORMS, TIMED_LINE, begun_as, blocks
-from ._recording.lines import recorded
+from ._recording.form import FORMS, TIMED_LINE, begun_as, blocks, log_lines
+from ._recording.lines import logged, recorded, sender_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from typing import Protocol
 
-    from ._frame.message import Message
 else:
     Protocol = object  # it is for type checkers alone
 
@@ -96,14 +95,9 @@ def _streamed(decoded: Iterable[list[Event]], direction: Direction | None) -> It
     offset = 0
     for events in decoded:
         for event in events:
-            yield Entry(event, _sender(event, direction), offset, direction=direction)
+            who = sender_of(event) if direction is None else direction.sender
+            yield Entry(event, who, offset, direction=direction)
             offset += len(bytes_of(event))
-
-
-def _sender(event: Message | Noise, direction: Direction | None) -> str | None:
-    if direction is not None:
-        return direction.sender
-    return None if isinstance(event, Noise) or twins(event) else event.DIRECTION.sender
 
 
 def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Event]]:
@@ -121,8 +115,11 @@ def _text(text: Iterator[str], direction: Direction | None) -> Iterator[Entry]:
         first = next(lines, None)
         if first is not None:
             whole = chain(before, text)
+            log = log_lines(first)
             if TIMED_LINE.match(first):
                 yield from recorded(whole, direction)
+            elif log is not None:
+                yield from logged(whole, log, direction)
             else:
                 yield from _streamed(_hex(whole, StreamDecoder(direction)), direction)
             return

@@ -156,6 +156,11 @@ def _way(word: str) -> Direction:
 
 def _bytes(digits: str) -> bytes:
     try:
+        # Programs write digits alone, of which 0b begins a byte like another.
+        return bytes.fromhex(digits)
+    except ValueError:
+        pass
+    try:
         return read_hex(digits)
     except HexError as error:
         raise UsageError(str(error)) from None
