@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from codecs import getincrementaldecoder
+from datetime import date
 from itertools import chain
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -55,6 +56,7 @@ _LOGGED = re.compile(
     rf"|{_LEVEL}:[\w.-]+:)\s*(?P<said>.*)"
 )
 _LITERAL = re.compile(r"""b(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""")
+_ESCAPED = re.compile(r"(?:[ -\[\]-~]|\\(?:x[0-9A-Fa-f]{2}|[0-7]{1,3}|[abfnrtv'\"\\]))*")
 _BYTES_BEGIN = re.compile(r"(?:b['\"]|(?:0[xX]|\\x)?[0-9A-Fa-f]{2}(?![G-Zg-z]))")
 # Letters alone are a word rather than bytes; unless they are one byte.
 _BYTES_WORD = re.compile(r"(?:(?:0[xX])?(?=[A-Fa-f]*[0-9]|..$)(?:[0-9A-Fa-f]{2})+,?)")
@@ -288,18 +290,16 @@ def _way(words: list[str]) -> str:
 
 
 def _hex_of(literal: str) -> str:
-    from ast import literal_eval  # noqa: PLC0415 - only few logs have literals
-
+    if _ESCAPED.fullmatch(literal[2:-1]) is None:
+        raise LogError(f"{literal[:40]!r} is no bytes literal of Python")
     try:
-        data: bytes = literal_eval(literal)
-    except (SyntaxError, ValueError):
+        text = literal[2:-1].encode("ascii").decode("unicode_escape")
+        return text.encode("latin-1").hex(" ")
+    except ValueError:  # an octal number that is no byte
         raise LogError(f"{literal[:40]!r} is no bytes literal of Python") from None
-    return data.hex(" ")
 
 
 def _days(day: str) -> int:
-    from datetime import date  # noqa: PLC0415 - only few logs have days
-
     try:
         return date.fromisoformat(day).toordinal() if day else 0
     except ValueError:
