@@ -212,7 +212,7 @@ def test_lines_of_a_recording_keep_their_directions_and_times(bench: Tab) -> Non
 @pytest.mark.parametrize(
     ("text", "said", "selected"),
     [
-        ("55 55\n02 5G", "Line 2, column 5: “G” is no hex digit", "G"),
+        ("55 55\n02 5G", "Line 2, column 5: “G” in “5G” is no hex digit", "G"),
         ("[85, 300]", "Line 1, column 6: “300” is no byte", "300"),
         ("55 # 0.5 s, nobody: x", "Line 1, column 13: “nobody”", "nobody"),
     ],

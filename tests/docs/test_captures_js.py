@@ -13,6 +13,7 @@ import pytest
 from busservo import Reason, recordings
 from busservo._cli.entries import EntryLines
 from busservo._codec.event_bytes import bytes_of
+from busservo._recording.form import log_lines
 from framegen.hextext import HexError, read_hex
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
@@ -20,7 +21,7 @@ from framegen.site.scripts.protocol_data import protocol_data
 from tests.docs.peers import noisy_lines
 from tests.docs.reference import NODE, ROOT, reference
 from tests.docs.scripts import run_script
-from tests.hex_cases import HEX, random_texts
+from tests.hex_cases import HEX, LOGS, NO_LOGS, random_texts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,7 +30,15 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
-READERS = ["capture_place", "hex_text", "code_text", "line_text", "csv_text", "capture_text"]
+READERS = [
+    "hex",
+    "capture_place",
+    "code_text",
+    "line_text",
+    "csv_text",
+    "log_text",
+    "capture_text",
+]
 DATA = protocol_data(reference("busservo").model)
 SAYS = """
 const says = captureWords(asked.protocol, "controller_to_host");
@@ -60,7 +69,7 @@ const answers = asked.texts.map(([text, direction, form]) => {{
   return head + events.map((event) => `${{line(event)}}\\n`).join("");
 }});
 """
-SAVERS = [*READERS, "columns", "capture", "notation", "event_words", "workbench_export"]
+SAVERS = [*READERS[1:], "columns", "capture", "notation", "event_words", "workbench_export"]
 
 STOP = "55550207"
 MONITORED = """
@@ -109,6 +118,8 @@ FORMS = [
     (f"00000000: {'5500 ' * 8} U.U.\n*\n00000020: 0207  ..", "a hex dump", 16 * "5500" + "0207"),
     ("\ufeff00000000  55 55 02 07", "a hex dump", STOP),
     ("unsigned char stop[] = {\n  0x55, 0x07\n};\nunsigned int len = 2;", "a list in hex", "5507"),
+    ("TX: 55\nTX: 55\nTX: 02\nTX: 07", "annotations of a logic analyser", STOP),
+    ("RX: 55\nRX: Stop bit\nRX: 07", "annotations of a logic analyser", "5507"),
     ("uart-1: 55\nuart-1: 55\nuart-1: 02\nuart-1: 07", "annotations of a logic analyser", STOP),
     (
         "8-16 UART: RX: 55\n16-17 UART: Stop bit\n17-25 UART: RX: 07",
@@ -202,6 +213,23 @@ def test_hex_is_read_as_the_library_reads_it() -> None:
     assert len(texts) > 60
     for text, answer in zip(texts, answers_to(texts), strict=True):
         assert said(answer) == ("hex", read_hex(text).hex()), text
+
+
+def test_logs_are_read_as_the_library_reads_them() -> None:
+    ways = {"tx": "host_to_controller", "rx": "controller_to_host"}
+    for (text, pieces), answer in zip(LOGS, answers_to([text for text, _ in LOGS]), strict=True):
+        assert answer.get("name") == "a log of a line", (text, answer)
+        found = [(piece, it.get("direction")) for piece, it in answer["pieces"]]
+        assert found == [(data, ways.get(way)) for way, data in pieces], text
+        log = log_lines(text)
+        assert log is not None
+        times = [time for line in text.split("\n") for _, time, _ in log.read(line)]
+        assert [it["time"] for _, it in answer["pieces"]] == times, text
+    for (text, line, _), answer in zip(
+        NO_LOGS, answers_to([text for text, *_ in NO_LOGS]), strict=True
+    ):
+        assert answer.get("line") == line, (text, answer)
+        assert text[answer["at"] :].startswith(answer["found"]), text
 
 
 def is_hex(text: str) -> bool:

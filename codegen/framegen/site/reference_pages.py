@@ -31,10 +31,10 @@ _WORKBENCH = (
     "strip",
     "columns",
     "capture_place",
-    "hex_text",
     "code_text",
     "line_text",
     "csv_text",
+    "log_text",
     "capture_text",
     "capture",
     "notation",
@@ -51,7 +51,7 @@ _WORKBENCH = (
 )
 
 # Those of the page of a message.
-_LIVE = ("elements", "strip", "capture_place", "notation", "fields", "live")
+_LIVE = ("elements", "strip", "notation", "fields", "live")
 
 
 class ReferencePages:

@@ -9,6 +9,10 @@ const CAPTURE_SAMPLE = 65536;
 function recognise(sample, says) {
   const lines = firstLines(sample);
   const form = lineFormOf(lines);
+  const log = logReader(lines, says);
+  // A line of one byte may be an annotation as well.
+  const isLog = log && (!form || (!lines.every(([line]) => form.pattern.test(line)) && lines.every(isLogLine)));
+  if (isLog) return { name: "a log of a line", byLine: true, make: () => log };
   if (form) return { name: form.name, byLine: true, make: () => makeLineReader(form, says) };
   const header = csvHeader(lines);
   if (header) {
@@ -32,8 +36,11 @@ function firstLines(text) {
 
 // `received` is the direction of what comes to the end that records, if there is one.
 function captureWords(protocol, received = null) {
+  const way = protocol.directions.find(({ key }) => key === received);
+  const ways = protocol.directions.filter(({ sender }) => sender === way?.receiver);
   return {
     received,
+    sent: ways.length === 1 ? ways[0].key : null,
     senders: new Map(protocol.directions.map(({ key, sender }) => [sender, key])),
     reasons: protocol.reasons,
   };
@@ -54,7 +61,7 @@ function makeCodeReader() {
   const reader = {
     read(text, take) {
       const { bytes, kinds } = readCode(text);
-      if (!kinds.length) makeHexReader().read(text);
+      if (!kinds.length) parseHex(text);
       reader.name = kinds.join(" and ");
       if (bytes.length) take(bytes, {});
     },

@@ -93,7 +93,7 @@ function readLiteral({ 0: all, groups, index: at }, bytes, kinds) {
   if (!literal && !text.includes("\\")) {
     kinds.add("hex in quotes");
     try {
-      bytes.push(...makeHexReader().read(text));
+      bytes.push(...parseHex(text));
     } catch (error) {
       if (error instanceof Unreadable) error.at += start;
       throw error;

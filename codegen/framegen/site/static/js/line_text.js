@@ -148,7 +148,7 @@ function makeRepeatedLines() {
 
 function readHexOf(hex, at) {
   try {
-    return makeHexReader().read(hex);
+    return parseHex(hex);
   } catch (error) {
     if (error instanceof Unreadable) error.at += at;
     throw error;
