@@ -184,3 +184,30 @@ def test_a_guide_that_is_no_text_is_named(
 def test_the_project_is_found_by_the_name_of_its_spec(project: Path) -> None:
     assert main(["docs", "busservo", "--out", "site"]) == 0
     assert Path("site/reference/busservo/1.0.0/index.html").is_file()
+
+
+# ------------------------------------------------------------------ which guides it took
+
+
+def test_it_says_which_guides_it_took(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["docs", "--out", "site"]) == 0
+    assert capsys.readouterr().err == "guides: README.md, of docs/\n"
+    for name in "abcdefgh":
+        (project / "docs" / f"{name}.md").write_text(f"# {name}\n", encoding="utf-8")
+    assert main(["docs", "--out", "site"]) == 0
+    assert capsys.readouterr().err.startswith("guides: README.md, a.md, b.md, c.md, d.md, e.md,")
+    assert main(["docs", "--out", "site"]) == 0
+    assert capsys.readouterr().err.endswith(" e.md, and 3 others, of docs/\n")
+
+
+def test_it_says_that_it_took_none_and_how_to_give_some(
+    project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["docs", "busservo", "--out", "site"]) == 0
+    assert "guides: none of docs/, since a spec is named; leave" in capsys.readouterr().err
+    (project / "docs" / "README.md").unlink()
+    for words in ([], ["busservo"]):
+        assert main(["docs", *words, "--out", "site"]) == 0
+        assert (
+            "guides: none, since there is no docs/README.md; begin one" in capsys.readouterr().err
+        )

@@ -7,10 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.commands.output_arguments import add_force, add_spec
+from framegen.console import visible
 from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+
+    from framegen.site.site import Site
 
 SUMMARY = "Build the site of a project: its guides, and the reference of each spec, as HTML pages."
 EXAMPLES = (
@@ -20,6 +23,10 @@ EXAMPLES = (
     ("framegen docs --out site --base https://example.org/", "to be published there"),
     ("framegen docs --out site --strict", "the same in a build that fails if a link is dead"),
 )
+
+
+# More names of guides than these are counted.
+_SHOWN = 6
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -64,8 +71,8 @@ def run(arguments: Namespace) -> int:
     specs = {file: compiled(file) for file in files}
     if print_findings([*specs.values()]):
         return 1
-    docs = None if arguments.spec else guides_folder(files[0])
-    site = Site(read_project(specs, docs, base), snippets())
+    docs = guides_folder(files[0])
+    site = Site(read_project(specs, None if arguments.spec else docs, base), snippets())
     pages = rendered(site)
     if _print_lost([*lost(site, pages)], strict=arguments.strict):
         return 1
@@ -75,10 +82,27 @@ def run(arguments: Namespace) -> int:
     for notice in write(folder, [output], force=arguments.force).notices:
         print(notice, file=sys.stderr)
     index = folder / "index.html"
+    print(_taken(site, docs, arguments.spec), file=sys.stderr)
     print(index)
     if arguments.open:
         _open(index)
     return 0
+
+
+def _taken(site: Site, docs: Path | None, spec: Path | None) -> str:
+    """Return which guides became pages, or how to give some."""
+    if docs is None:
+        return (
+            "guides: none, since there is no docs/README.md; begin one with a title, a sentence, "
+            "and a list of links to the Markdown files beside it"
+        )
+    folder = visible(docs.as_posix())
+    if spec is not None:
+        return f"guides: none of {folder}/, since a spec is named; leave its name out to have them"
+    names = [visible(path) for path in site.project.guides]
+    more = f", and {len(names) - _SHOWN} others" if len(names) > _SHOWN + 1 else ""
+    shown = names[:_SHOWN] if more else names
+    return f"guides: {', '.join(shown)}{more}, of {folder}/"
 
 
 def _print_lost(found: list[str], *, strict: bool) -> bool:

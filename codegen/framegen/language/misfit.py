@@ -40,19 +40,26 @@ _MESSAGES = {
     "notation": "{message}",
     "notation_type": "{what} is written as text, like `{example}`, and this is {found}",
 }
+# A value that YAML takes for a comment, such as that of a colour.
+_COMMENT = re.compile(r"[^#'\"]*: +(#\w+)")
 
 
 def misfits(
-    source: Source, tree: Tree, problems: Iterable[Any], doubtful: Container[Span]
+    source: Source,
+    tree: Tree,
+    problems: Iterable[Any],
+    doubtful: Container[Span],
+    language: type[BaseModel] = Spec,
 ) -> Iterator[Finding]:
     """Turn pydantic's errors into findings, except at the `doubtful` places.
 
-    Hints are worked out only for the findings that are shown.
+    `language` is the model of the whole file. Hints are worked out only for the findings that are
+    shown.
     """
     placed = sorted((_Misfit.of(tree, problem) for problem in problems), key=lambda each: each.span)
     shown = [misfit for misfit in placed if misfit.span not in doubtful]
     for number, misfit in enumerate(shown):
-        yield misfit.finding(source, tree, hinted=number < MOST_FINDINGS)
+        yield misfit.finding(source, tree, language if number < MOST_FINDINGS else None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,15 +76,15 @@ class _Misfit:
         on_key = problem["type"] in ("missing", "extra_forbidden") or problem["loc"][-1] == "[key]"
         return cls(problem, path, tree.key_at(path) if on_key else tree.value_at(path))
 
-    def finding(self, source: Source, tree: Tree, *, hinted: bool) -> Finding:
-        """Return the finding, with a hint if asked for."""
+    def finding(self, source: Source, tree: Tree, language: type[BaseModel] | None) -> Finding:
+        """Return the finding, with a hint if a language is given."""
         kind, last = self.problem["type"], str(self.problem["loc"][-1])
         path = dotted(self.path)
         if kind == "missing":
-            hint = _missing(tree, self.path, last) if hinted else ""
+            hint = _missing(tree, self.path, last, language) if language else ""
             return Finding("missing-key", self.span, path, f"the key `{last}` is missing", hint)
         if kind == "extra_forbidden":
-            hint = _meant(tree, self.path, last) if hinted else ""
+            hint = _meant(tree, self.path, last, language) if language else ""
             return Finding("unknown-key", self.span, path, f"there is no key `{last}` here", hint)
         context = {"found": _kind(self.problem["input"]), **self.problem.get("ctx", {})}
         text: str = _MESSAGES[kind] if kind in _MESSAGES else self.problem["msg"]
@@ -93,7 +100,8 @@ class _Misfit:
         if self.problem["type"] not in ("string_type", "notation_type"):
             return ""
         if not isinstance(self.problem["input"], bool | int | float):
-            return ""
+            lost = _COMMENT.match(source.line(self.span.line))
+            return f'put it in quotes, since # begins a comment: "{lost[1]}"' if lost else ""
         start = self.span.column - 1
         text = source.line(self.span.line)[start : start + self.span.length]
         if self.problem.get("ctx", {}).get("what") == "hex":
@@ -158,9 +166,9 @@ def _steps_in(tree: Tree, steps: tuple[str | int, ...]) -> Iterator[str | int]:
             yield step
 
 
-def _meant(tree: Tree, path: KeyPath, key: str) -> str:
+def _meant(tree: Tree, path: KeyPath, key: str, language: type[BaseModel]) -> str:
     """Say what a key that there is not was meant to be."""
-    model = _model_at(tree, path[:-1])
+    model = _model_at(tree, path[:-1], language)
     if model is None:
         return ""
     if " " in key and _at(tree, path[:-1]).get(key) is None:
@@ -174,9 +182,9 @@ def _meant(tree: Tree, path: KeyPath, key: str) -> str:
     return hint or did_you_mean(key, known)
 
 
-def _missing(tree: Tree, path: KeyPath, key: str) -> str:
+def _missing(tree: Tree, path: KeyPath, key: str, language: type[BaseModel]) -> str:
     """Describe a missing key, with the description that editors show, or a line to paste."""
-    model = _model_at(tree, path[:-1])
+    model = _model_at(tree, path[:-1], language)
     if model is None:
         return ""
     if key in ("covers", "counts"):
@@ -213,9 +221,9 @@ def _keys(model: type[BaseModel]) -> list[str]:
     return [info.alias or name for name, info in model.model_fields.items()]
 
 
-def _model_at(tree: Tree, path: KeyPath) -> type[BaseModel] | None:
+def _model_at(tree: Tree, path: KeyPath, language: type[BaseModel]) -> type[BaseModel] | None:
     """Find the model of the mapping at `path`; of a union, the member that it is meant to be."""
-    models, here = _models_at(path), _at(tree, path)
+    models, here = _models_at(path, language), _at(tree, path)
     if not isinstance(here, dict):
         return models[0] if models else None
     if ListField in models and NumberField in models:
@@ -228,9 +236,9 @@ def _model_at(tree: Tree, path: KeyPath) -> type[BaseModel] | None:
     return max(models, key=lambda model: len(here.keys() & {*_keys(model)}), default=None)
 
 
-def _models_at(path: KeyPath) -> list[type[BaseModel]]:
+def _models_at(path: KeyPath, language: type[BaseModel]) -> list[type[BaseModel]]:
     """Find the model of the mapping at `path`; of a union, every member."""
-    models: list[type[BaseModel]] = [Spec]
+    models: list[type[BaseModel]] = [language]
     for step in path:
         named = [
             info.annotation

@@ -76,14 +76,8 @@ def dotted(path: KeyPath) -> str:
 
 def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
     """Read one YAML document. Raises Unusable where there is none, or no mapping."""
-    builder = _Builder(source)
-    try:
-        data = builder.document()
-    except yaml.MarkedYAMLError as error:
-        finding = syntax_finding(error, source)
-        raise Unusable("the file is not YAML", finding=finding) from None
-    except yaml.YAMLError as error:
-        raise Unusable(f"the file is not YAML: {' '.join(str(error).split())}") from None
+    tree, findings = read_values(source)
+    data: Any = tree.data
     if not isinstance(data, dict):
         found = (
             "is empty"
@@ -95,7 +89,19 @@ def read_tree(source: Source) -> tuple[Tree, list[Finding]]:
             hint="begin with `framegen: 2` and `protocol:`; "
             "`framegen schema` prints the whole language",
         )
-    builder.tree.data = data
+    return tree, findings
+
+
+def read_values(source: Source) -> tuple[Tree, list[Finding]]:
+    """Read one YAML document of data of any kind, even None. Raises Unusable for no YAML."""
+    builder = _Builder(source)
+    try:
+        builder.tree.data = builder.document()
+    except yaml.MarkedYAMLError as error:
+        finding = syntax_finding(error, source)
+        raise Unusable("the file is not YAML", finding=finding) from None
+    except yaml.YAMLError as error:
+        raise Unusable(f"the file is not YAML: {' '.join(str(error).split())}") from None
     return builder.tree, [*builder.findings, *_hidden(source, builder.findings)]
 
 

@@ -42,13 +42,16 @@ class Assets:
         )
 
 
-def assets(template: str, scripts: Sequence[Sequence[str]]) -> Assets:
-    """Return what a page of a template needs; each script is made of files, without suffix."""
-    return Assets(_style(template), [_compact(*names) for names in scripts])
+def assets(template: str, scripts: Sequence[Sequence[str]], look: str = "") -> Assets:
+    """Return what a page of a template needs; each script is made of files, without suffix.
+
+    `look` is what the style sheet has besides.
+    """
+    return Assets(_style(template, look), [_compact(*names) for names in scripts])
 
 
 @cache
-def _style(template: str) -> Markup:
+def _style(template: str, look: str) -> Markup:
     """Return a style sheet: files of static/css, in the order of their names."""
     files = sorted((_STATIC / "css").glob("*.css"))
     texts = [
@@ -56,7 +59,7 @@ def _style(template: str) -> Markup:
         for file in files
         if template in _STYLES_OF.get(file.stem, (template,))
     ]
-    return Markup("".join(map(compact_style, texts)))  # noqa: S704 - ours
+    return Markup("".join(map(compact_style, [*texts, look])))  # noqa: S704 - ours
 
 
 @cache

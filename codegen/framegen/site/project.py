@@ -11,6 +11,7 @@ from framegen.reading.yamltree import Unusable
 from framegen.site.editions.released import read_released
 from framegen.site.guides.linked_files import linked_files, pictures
 from framegen.site.guides.plan import README, Plan
+from framegen.site.look import Look, read_look
 from framegen.targets.filenames import file_stem
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ class Project:
     Paths are below the folder of the guides. `base` is the address where the site will be, for
     links that must be whole; "" where nobody knows it. `version` is that of the project, if it
     has any. `released` are the released editions of each protocol, the newest first. `folder` is
-    that of the guides, as it was given.
+    that of the guides, as it was given. `look` is what docs/site.yaml says.
     """
 
     specs: Sequence[Compiled]
@@ -42,6 +43,7 @@ class Project:
     version: str = ""
     released: Mapping[str, Sequence[Edition]] = field(default_factory=dict)
     folder: str = "docs"
+    look: Look = field(default_factory=Look)
 
 
 def read_project(
@@ -50,7 +52,7 @@ def read_project(
     """Read what was released of specs, by their files, and the guides below a folder.
 
     With the guides come others that their README lists, the pictures in them, and the files that
-    they link to. Raises Unusable, with the name of the file.
+    they link to, and the look of the site. Raises Unusable, with the name of the file.
     """
     names = {file: compiled.spec.protocol.name for file, compiled in specs.items()}
     _refuse_twins(names)
@@ -59,9 +61,10 @@ def read_project(
         return Project([*specs.values()], base=base, released=editions)
     guides = {path: _text(docs / path) for path in _guides(docs, names.values())}
     guides |= _listed(docs, Plan(guides[README]))
-    files = pictures(docs) | linked_files(guides, docs)
+    look = read_look(docs)
+    files = {**pictures(docs), **linked_files(guides, docs), **look.pictures}
     version, folder = _version(docs.parent), docs.as_posix()
-    return Project([*specs.values()], guides, files, base, version, editions, folder)
+    return Project([*specs.values()], guides, files, base, version, editions, folder, look)
 
 
 def _refuse_twins(names: Mapping[Path, str]) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from typing import TYPE_CHECKING
-from urllib.parse import quote, urlsplit
+from urllib.parse import quote
 
 from markupsafe import escape
 
 from framegen.console import visible
+from framegen.language.web_address import address_fault
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
@@ -29,22 +30,11 @@ def base_address(text: str) -> str:
     def refuse(why: str) -> Unusable:
         return Unusable(f"--base {visible(text)}: {why}", hint=_HINT)
 
-    try:
-        parts = urlsplit(text)
-        host = parts.hostname
-        _ = parts.port  # what is no number is found out here
-    except ValueError as error:
-        raise refuse(str(error)) from None
-    if parts.scheme not in ("http", "https"):
-        raise refuse("no address, which begins with https:// or http://")
-    if not host:
-        raise refuse("no host follows the //")
-    if "@" in parts.netloc:
-        raise refuse("a name or a password would stand on every page")
-    if parts.query or parts.fragment or text.endswith(("?", "#")):
+    fault = address_fault(text)
+    if fault:
+        raise refuse(fault)
+    if re.search("[?#]", text):
         raise refuse("pages are below it, so nothing follows a ? or a #")
-    if not re.fullmatch(r"[!-~]+", text) or re.search(r'[<>"\\^`{|}]', text):
-        raise refuse("a character that no address has; spell it with %")
     return text if text.endswith("/") else f"{text}/"
 
 

@@ -46,7 +46,7 @@ def _filled(site: Site, page: Page) -> str:
                 "before": before,
                 "after": after,
                 "banner": banner("" if reference is None else reference.spec),
-                "assets": assets(page.template, [COMMON, *page.scripts]),
+                "assets": assets(page.template, [COMMON, *page.scripts], site.project.look.style),
                 **page.context,
             }
         )

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import posixpath
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
+from urllib.parse import quote
+
+from markupsafe import Markup
 
 from framegen import __version__
 from framegen.site.escape import script_json
 from framegen.site.guides.guide import Guide, page_of
 from framegen.site.guides.linked_files import is_linked, link_to
+from framegen.site.guides.links import FOLDER
 from framegen.site.guides.lost import lost_in, lost_in_plan
 from framegen.site.guides.mentions import Mention, Mentions
 from framegen.site.guides.plan import README, Entry, Plan, Section
@@ -28,14 +33,20 @@ from framegen.site.search.index import SearchIndex
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from markupsafe import Markup
-
+    from framegen.language.site_settings import SiteSettings
     from framegen.site.project import Project
     from framegen.site.reference_pages import ReferencePages
     from framegen.site.sidebar import SidebarSection
     from framegen.targets.target import Snippets
 
 _PREVIEW = "images/preview.png"
+
+
+class Edited(NamedTuple):
+    """Where the file of a page is edited, in words and as an address."""
+
+    words: str
+    address: str
 
 
 def render_site(project: Project, snippets: Snippets) -> dict[str, str]:
@@ -84,7 +95,9 @@ class Site:
 
     @cached_property
     def title(self) -> str:
-        """What the site is called; without guides, as the only protocol is."""
+        """What the site is called: as its author says, its README, or else its only protocol."""
+        if self.look.title:
+            return self.look.title
         if self.plan is not None:
             return self.plan.title
         titles = [each.reference.protocol.title for each in self.references]
@@ -96,14 +109,34 @@ class Site:
         return __version__
 
     @property
-    def logo(self) -> Markup:
-        """The logo beside the title."""
-        return logo()
+    def look(self) -> SiteSettings:
+        """What the author of the site has set."""
+        return self.project.look.settings
 
-    @property
-    def icon(self) -> str:
-        """The icon of all pages."""
-        return icon()
+    def logo(self, page: Page) -> Markup:
+        """Return the logo beside the title."""
+        path = self.project.look.logo
+        if path:
+            return Markup('<img src="{}" alt="">').format(page.top + quote(path))
+        return logo(self.project.look.accent)
+
+    def icon(self, page: Page) -> str:
+        """Return the address of the icon of all pages."""
+        path = self.project.look.icon
+        return page.top + quote(path) if path else icon(self.project.look.accent)
+
+    def edited(self, page: Page) -> Edited | None:
+        """Return where the file is edited that a page is made of, if that can be said."""
+        reference = self.collection.of(page)
+        path, words = "", "Edit this page"
+        if reference in self.references:
+            path, words = reference.reference.spec, "Edit the spec"
+        elif page.template == "guide":
+            path = posixpath.normpath(f"{FOLDER}/{page.context['guide'].path}")
+        elif page.template == "home" and self.plan is not None:
+            path = f"{FOLDER}/{README}"
+        address = self.project.look.edit_address(path) if path else ""
+        return Edited(words, address) if address else None
 
     @property
     def preview(self) -> str:
