@@ -10,7 +10,11 @@ from pathlib import Path
 from typing import TypeAlias
 
 import pytest
+import yaml
 from framegen.cli import main
+from framegen.language.site_settings import SiteSettings, load_settings
+from framegen.reading.source import Source
+from framegen.site.shades import BOUND, worst_contrast
 from framegen.skeleton import skeleton, spec_path
 from framegen.writing import disk
 
@@ -19,6 +23,7 @@ from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
+ACTION = re.compile(r"uses: (\S+@[0-9a-f]{40}) # v")
 GUIDE = Path(__file__).parent.parent / "docs" / "write-a-spec.md"
 
 
@@ -86,6 +91,49 @@ def test_the_printed_commands_lead_to_a_library_that_decodes(workplace: tuple[Pa
         0,
         "     0  device      Level level=500 ‰ | A5 5A 03 01 01 F4\n",
     )
+
+
+def test_its_site_loses_nothing_and_needs_no_server(
+    workplace: tuple[Path, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    folder, _ = workplace
+    monkeypatch.chdir(folder / "kiln")
+    assert main(["docs", "--strict", "--out", str(tmp_path / "site")]) == 0
+    assert capsys.readouterr().err == "guides: README.md, first-steps.md, of docs/\n"
+    home = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
+    assert 'href="first-steps.html"' in home
+    assert 'href="reference/kiln/index.html"' in home
+
+
+def test_its_settings_of_the_site_can_all_be_taken_out_of_their_comments(tmp_path: Path) -> None:
+    text = skeleton("kiln")["docs/site.yaml"]
+    assert load_settings(Source("site.yaml", text))[0] == SiteSettings()
+    keys = "|".join(SiteSettings.model_fields)
+    used = re.sub(f"^# (?=(?:{keys}): )", "", text, flags=re.MULTILINE)
+    values = load_settings(Source("site.yaml", used))[0].model_dump()
+    assert all(values.values())
+    for theme, key in (("light", "accent"), ("dark", "accent_dark")):
+        assert worst_contrast(values[key], theme) >= BOUND
+
+
+def test_its_first_guide_prints_what_it_says(workplace: tuple[Path, str]) -> None:
+    guide = (workplace[0] / "kiln" / "docs" / "first-steps.md").read_text(encoding="utf-8")
+    [(command, printed)] = re.findall(r"```console\n\$ (.*)\n(.*\n)```", guide)
+    done = python(workplace[0] / "kiln", "-m", *command.split())
+    assert (done.returncode, done.stdout) == (0, printed)
+
+
+def test_its_workflows_use_the_actions_that_ours_are_pinned_to() -> None:
+    ours = {
+        action
+        for file in (ROOT / ".github" / "workflows").glob("*.yml")
+        for action in ACTION.findall(file.read_text(encoding="utf-8"))
+    }
+    texts = [text for path, text in skeleton("kiln").items() if path.endswith(".yml")]
+    used = {action for text in texts for action in ACTION.findall(text)}
+    assert len(used) == 5
+    assert used <= ours
+    assert all(yaml.safe_load(text)["permissions"] == {"contents": "read"} for text in texts)
 
 
 def test_its_own_tests_pass(workplace: tuple[Path, str]) -> None:
