@@ -70,7 +70,10 @@ QUESTIONS: dict[str, str] = {
     "what is new": "project/changelog @changelog",
     # Publishers, with a protocol of their own.
     "describe my own protocol": "write-a-spec",
-    "publish docs": "command write-a-spec project/contributing publish",
+    "publish docs": "publish",
+    "github pages": "publish",
+    "where can I host the docs": "publish",
+    "hosting": "publish",
     "licence": "project/contributing write-a-spec what-changes-break",
     "guess the protocol from a recording": "guess-a-spec",
 }
