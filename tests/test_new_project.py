@@ -157,7 +157,7 @@ def test_a_simulator_of_other_messages_is_refused_in_words(tmp_path: Path) -> No
     assert main(["generate", str(spec), "--out", str(tmp_path)]) == 0
     done = python(tmp_path, "-m", name, "simulate")
     assert done.returncode == 2
-    assert f"the package {name}_simulator does not fit {name}: " in done.stderr
+    assert f"the package {name}_simulator does not work with this {name}: " in done.stderr
     assert "Traceback" not in done.stderr
 
 
