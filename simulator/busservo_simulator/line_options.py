@@ -48,8 +48,8 @@ def add_line_arguments(parser: argparse.ArgumentParser, baud: int) -> None:
         type=_baud,
         default=float(baud),
         metavar="BAUD",
-        help="the rate of the line, at which bytes take their time; inf: they are there at once, "
-        f"and a pty is at {baud} all the same (default: {baud})",
+        help="the rate of the line, at which bytes take their time; inf: they arrive at once, "
+        f"and a pty keeps the rate {baud} (default: {baud})",
     )
     where.add_argument(
         "--local-echo",

@@ -60,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=servos,
         default=list(range(1, 7)),
         metavar="LIST",
-        help="the servos that it knows, as in 1-6,9 (default: 1-6)",
+        help="the servos that it has, as in 1-6,9 (default: 1-6)",
     )
     board.add_argument(
         "--missing",

@@ -59,7 +59,7 @@ def test_long_raw_input_is_read_in_pieces(
         (["absent.bin"], "no hex: 's' in 'absent.bin' is no hex digit; write two"),
         (["absent.bin"], "and there is no file 'absent.bin'"),
         (["."], ". is a folder: name a file in it"),
-        ([__file__, __file__], "these are 2 files: give one of them at a time"),
+        ([__file__, __file__], "these are 2 files: give one at a time"),
         (["55 5"], "no hex: '5' is half a byte; did you mean 05?"),
         (["a\0b"], "there is no file 'a\\x00b'"),
         (["x" * 5000], "no hex: 'x' in 'xxx"),

@@ -153,7 +153,7 @@ def test_a_capture_of_nothing_makes_no_table(capsys: Capture, tmp_path: Path) ->
     [
         (["--json", "--parquet", "t"], "argument --parquet: not allowed with argument --json"),
         (["--parquet", "t", "--arrow", "f"], "argument --arrow: not allowed with argument --parq"),
-        (["-t", "delta", "--arrow", "f"], "-t is about what is printed; tables hold all times"),
+        (["-t", "delta", "--arrow", "f"], "-t is for what is printed; tables hold every time"),
         (["--parquet", "taken"], "taken cannot be written: it holds 'notes.txt', which is no"),
         (["--parquet", "taken/notes.txt"], "taken/notes.txt cannot be written: "),
         (["--arrow", "taken"], "taken cannot be written: it is a folder: name a file in it"),

@@ -251,9 +251,9 @@ def test_a_message_is_found(words: str, names: list[str], capsys: Capture) -> No
 @pytest.mark.parametrize(
     ("word", "hint"),
     [
-        ("ServMove", "near it: ServoMove"),
-        ("CMD_MULT_SERVO_UNLAOD", "near it: ServoUnload, ServoPositions"),
-        ("baterry", "near it: battery"),
+        ("ServMove", "similar: ServoMove"),
+        ("CMD_MULT_SERVO_UNLAOD", "similar: ServoUnload, ServoPositions"),
+        ("baterry", "similar: battery"),
         ("xyzzy", "`busservo docs` lists all messages"),
         ("200", "`busservo docs` lists all messages"),
         ("9" * 9999, "`busservo docs` lists all messages"),
@@ -267,7 +267,7 @@ def test_an_unknown_topic_is_reported_with_a_similar_one(
     output, errors = capsys.readouterr()
     assert output == ""
     assert errors == (
-        f"busservo: error: nothing here is called {word[:40]!r}, or speaks of it; {hint}\n"
+        f"busservo: error: no message is called {word[:40]!r} or mentions it; {hint}\n"
     )
 
 

@@ -249,7 +249,7 @@ def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words", "expected"),
     [
-        (EITHER, [], "line 1: it is ActionGroupRun or ActionGroupStarted group=8 times=1, and nob"),
+        (EITHER, [], "line 1: it is ActionGroupRun or ActionGroupStarted group=8 times=1, and not"),
         (hexed(RUN), [], "byte 0: it is ActionGroupRun or ActionGroupStarted"),
         (f"{hexed(ASK)} 13", [], "byte 4: it is no frame (bad header"),
         ("55 55 02 0F 55 55 08", [], "byte 4: it is no frame (too short"),

@@ -195,7 +195,7 @@ def test_more_than_one_motion_moves_are_not_taught(
     with VirtualController("tcp") as board:
         words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1-84"]
         assert main([*words, *PATIENT]) == 2
-    assert "84 servos are more than the 83 that one motion moves" in capsys.readouterr().err
+    assert "84 servos are too many: one motion moves up to 83" in capsys.readouterr().err
 
 
 def test_an_existing_file_is_never_overwritten_without_consent(
@@ -210,7 +210,7 @@ def test_an_existing_file_is_never_overwritten_without_consent(
     before = file.read_text()
     words = ["teach", str(file), "--port", board.port, "--yes", "--ids", "1-3", *PATIENT]
     assert main(words) == 2
-    assert "is there already; --append records behind" in capsys.readouterr().err
+    assert "exists already; --append adds to its poses" in capsys.readouterr().err
     assert (received, file.read_text()) == ([], before)
     typed("q\nn\n")
     assert main([*words, "--force"]) == 1
@@ -230,13 +230,13 @@ def test_an_existing_file_is_never_overwritten_without_consent(
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (["--ids", "1-"], "'1-' is no number, nor two like 1-6"),
-        (["--ids", "\u0661"], "is no number, nor two like 1-6"),
-        (["--ids", "3-1"], "3-1 is outside 0..255, or turned around"),
+        (["--ids", "1-"], "'1-' is neither a number nor a range like 1-6"),
+        (["--ids", "\u0661"], "is neither a number nor a range like 1-6"),
+        (["--ids", "3-1"], "3-1 has its higher number first"),
         (["--ids", "256"], "256 is outside 0..255"),
         (["--append", "--force"], "not allowed with"),
-        ([], "is no file that could be written anew: name another"),
-        (["--force"], "is no file that could be written anew: name another"),
+        ([], "is not a regular file, as poses need one: name another"),
+        (["--force"], "is not a regular file, as poses need one: name another"),
     ],
 )
 def test_teach_refuses_unusable_arguments(
@@ -350,28 +350,28 @@ def test_what_would_be_played_is_shown_and_not_sent(
 
 GOOD = {"positions": {"1": 500}}
 REFUSED: list[tuple[str, str]] = [
-    ("", "line 1, column 1: it is no JSON: Expecting value"),
-    ("{\n  'format': 1}", "line 2, column 3: it is no JSON"),
+    ("", "line 1, column 1: it is not JSON: Expecting value"),
+    ("{\n  'format': 1}", "line 2, column 3: it is not JSON"),
     (100_000 * "[", ": "),
-    ("[]", ": [] is no object {...}"),
+    ("[]", ": [] is not an object {...}"),
     ("{}", ": the key 'format' is missing"),
     (poses_of(format="poses"), "format: \"poses\" is not 'busservo poses'"),
-    (poses_of(version=2), "version: 2 is no version that is known here, which is 1"),
-    (poses_of(version=True), "version: true is no version"),
-    (poses_of(poses=5), "poses: 5 is no list"),
+    (poses_of(version=2), "version: 2 is not a version known here, which is 1"),
+    (poses_of(version=True), "version: true is not a version"),
+    (poses_of(poses=5), "poses: 5 is not a list"),
     (poses_of(speed=5), "there is no key 'speed'; there are format, version, poses"),
     (poses_of(), " holds no pose"),
-    (poses_of(GOOD, []), "poses[1]: [] is no object {...}"),
+    (poses_of(GOOD, []), "poses[1]: [] is not an object {...}"),
     (poses_of(GOOD, {}), "poses[1]: the key 'positions' is missing"),
     (poses_of({**GOOD, "tiem_ms": 5}), "poses[0]: there is no key 'tiem_ms'; did you mean 'time_"),
-    (poses_of({"positions": []}), "poses[0].positions: [] is no object {...}"),
+    (poses_of({"positions": []}), "poses[0].positions: [] is not an object {...}"),
     (poses_of({"positions": {}}), "poses[0].positions: 0 servos is outside 1..83, which one"),
     (poses_of({"positions": dict.fromkeys(map(str, range(84)), 1)}), "84 servos is outside 1..83"),
-    (poses_of({"positions": {"one": 5}}), "poses[0].positions: 'one' is no number of a servo, suc"),
-    (poses_of({"positions": {"01": 5}}), "'01' is no number of a servo"),
-    (poses_of({"positions": {"\u0661": 5}}), "is no number of a servo"),
+    (poses_of({"positions": {"one": 5}}), "poses[0].positions: 'one' is not the number of a servo"),
+    (poses_of({"positions": {"01": 5}}), "'01' is not the number of a servo"),
+    (poses_of({"positions": {"\u0661": 5}}), "is not the number of a servo"),
     (poses_of({"positions": {"256": 5}}), "poses[0].positions.256: 256 is outside 0..255"),
-    (poses_of({"positions": {"9" * 5000: 5}}), "is no number of a servo"),
+    (poses_of({"positions": {"9" * 5000: 5}}), "is not the number of a servo"),
     (poses_of({"positions": {"1": "5"}}), "positions.1: '5' is not a whole number, but a str"),
     (poses_of({"positions": {"1": True}}), "positions.1: True is a truth value"),
     (poses_of({"positions": {"1": 500.0}}), "positions.1: 500.0 is not a whole number"),
@@ -393,7 +393,7 @@ REFUSED: list[tuple[str, str]] = [
     (poses_of({**GOOD, "pause_s": -1}), "poses[0].pause_s: -1 is no number of seconds from 0 to 3"),
     (poses_of({**GOOD, "pause_s": float("nan")}), "poses[0].pause_s: NaN is no number of seconds"),
     (poses_of({**GOOD, "pause_s": True}), "poses[0].pause_s: true is no number of seconds"),
-    ('{"format": 1, "format": 2}', "the key 'format' is there twice in one object"),
+    ('{"format": 1, "format": 2}', "the key 'format' appears twice in one object"),
     ('{"format": ' + 5000 * "9" + "}", ": "),
 ]
 

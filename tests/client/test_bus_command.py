@@ -86,7 +86,7 @@ def test_who_does_not_answer_is_told(port: str, capsys: pytest.CaptureFixture[st
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (["--servo-id", "254"], "--servo-id: nobody answers at 254"),
+        (["--servo-id", "254"], "--servo-id: no device answers at 254"),
         (["--servo-id", "255"], "--servo-id: 255 is outside 0..254"),
     ],
 )

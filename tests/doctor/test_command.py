@@ -92,7 +92,7 @@ def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixtu
     [
         (["--move", "254", "--yes"], "--move 254: servos have numbers from 1 to 253"),
         (["--move", "x"], "argument --move: 'x' is no whole number"),
-        (["--move", "1"], "--move asks first, and nobody is there to answer: say --yes"),
+        (["--move", "1"], "--move asks first, and standard input is no terminal: use --yes"),
         (["--baud", "0"], "argument --baud: 0 is below 1"),
         (["--timeout", "-1"], "argument --timeout: -1 is "),
         (["--report", "/no/such/folder/x"], "/no/such/folder/x cannot be written: No such file"),

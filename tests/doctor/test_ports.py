@@ -101,7 +101,7 @@ def test_a_link_is_what_it_leads_to(tmp_path: Path) -> None:
     ("port", "hid", "state", "seen", "advice"),
     [
         ("COM7", [], PASSED, "no USB HID device (0483:5750) is plugged in", ""),
-        ("COM7", None, UNKNOWN, "nobody here can tell", "pip install hidapi"),
+        ("COM7", None, UNKNOWN, "without hidapi nothing shows", "pip install hidapi"),
         ("COM7", [BOARD], UNKNOWN, "0483:5750 LOBOT is plugged in", "and --port hid://"),
         ("hid://", [BOARD], PASSED, "0483:5750 LOBOT is plugged in", ""),
     ],

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from .._frame.message import Message
 
-ENDS = {UNUSABLE: "there was a question that made no sense; what it was answered says why"}
+ENDS = {UNUSABLE: "a question could not be understood; its answer says why"}
 ABOUT = f"""\
 Questions are read from standard input, a line each, and answered at once:
 
@@ -37,7 +37,7 @@ Questions are read from standard input, a line each, and answered at once:
     encode NAME FIELDS...       frame HEX  or  refused
     stream WAY LARGEST PARTS... what a line says, an event in each line
 
-and a line `end` behind each answer. WAY is {" or ".join(way.value for way in Direction)}.
+and a line `end` after each answer. WAY is {" or ".join(way.value for way in Direction)}.
 PARTS are chunks in hex, and `quiet` where the line goes quiet; no frame of more than LARGEST bytes
 is taken. Events are `message NAME HEX FIELDS...`, `unknown HEX`, `noise REASON HEX` and `quiet`."""
 

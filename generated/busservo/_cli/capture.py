@@ -30,7 +30,7 @@ def add_capture(parser: ArgumentParser) -> None:
         metavar="HEX|FILE",
         help="bytes in hex, or one file of hex or raw bytes; - or nothing is standard input",
     )
-    parser.add_argument("--file", type=Path, metavar="FILE", help="a file, whatever its name")
+    parser.add_argument("--file", type=Path, metavar="FILE", help="a file, even if its name is hex")
     parser.add_argument(
         "--direction",
         choices=[*NAMED, "any"],
@@ -81,7 +81,7 @@ def _refuse_files(words: list[str]) -> None:
     if len(words) == 1 and _is_folder(words[0]):
         raise UsageError(f"{words[0]} is a folder: name a file in it")
     if all(map(_is_file, words)):
-        raise UsageError(f"these are {len(words)} files: give one of them at a time")
+        raise UsageError(f"these are {len(words)} files: give one at a time")
 
 
 def _is_folder(word: str) -> bool:

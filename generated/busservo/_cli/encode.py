@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("message", metavar="MESSAGE", help="its name, such as it has in Python")
+    parser.add_argument("message", metavar="MESSAGE", help="its name, as in Python")
     parser.add_argument(
         "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
     )

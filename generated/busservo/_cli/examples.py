@@ -26,20 +26,23 @@ VERBS = {
 
 EXAMPLES = {
     "ports": (
-        ("busservo ports", "the name, VID:PID and description of each"),
-        ("busservo ports --json", "a line of JSON for each"),
+        ("busservo ports", "name, VID:PID and description of each port"),
+        ("busservo ports --json", "the same as lines of JSON"),
     ),
     "doctor": (
-        ("busservo doctor", "the only port, and the device behind it"),
-        ("busservo doctor --port COM7", "this port"),
+        ("busservo doctor", "check the only port, and the device behind it"),
+        ("busservo doctor --port COM7", "check this port"),
         ('busservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
         ("busservo doctor --port COM7 --json", "for a program to read"),
         ("busservo doctor --port COM7 --move 1", "also move that id, after asking"),
     ),
     "monitor": (
-        ("busservo monitor --port COM7", "every frame and all noise"),
-        ("busservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
-        ("busservo monitor --port COM7 --only noise", "what is no frame"),
+        ("busservo monitor --port COM7", "every frame, and all noise"),
+        (
+            "busservo monitor --port COM7 -t delta -n 5",
+            "five, each with the time since the one before",
+        ),
+        ("busservo monitor --port COM7 --only noise", "only bytes that are no frame"),
         ("busservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
         (
             "busservo monitor --port COM7 --direction any -t absolute",

@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 ENDS = link.ENDS
 ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, what it says, its bytes.
-Ctrl-C ends it, and the totals follow on the error stream. Colours are for terminals alone, and for
-nobody who has set NO_COLOR."""
+Ctrl-C ends it, and the totals follow on the error stream. Colours are shown on terminals only, and
+not where NO_COLOR is set."""
 _READERS = "`decode` and `replay`" if "replay" in VERBS else "`decode`"
 # How long one read may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.25
@@ -73,14 +73,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help=f"show nothing else: a message, {', '.join(KINDS)}; may be given several times",
+        help=f"show only this: a message, {', '.join(KINDS)}; may be given several times",
     )
     parser.add_argument(
         "--hide",
         action="append",
         default=[],
         metavar="NAME",
-        help="show all but this, named likewise",
+        help="hide this: a name as for --only",
     )
     parser.add_argument(
         "--log",

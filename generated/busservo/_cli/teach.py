@@ -79,8 +79,8 @@ def run(arguments: argparse.Namespace) -> int:
             print(hint, file=sys.stderr)
             return NOT_ALL
         if len(ids) > pose.room:
-            problem = f"{len(ids)} {pose.noun}s are more than the {pose.room} that one motion moves"
-            raise UsageError(f"{problem}; choose some by --ids")
+            problem = f"{len(ids)} {pose.noun}s are too many: one motion moves up to {pose.room}"
+            raise UsageError(f"{problem}; choose some with --ids")
         lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits_of(arguments))
         if not arguments.yes and not _agreed(
             f"{listed(pose, ids)} will go limp, and what they hold up falls: support it. Go on?"
@@ -168,12 +168,12 @@ def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
     """Return the poses that are kept. Raises UsageError if a file would be lost."""
     path: Path = arguments.file
     if path.exists() and not path.is_file():
-        raise UsageError(f"{path} is no file that could be written anew: name another")
+        raise UsageError(f"{path} is not a regular file, as poses need one: name another")
     if arguments.append and path.exists():
         return read_poses(path, pose)
     if path.exists() and not arguments.force:
         raise UsageError(
-            f"{path} is there already; --append records behind what it holds, --force instead of it"
+            f"{path} exists already; --append adds to its poses, --force replaces them"
         )
     if not path.parent.is_dir():
         raise UsageError(f"{path} cannot be written: there is no folder {path.parent}")
@@ -210,10 +210,11 @@ def _numbers(text: str) -> tuple[int, ...]:
             low, high = whole(first), whole(last if dash else first)
         except ValueError:
             raise argparse.ArgumentTypeError(
-                f"{part[:40]!r} is no number, nor two like 1-6"
+                f"{part[:40]!r} is neither a number nor a range like 1-6"
             ) from None
         if not pose.item.low <= low <= high <= pose.item.high:
             bounds = f"{pose.item.low}..{pose.item.high}"
-            raise argparse.ArgumentTypeError(f"{part[:40]} is outside {bounds}, or turned around")
+            problem = f"is outside {bounds}" if low <= high else "has its higher number first"
+            raise argparse.ArgumentTypeError(f"{part[:40]} {problem}")
         found |= dict.fromkeys(range(low, high + 1))
     return tuple(found)

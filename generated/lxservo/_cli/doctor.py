@@ -42,8 +42,8 @@ ABOUT = f"""\
 Makes these checks, one after the other:
 {", ".join(check.id for check in CHECKS)}.
 Each line says `passed`, `failed` or `unknown`, what was seen, the bytes that show it, and what to
-do next. It only reads"""
-ABOUT += "." if POSE is None else ";\n--move asks before it moves anything."
+do next. It only reads."""
+ABOUT += "" if POSE is None else " --move asks before it moves anything."
 # The address of a device, where there are several.
 _ADDRESS = address_field()
 _OPTION = f"--{_ADDRESS.replace('_', '-')}"
@@ -62,7 +62,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         parser.add_argument("--move", type=at_least(0), metavar="ID", help=about)
         parser.add_argument("--yes", action="store_true", help="do not ask before --move")
     parser.add_argument(
-        "--report", metavar="FILE", help="write a recording of it all, to be sent to others"
+        "--report", metavar="FILE", help="write a recording of everything, to send to others"
     )
     parser.add_argument(
         "--model", default="", metavar="TEXT", help="what the device is, for the report"
@@ -112,7 +112,7 @@ def _question(address: int | None) -> Message | None:
     except EncodeError as error:
         raise UsageError(f"{_OPTION}: {error.problem}") from None
     if question is not None and EXCHANGES[type(question)].address.silence(question):
-        raise UsageError(f"{_OPTION}: nobody answers at {address}")
+        raise UsageError(f"{_OPTION}: no device answers at {address}")
     return question
 
 
@@ -134,11 +134,11 @@ def _confirm(arguments: Namespace, pose: Pose) -> None:
     if arguments.yes:
         return
     if not sys.stdin.isatty():
-        raise UsageError("--move asks first, and nobody is there to answer: say --yes")
+        raise UsageError("--move asks first, and standard input is no terminal: use --yes")
     warning = f"{pose.noun} {arguments.move} will move by {STEP} steps and back; keep clear of it"
     print(f"{warning}. Go on? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in {"y", "yes"}:
-        raise UsageError("nothing was moved, and nothing looked at")
+        raise UsageError("nothing was moved, and nothing was checked")
 
 
 def _report(path: str) -> Report:

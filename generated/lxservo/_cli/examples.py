@@ -24,19 +24,22 @@ VERBS = {
 
 EXAMPLES = {
     "ports": (
-        ("lxservo ports", "the name, VID:PID and description of each"),
-        ("lxservo ports --json", "a line of JSON for each"),
+        ("lxservo ports", "name, VID:PID and description of each port"),
+        ("lxservo ports --json", "the same as lines of JSON"),
     ),
     "doctor": (
-        ("lxservo doctor", "the only port, and the device behind it"),
-        ("lxservo doctor --port COM7", "this port"),
+        ("lxservo doctor", "check the only port, and the device behind it"),
+        ("lxservo doctor --port COM7", "check this port"),
         ('lxservo doctor --port COM7 --model "V1.3" --report line.hex', "a report to send in"),
         ("lxservo doctor --port COM7 --json", "for a program to read"),
     ),
     "monitor": (
-        ("lxservo monitor --port COM7", "every frame and all noise"),
-        ("lxservo monitor --port COM7 -t delta -n 5", "five, and their distances"),
-        ("lxservo monitor --port COM7 --only noise", "what is no frame"),
+        ("lxservo monitor --port COM7", "every frame, and all noise"),
+        (
+            "lxservo monitor --port COM7 -t delta -n 5",
+            "five, each with the time since the one before",
+        ),
+        ("lxservo monitor --port COM7 --only noise", "only bytes that are no frame"),
         ("lxservo monitor --port COM7 --log line.hex", "recorded for `decode`"),
         (
             "lxservo monitor --port COM7 --direction any -t absolute",

@@ -49,7 +49,7 @@ class _Motion:
         reached, ended = self._moved(target), self._moved(began)
         seen = f"{self._name} was at {began}, was sent to {target}, and was then at {reached}"
         if reached is None or abs(reached - target) > STEP // 2:
-            advice = "see to its supply, which USB is not, and that nothing holds it"
+            advice = "check its supply, which USB is not, and that nothing holds it"
             return failed(seen, advice)
         seen += f"; sent back, it is at {ended}"
         if ended is None or abs(ended - began) > STEP // 2:

@@ -22,7 +22,7 @@ def _look(diagnosis: Diagnosis) -> Result:
         return failed(f"{error.port}: {error.happened}", error.advice)
     except TransportError as error:
         diagnosis.error = error
-        return unknown("it could not be opened for another reason")
+        return unknown("the port could not be opened, for another reason")
     return passed("the system lets you use it")
 
 

@@ -20,7 +20,7 @@ def _look(diagnosis: Diagnosis) -> Result:
     if isinstance(error, PortBusyError):
         more = "; a serial monitor, or on Linux ModemManager, may be it"
         return failed(f"{error.port}: {error.happened}", f"{error.advice}{more}")
-    return unknown("it could not be opened for another reason")
+    return unknown("the port could not be opened, for another reason")
 
 
 CHECK = Check("busy", "no other program has the port", ("permission",), _look)

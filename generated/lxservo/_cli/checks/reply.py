@@ -27,7 +27,7 @@ _ADVICE = {
     "library returns one of such replies, and counts the others",
     "answered by bytes that are no reply": "see to loose plugs and the grounds, and compare the "
     "bytes with the reference: the device may be another, or speak another edition",
-    "not answered": "check the supply of the device and to loose plugs; retries=2 asks again",
+    "not answered": "check the supply of the device and its plugs; retries=2 asks again",
     "answered with noise around it": "check the grounds, the supply and the length of cables",
 }
 

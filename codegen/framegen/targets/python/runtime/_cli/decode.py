@@ -55,7 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--arrow",
         type=Path,
         metavar="FILE",
-        help="write all events in their order into one file, in Arrow's format",
+        help="write all events in order into one file, in Arrow's format",
     )
     parser.add_argument("--strict", action="store_true", help="exit with 1 if there was any noise")
 
@@ -65,7 +65,7 @@ def run(arguments: Namespace) -> int:
     seen = Counters(0, 0, 0, 0)
     if arguments.parquet is not None or arguments.arrow is not None:
         if arguments.time is not None:
-            raise UsageError("-t is about what is printed; tables hold all times that there are")
+            raise UsageError("-t is for what is printed; tables hold every time")
         begun = imported("table_files").write_tables(arguments, seen)
     else:
         begun = _print(arguments, seen)

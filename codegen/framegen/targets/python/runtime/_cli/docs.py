@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from .._explanation.protocol import Message, Protocol
 
 ABOUT = """\
-Of a message by its name, the vendor's name for it, or its number if that is enough to tell, its
-page is printed; of any other word, the messages that have it in their names or their texts."""
+Prints the page of a message, which is named as here, as by the vendor, or by its number if no other
+has that. For any other word, it lists the messages whose names or texts have that word."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -32,7 +32,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "words",
         nargs="*",
         metavar="MESSAGE|WORD",
-        help=f"a message, a word to look for, or {' or '.join(TOPICS)}; all messages without it",
+        help=f"a message, a word to find, or {' or '.join(TOPICS)}; without one, all are listed",
     )
     parser.add_argument("--json", action="store_true", help="print a line of JSON for each")
 
@@ -44,8 +44,8 @@ def run(arguments: Namespace) -> int:
     found = [] if topic else find(model, words)
     if not topic and not found:
         names = near(model, words)
-        hint = f"near it: {', '.join(names)}" if names else f"`{PROGRAM} docs` lists all messages"
-        raise UsageError(f"nothing here is called {words[:40]!r}, or speaks of it; {hint}")
+        hint = f"similar: {', '.join(names)}" if names else f"`{PROGRAM} docs` lists all messages"
+        raise UsageError(f"no message is called {words[:40]!r} or mentions it; {hint}")
     if arguments.json:
         for entry in _entries(model, topic, found):
             print(json.dumps(entry))

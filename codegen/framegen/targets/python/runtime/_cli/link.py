@@ -63,14 +63,14 @@ def add_port(parser: argparse.ArgumentParser, *, client: bool = True) -> None:
         type=_rate,
         default=BAUD,
         metavar="BAUD",
-        help=f"the rate of the line; inf: one that takes no time, as TCP may be (default: {BAUD})",
+        help=f"the rate of the line; inf: bytes take no time, as over TCP (default: {BAUD})",
     )
     if client:
         parser.add_argument(
             "--local-echo",
             action=BooleanOptionalAction if LOCAL_ECHO else "store_true",
             default=LOCAL_ECHO,
-            help="the line gives back what is sent, as adapters for half-duplex wires do",
+            help="the line echoes what is sent, as adapters for half-duplex wires do",
         )
 
 
@@ -126,7 +126,7 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
         type=above_zero(highest=_LONGEST, unit="seconds"),
         default=REPLY_TIMEOUT,
         metavar="S",
-        help="seconds that the device may take for an answer, besides those on the wire "
+        help="seconds to wait for a reply, besides its time on the wire "
         f"(default: {REPLY_TIMEOUT})",
     )
 

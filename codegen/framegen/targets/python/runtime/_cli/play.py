@@ -34,7 +34,7 @@ ABOUT = """\
 Moves to each pose of FILE, which `teach` has written, and waits for as long as that takes. The
 whole file is looked at before the first move. Ctrl-C commands the positions of that moment, so that
 nothing moves on. Give it room, and look at --dry-run first: nothing here knows what is in the way,
-and the way to the first pose is as long as it is."""
+and the first pose may be far away."""
 # How long one sleep may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.1
 

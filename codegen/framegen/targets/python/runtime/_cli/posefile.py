@@ -51,7 +51,7 @@ def read_poses(path: Path, pose: Pose) -> list[Recorded]:
         data = json.loads(text, object_pairs_hook=_without_doubles)
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
-        raise UsageError(f"{path}, {where}: it is no JSON: {error.msg}") from None
+        raise UsageError(f"{path}, {where}: it is not JSON: {error.msg}") from None
     except (ValueError, RecursionError) as error:
         raise UsageError(f"{path}: {error}") from None
     return _Reader(path, pose).poses(data)
@@ -100,7 +100,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     made: dict[str, Any] = {}
     for key, value in pairs:
         if key in made:
-            raise ValueError(f"the key {key[:40]!r} is there twice in one object")
+            raise ValueError(f"the key {key[:40]!r} appears twice in one object")
         made[key] = value
     return made
 
@@ -117,12 +117,10 @@ class _Reader:
         if data["format"] != FORMAT:
             raise self._wrong("format", f"{_shown(data['format'])} is not {FORMAT!r}")
         if data["version"] != VERSION or isinstance(data["version"], bool):
-            problem = (
-                f"{_shown(data['version'])} is no version that is known here, which is {VERSION}"
-            )
+            problem = f"{_shown(data['version'])} is not a version known here, which is {VERSION}"
             raise self._wrong("version", problem)
         if not isinstance(data["poses"], list):
-            raise self._wrong("poses", f"{_shown(data['poses'])} is no list")
+            raise self._wrong("poses", f"{_shown(data['poses'])} is not a list")
         return [self._recorded(each, f"poses[{at}]") for at, each in enumerate(data["poses"])]
 
     def _recorded(self, data: Any, place: str) -> Recorded:
@@ -151,7 +149,7 @@ class _Reader:
 
     def _number(self, key: str, place: str) -> int:
         if not (key.isascii() and key.isdecimal()) or str(int(key[:9])) != key:
-            problem = f'{key[:40]!r} is no number of a {self._pose.noun}, such as "1"'
+            problem = f'{key[:40]!r} is not the number of a {self._pose.noun}, such as "1"'
             raise self._wrong(place, problem)
         return self._value(self._pose.item, int(key), f"{place}.{key}")
 
@@ -165,7 +163,7 @@ class _Reader:
     def _object(self, data: Any, place: str, known: list[str] | None, *, needed: int = 0) -> None:
         """Raise UsageError unless it has the first `needed` of the known keys, and no other."""
         if not isinstance(data, dict):
-            raise self._wrong(place, f"{_shown(data)} is no object {{...}}")
+            raise self._wrong(place, f"{_shown(data)} is not an object {{...}}")
         if known is None:
             return
         for key in data:

@@ -149,8 +149,8 @@ def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
     if entry.sender is None and arguments.either is None:
         names = [name for name, way in NAMED.items() if way.sender in own]
         raise UsageError(
-            f"{name}, {entry.place}: it is {what}, and nobody can tell whose; --either send sends "
-            "such frames, --either skip leaves them out, and of a file that names no senders "
+            f"{name}, {entry.place}: it is {what}, and nothing shows who sent it; --either send "
+            "sends such frames, --either skip leaves them out, and of a file that names no senders "
             f"--direction {' or '.join(names)} says that all of it is from here"
         )
     return entry.sender is not None or arguments.either == "send"

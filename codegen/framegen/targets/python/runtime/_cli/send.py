@@ -38,7 +38,7 @@ ENDS = link.ENDS | {NOT_ALL: _NOT_ALL}
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     add_port(parser)
-    parser.add_argument("message", metavar="MESSAGE", help="its name, such as it has in Python")
+    parser.add_argument("message", metavar="MESSAGE", help="its name, as in Python")
     parser.add_argument(
         "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
     )

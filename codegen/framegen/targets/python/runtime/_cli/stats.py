@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
 ABOUT = """\
-Counts and shares of each message, noise by reason, and between what the values lie; of a recording
+Counts and shares of each message, noise by reason, and the range of each value; of a recording
 also rates, gaps, and how much of what the line allows was used. It takes the extra `tables`, and
 --plot the extra `plots`."""
 _SUFFIXES = (".svg", ".png", ".pdf")

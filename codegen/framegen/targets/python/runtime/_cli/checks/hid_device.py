@@ -19,7 +19,7 @@ def _look(diagnosis: Diagnosis) -> Result:
         return passed("no device of this protocol is known to be reached by USB HID")
     if diagnosis.hid_devices is None:
         return unknown(
-            f"nobody here can tell whether a USB HID device ({known}) is plugged in",
+            f"without hidapi nothing shows whether a USB HID device ({known}) is plugged in",
             "pip install hidapi; such a device has no serial port at all",
         )
     if not diagnosis.hid_devices:

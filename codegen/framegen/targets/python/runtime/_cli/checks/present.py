@@ -51,7 +51,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
     seen = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
     seen += f"; reported absent: {absent}" if absent else ""
     if not there:
-        advice = f"check the supply of the {pose.noun}s, which USB is not, and to their cables"
+        advice = f"check the supply of the {pose.noun}s, which USB is not, and their cables"
         return failed(seen, advice, *frames)
     return passed(seen, *frames)
 
