@@ -1,4 +1,4 @@
-"""What forges add to Markdown: alerts, lists of tasks, and words that are struck through."""
+"""What forges add to Markdown: alerts, tasks, words struck through, footnotes, details."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 
 from markdown_it.token import Token
 from markupsafe import Markup
+
+from framegen.site.guides.details import use_details
+from framegen.site.guides.footnotes import use_footnotes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +30,7 @@ def use_forge(markdown: MarkdownIt) -> MarkdownIt:
     markdown.core.ruler.after("block", "alerts", _alerts)
     markdown.core.ruler.push("tasks", _tasks)
     markdown.add_render_rule("task", _task)
-    return markdown
+    return use_details(use_footnotes(markdown))
 
 
 def _alerts(state: StateCore) -> None:
