@@ -10,9 +10,10 @@ import pytest
 from framegen.cli import main
 from framegen.language.load import read_source
 from framegen.language.number_types import NUMBER_TYPES
+from framegen.language.site_settings import SiteSettings
 from framegen.language.spec import Spec
 from framegen.reading.yamltree import read_tree
-from framegen.targets.schema import _KEYWORDS, schema_text
+from framegen.targets.schema import _KEYWORDS, schema_text, site_schema_text
 from jsonschema import Draft202012Validator
 
 ROOT = Path(__file__).parent.parent
@@ -211,3 +212,22 @@ def test_nothing_that_the_language_means_is_left_out() -> None:
     raw = Spec.model_json_schema(by_alias=True, mode="validation")
     given = {keyword for schema in schemas_in(raw) for keyword in schema}
     assert given - set(_KEYWORDS) == {"discriminator"}
+
+
+def test_the_schema_of_site_settings_has_their_keys_and_refuses_others(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["schema", "--site"]) == 0
+    text = capsys.readouterr().out
+    assert text == site_schema_text()
+    schema = json.loads(text)
+    Draft202012Validator.check_schema(schema)
+    assert schema["properties"].keys() == SiteSettings.model_fields.keys()
+    assert all(each["description"] for each in schema["properties"].values())
+    judge = Draft202012Validator(schema)
+    every = {key: each["examples"][0] for key, each in schema["properties"].items()}
+    assert SiteSettings.model_validate(every).model_dump() == every
+    for good in ({}, every):
+        assert judge.is_valid(good)
+    for bad in ({"tilte": "x"}, {"title": 1}, {"accent": None}, []):
+        assert not judge.is_valid(bad)

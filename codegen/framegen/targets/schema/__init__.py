@@ -11,6 +11,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.number_types import ALL_TYPES, NUMBER_TYPES
+from framegen.language.site_settings import SiteSettings
 from framegen.language.spec import Spec
 from framegen.model.checksums import CHECKSUMS
 from framegen.output import banner
@@ -67,6 +68,12 @@ def schema_text() -> str:
 
 
 @cache
+def site_schema_text() -> str:
+    """Return the schema of docs/site.yaml, likewise."""
+    return _written(_tidied(SiteSettings.model_json_schema()), "framegen site")
+
+
+@cache
 def _schema_text() -> str:
     schema = _tidied(Spec.model_json_schema(by_alias=True, mode="validation"))
     whole = [each for each in NUMBER_TYPES.values() if not each.is_float]
@@ -81,9 +88,13 @@ def _schema_text() -> str:
             model["properties"]["signed_as"]["anyOf"][0]["enum"] = signed
         if "method" in model["properties"] and "covers" in model["properties"]:
             model["properties"]["method"]["enum"] = list(CHECKSUMS)
+    return _written(schema, "framegen spec")
+
+
+def _written(schema: dict[str, Any], title: str) -> str:
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     schema["$comment"] = banner("")
-    schema["title"] = "framegen spec"
+    schema["title"] = title
     return json.dumps(_ordered(schema), indent=2, ensure_ascii=False) + "\n"
 
 
