@@ -155,7 +155,11 @@ def test_a_capture_of_nothing_makes_no_table(capsys: Capture, tmp_path: Path) ->
         (["--parquet", "t", "--arrow", "f"], "argument --arrow: not allowed with argument --parq"),
         (["-t", "delta", "--arrow", "f"], "-t is for what is printed; tables hold every time"),
         (["--parquet", "taken"], "taken cannot be written: it holds 'notes.txt', which is no"),
-        (["--parquet", "taken/notes.txt"], "taken/notes.txt cannot be written: "),
+        (["--parquet", "taken/notes.txt"], "taken/notes.txt cannot be written: it is a file, and"),
+        (["--parquet", "55550207"], "argument --parquet: '55550207' reads as bytes in hex: give"),
+        (["--arrow", "0x55,0x55"], "argument --arrow: '0x55,0x55' reads as bytes in hex: give "),
+        (["--parquet", "-"], "argument --parquet: tables cannot be written to standard output"),
+        (["--arrow", "-"], "argument --arrow: tables cannot be written to standard output: name"),
         (["--arrow", "taken"], "taken cannot be written: it is a folder: name a file in it"),
         (["--arrow", "absent/line.arrow"], "absent/line.arrow cannot be written: there is no fold"),
         (["--arrow", "taken/notes.txt"], "taken/notes.txt cannot be written: it is there, and is"),
@@ -177,6 +181,15 @@ def test_a_target_that_cannot_be_used_is_reported_in_a_line(
     assert f"busservo: error: {expected}" in errors
     assert [*tmp_path.rglob("*")] == [tmp_path / "taken", tmp_path / "taken" / "notes.txt"]
     assert (tmp_path / "taken" / "notes.txt").read_text() == "mine"
+
+
+@pytest.mark.parametrize("option", ["--parquet", "--arrow"])
+def test_a_name_that_is_hex_is_written_with_its_folder(
+    capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["decode", "55550207", option, "./cafe"]) == 0
+    assert [each.name for each in tmp_path.iterdir()] == ["cafe"]
 
 
 def test_the_capture_itself_is_never_overwritten(capsys: Capture, tmp_path: Path) -> None:

@@ -9,10 +9,12 @@ from xml.etree import ElementTree as ET
 
 import lxservo
 import lxservo._cli
+import numpy as np
 import pytest
 from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
 from busservo._cli import main
 from busservo._tables.stats import plot, traces
+from busservo._tables.stats.trace import Trace
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -99,6 +101,32 @@ def test_readings_between_absent_ones_are_seen(capsys: Capture, tmp_path: Path) 
     name = "ServoPositions.positions.position"
     # A line shows the first servo, and nothing but points the second.
     assert points == {f"{name}.1": 0, f"{name}.2": 70}
+
+
+@pytest.mark.parametrize(("count", "is_dense"), [(2_000, False), (40_000, True)])
+def test_dense_readings_have_a_band_around_their_mean(count: int, is_dense: bool) -> None:
+    trace = Trace()
+    values = np.where(np.arange(count) % 4 == 0, 900.0, 100.0)
+    values[count // 2] = np.nan
+    trace.add(np.arange(count) / 10, values)
+    assert trace.is_dense == is_dense
+    at, low, mean, high = trace.band()
+    torn = np.isnan(mean)
+    assert torn.sum() == 1
+    assert (np.diff(at) >= 0).all()
+    assert (low[~torn] <= mean[~torn]).all()
+    assert (mean[~torn] <= high[~torn]).all()
+    assert (np.nanmin(low), np.nanmax(high)) == (100, 900)
+    if is_dense:
+        # A bucket of 40 values may hold one high value more or less than its quarter, and a gap.
+        assert abs(mean[~torn] - 300).max() < 2 * 800 / 40
+
+
+def test_equal_readings_are_a_band_without_height() -> None:
+    trace = Trace()
+    trace.add(np.arange(50_000) / 10, np.full(50_000, 0.1))
+    _, low, mean, high = trace.band()
+    assert {*low, *mean, *high} == {0.1}
 
 
 def test_the_same_capture_gives_the_same_drawing(capsys: Capture, tmp_path: Path) -> None:

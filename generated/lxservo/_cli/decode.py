@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentTypeError
 from pathlib import Path
 
 from .._codec.counters import Counters
 from .._codec.event_bytes import bytes_of
+from .._codec.hextext import is_hex
 from .._codec.noise import Noise, UnknownFrame
 from .capture import add_capture, direction_in, opened_capture
 from .entries import EntryLines
@@ -48,13 +50,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     form.add_argument(
         "--parquet",
-        type=Path,
+        type=_target,
         metavar="DIR",
         help="write a table for each message and one of noise into a folder, as Parquet files",
     )
     form.add_argument(
         "--arrow",
-        type=Path,
+        type=_target,
         metavar="FILE",
         help="write all events in order into one file, in Arrow's format",
     )
@@ -74,6 +76,20 @@ def run(arguments: Namespace) -> int:
     if 2 * seen.noise > seen.fed:
         hint(begun)
     return NOT_ALL if arguments.strict and seen.noise else DONE
+
+
+def _target(word: str) -> Path:
+    """Return what tables are written to; a word that reads as input was hardly meant to be that."""
+    if word == "-":
+        raise ArgumentTypeError(
+            "tables cannot be written to standard output: name a folder or file"
+        )
+    if is_hex(word):
+        raise ArgumentTypeError(
+            f"{word[:40]!r} reads as bytes in hex: give the name to write to first, "
+            "and write one that is hex with ./ before it"
+        )
+    return Path(word)
 
 
 def _print(arguments: Namespace, seen: Counters) -> bytes:

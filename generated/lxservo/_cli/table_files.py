@@ -34,6 +34,11 @@ def write_tables(arguments: Namespace, seen: Counters) -> bytes:
     Return how the bytes begin, if most of them are noise. Raises UsageError.
     """
     direction = direction_in(arguments)
+    # Before standard input is waited for.
+    if arguments.parquet is not None and arguments.parquet.is_file():
+        raise UsageError(
+            f"{arguments.parquet} cannot be written: it is a file, and --parquet takes a folder"
+        )
     with opened_capture(arguments) as (recording, form):
         recording.is_quiet = True
         try:

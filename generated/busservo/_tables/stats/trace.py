@@ -2,7 +2,8 @@
 """One quantity over time, thinned to what a drawing can show, in bounded memory.
 
 Time is cut into buckets, which double as it goes on. Each keeps its first, lowest, highest and last
-value: a line through these covers the same pixels as a line through all of them.
+value, and the mean: a line through the first four covers the same pixels as one through all values.
+Where a bucket holds many, that line is a solid block, and a band with its means says more.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ BUCKETS = 1024
 
 _Values: TypeAlias = "NDArray[np.float64]"
 _SHORTEST = 1e-6
+# From so many values a bucket on, a line through its four hides where most of them are.
+_DENSE = 8
 
 
 @dataclass(slots=True)
@@ -35,6 +38,8 @@ class _Buckets:
     last_at: Seconds
     last: _Values
     gap: NDArray[np.bool_]
+    total: _Values
+    count: Numbers
 
     def merged(self, number: Numbers) -> _Buckets:
         """Return them with those of the same number as one; the numbers never go back."""
@@ -48,6 +53,8 @@ class _Buckets:
             self.last_at[ends],
             self.last[ends],
             np.logical_or.reduceat(self.gap, begins),
+            np.add.reduceat(self.total, begins),
+            np.add.reduceat(self.count, begins),
         )
 
     def followed_by(self, other: _Buckets) -> _Buckets:
@@ -80,7 +87,8 @@ class Trace:
             return
         if self._began is None:
             self._began = float(seconds[0])
-        made = _Buckets(seconds, values, values, values, seconds, values, gap)
+        each = np.ones(len(values), np.int64)
+        made = _Buckets(seconds, values, values, values, seconds, values, gap, values, each)
         if self._buckets is not None:
             made = self._buckets.followed_by(made)
         length = float(made.last_at[-1]) - self._began
@@ -88,6 +96,26 @@ class Trace:
             self._width *= 2
         number = ((made.first_at - self._began) / self._width).astype(np.int64)
         self._buckets = made.merged(number)
+
+    @property
+    def is_dense(self) -> bool:
+        """Whether there are so many values that a band shows more than a line through them."""
+        return self._buckets is not None and self.count >= _DENSE * len(self._buckets.count)
+
+    def band(self) -> tuple[Seconds, _Values, _Values, _Values]:
+        """Return times with the lowest, mean and highest value around each; NaN where it is torn.
+
+        A bucket in which values are absent still counts, and the band is torn behind it.
+        """
+        found = self._buckets
+        if found is None:
+            return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
+        # Rounding must not take a mean out of its band: of equal values it is that value.
+        mean = np.clip(found.total / found.count, found.low, found.high)
+        behind = np.flatnonzero(found.gap) + 1
+        at = np.insert((found.first_at + found.last_at) / 2, behind, found.last_at[behind - 1])
+        low, mid, high = (np.insert(v, behind, np.nan) for v in (found.low, mean, found.high))
+        return at, low, mid, high
 
     def points(self) -> tuple[Seconds, _Values]:
         """Return the points of a line, in order; NaN where it is interrupted."""

@@ -57,6 +57,9 @@ _METADATA: dict[str, dict[str, None]] = {
 _LONG = ((2 * 3600.0, 3600.0, "h"), (300.0, 60.0, "min"), (0.0, 1.0, "s"))
 # So few points are shown as such; a line alone could hide them.
 _FEW = 60
+_BANDS = (
+    "\nwhere readings are dense, the line is their mean, and the band goes from lowest to highest"
+)
 
 
 def drawing(traces: Traces, suffix: str, title: str, baud: float) -> tuple[bytes, list[str]]:
@@ -93,18 +96,24 @@ def _drawn(
     for place, (quantity, lines) in zip(axes, panels, strict=True):
         _draw(place, quantity, lines, divisor)
     if traces.has_times:
-        axes[-1].set_xlabel(f"time since the recording began ({unit})")
+        label = f"time since the recording began ({unit})"
     else:
-        axes[-1].set_xlabel(
-            f"time on the wire at {baud:g} baud ({unit}); the capture holds no times"
-        )
+        label = f"time on the wire at {baud:g} baud ({unit}); the capture holds no times"
+    if any(trace.is_dense for _, lines in panels for trace in lines.values()):
+        label += _BANDS
+    axes[-1].set_xlabel(label)
     figure.align_ylabels([*axes])
     return figure
 
 
 def _draw(axes: Axes, quantity: Quantity, lines: dict[int, Trace], divisor: float) -> None:
     for number, (key, trace) in enumerate(lines.items()):
-        at, value = trace.points()
+        if trace.is_dense:
+            at, low, value, high = trace.band()
+            colour = _COLOURS[number % len(_COLOURS)]
+            axes.fill_between(at / divisor, low, high, color=colour, alpha=0.25, linewidth=0)
+        else:
+            at, value = trace.points()
         places = alone(value).tolist()
         is_few = trace.count <= _FEW
         axes.plot(
