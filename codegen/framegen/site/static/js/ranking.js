@@ -70,7 +70,7 @@ function makeSearch(index) {
   const whole = entries.map((entry) => [entry.title, ...(entry.names ?? []), ...(entry.also ?? []),
     entry.where, entry.text ?? ""].join("\n").toLowerCase());
   const titles = entries.map(({ title }) => glued(title));
-  // What is called so, what has such words, and how names of several parts are written.
+  // What is called so, which entries have a word and how well, in turn, and how names of several parts are written.
   const exact = new Map(), vocabulary = new Map(), written = new Map();
   // A page is called what its address says, its sections are not.
   const pathOf = ({ path }) => (path.includes("#") ? ""
@@ -93,7 +93,7 @@ function makeSearch(index) {
     });
     for (const [key, worth] of seen) {
       if (!vocabulary.has(key)) vocabulary.set(key, []);
-      vocabulary.get(key).push([number, worth / (worth + SATURATION)]);
+      vocabulary.get(key).push(number, worth / (worth + SATURATION));
     }
     const names = [entry.title, ...(entry.names ?? []), ...(entry.also ?? [])];
     names.forEach((name, at) => {
@@ -116,14 +116,24 @@ function makeSearch(index) {
     return low;
   }
 
-  // How well each entry has a word, or one that begins with it.
+  // As one types, only the last word is another one.
+  const known = new Map();
   function worths(word) {
+    if (known.size > MOST_WORDS) known.delete(known.keys().next().value);
+    if (!known.has(word)) known.set(word, worthsAnew(word));
+    return known.get(word);
+  }
+
+  // How well each entry has a word, or one that begins with it.
+  function worthsAnew(word) {
     const found = new Float32Array(entries.length);
     const take = (start, factor) => {
       for (let at = firstFrom(start); at < keys.length && keys[at].startsWith(start); at++) {
         const like = keys[at] === word ? 1 : factor * (1 + start.length / keys[at].length) / 2;
-        for (const [number, worth] of vocabulary.get(keys[at])) {
-          if (worth * like > found[number]) found[number] = worth * like;
+        const having = vocabulary.get(keys[at]);
+        for (let next = 0; next < having.length; next += 2) {
+          const number = having[next], worth = having[next + 1] * like;
+          if (worth > found[number]) found[number] = worth;
         }
       }
     };
@@ -136,7 +146,7 @@ function makeSearch(index) {
   function near(word) {
     if (word.length < LEAST_TO_CORRECT) return [];
     const like = keys.filter((key) => Math.abs(key.length - word.length) < 2 && isOneSlip(key, word));
-    const uses = (key) => vocabulary.get(key).reduce((sum, [, worth]) => sum + worth, 0);
+    const uses = (key) => vocabulary.get(key).reduce((sum, each, at) => sum + (at % 2 ? each : 0), 0);
     return like.sort((one, other) => uses(other) - uses(one)).slice(0, MOST_SUGGESTIONS);
   }
 
@@ -152,7 +162,8 @@ function makeSearch(index) {
   // How much a word tells: the fewer entries have it, the more.
   function weightOf({ word, found }) {
     if (QUESTION_WORDS.has(word)) return 0;
-    const many = found.reduce((sum, each) => sum + (each ? 1 : 0), 0);
+    let many = 0;
+    for (const each of found) if (each) many++;
     return Math.log(1 + (entries.length - many + 0.5) / (many + 0.5));
   }
 
@@ -253,14 +264,27 @@ function placesOf(text, words) {
   });
 }
 
+// The first of the places behind which the most different words stand within `reach`.
+function densestOf(places, reach) {
+  const sorted = [...places].sort((one, other) => one.index - other.index), many = new Map();
+  const counts = new Map();
+  let end = 0;
+  sorted.forEach(({ index, word }, at) => {
+    for (; end < sorted.length && sorted[end].index < index + reach; end++) {
+      counts.set(sorted[end].word, (counts.get(sorted[end].word) ?? 0) + 1);
+    }
+    if (!many.has(index)) many.set(index, counts.size);
+    if (counts.get(word) === 1) counts.delete(word);
+    else counts.set(word, counts.get(word) - 1);
+  });
+  return places.reduce((so, place) => (many.get(place.index) > many.get(so.index) ? place : so), places[0]);
+}
+
 // The part of a text with the most of the words in it, at whole words.
 function snippetOf(text, words, size = 200) {
   if (text.length <= size) return text;
-  const places = placesOf(text, words), reach = 0.7 * size;
-  const within = ({ index: from }) => new Set(places.filter(({ index }) => index >= from
-    && index < from + reach).map(({ word }) => word)).size;
-  const best = words.length > 1
-    ? places.reduce((so, place) => (within(place) > within(so) ? place : so), places[0]) : places[0];
+  const places = placesOf(text, words);
+  const best = words.length > 1 ? densestOf(places, 0.7 * size) : places[0];
   let from = Math.max(0, (best?.index ?? 0) - 50);
   if (from) from = text.indexOf(" ", from) + 1;
   let to = Math.min(text.length, from + size);

@@ -85,13 +85,13 @@
 
   const counted = (many, what) => `${many} ${many === 1 ? what : `${what}s`}`;
 
-  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions, whole }) {
+  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions, whole }, instead) {
     if (!query) return `${index.entries.length} places to find.`;
     const half = left ? ` The last digit, ${left}, is half a byte.` : "";
     const what = bytes ? counted(bytes.length, "byte") : `“${query}”`;
     const of = kind ? ` in ${index.kinds[kind].toLowerCase()}` : "";
     if (problem) return `${problem}.`;
-    if (suggestions.length) return `Nothing found for “${query}”. Did you mean:`;
+    if (suggestions.length) return `Nothing has “${query}”. ${instead.hits.length} found instead for`;
     if (loose) return `Nothing has all of these words. With some of them: ${hits.length}.`;
     // What holds them is documented; what else is shown says why they are no frame.
     const isKnown = whole || hits.some(({ entry }) => !entry.decoder);
@@ -100,14 +100,15 @@
   }
 
   function suggested(suggestions) {
-    return suggestions.map((text) => {
+    return suggestions.flatMap((text, at) => {
       const button = make("button", { type: "button", class: "suggestion" }, text);
       button.addEventListener("click", () => {
         words.value = text;
         renew();
         words.focus();
       });
-      return button;
+      // What is shown is of the first.
+      return at === 1 ? ["; or search for ", button] : [" ", button];
     });
   }
 
@@ -120,7 +121,7 @@
     const visible = request.query ? instead.hits.slice(0, shown) : [];
     results.replaceChildren(...visible.map((hit) => itemOf(hit, instead.words)));
     results.hidden = !visible.length;
-    byId("search-count").replaceChildren(summary(request, answer), " ", ...suggested(suggestions));
+    byId("search-count").replaceChildren(summary(request, answer, instead), ...suggested(suggestions));
     byId("search-more").hidden = !request.query || instead.hits.length <= shown;
     byId("search-advice").hidden = !request.query || (hits.length > 0 && !suggestions.length);
     for (const link of byId("search-advice").querySelectorAll("[data-workbench]")) {
