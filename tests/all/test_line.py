@@ -508,3 +508,30 @@ def test_a_page_from_the_disk_reaches_the_browsers_own_ports(browser: Browser, s
     assert tab.locator("#line-connect").is_visible()
     visit.end()
     context.close()
+
+
+# ---------------------------------------------------------------------------- one screen
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (320, 640)])
+def test_what_is_sent_and_what_the_line_says_are_seen_together(
+    browser: Browser, site: Path, width: int, height: int
+) -> None:
+    screen = {"viewport": {"width": width, "height": height}}
+    with VirtualController() as board, desk(browser, site, VirtualEnd(board), **screen) as made:
+        live = made.open()
+        live.connect()
+        live.send("ServoMove", time_ms="100", targets="1:600")
+        live.reply("ServoMove is sent.")
+        for name in ("#line-send", "#message"):
+            live.tab.locator(name).focus()
+            live.tab.locator(name).scroll_into_view_if_needed()
+            boxes = [live.tab.locator(each).bounding_box() for each in (name, "#line-log")]
+            assert all(boxes), name
+            (chosen, log) = (box for box in boxes if box is not None)
+            # The list stands above what one works with, and covers none of it.
+            assert log["y"] >= 0
+            assert log["height"] >= 140
+            assert log["y"] + log["height"] <= chosen["y"]
+            assert chosen["y"] + chosen["height"] <= height + 1
+        assert live.tab.evaluate("document.documentElement.scrollWidth") <= width

@@ -262,10 +262,11 @@ class Site:
         first = next(
             (group.path for section in self.sidebar for group in section.groups), "index.html"
         )
-        shown = [specimen(each) for each in self.references if first.startswith(each.folder)]
+        shown = [each for each in self.references if first.startswith(each.folder)]
         return {
+            "workbench": f"{shown[0].folder}decoder.html" if shown else "",
             "introduction": None if plan is None else Introduction(plan, self.published),
-            "specimen": next(iter(shown), None),
+            "specimen": next(map(specimen, shown), None),
         }
 
     def mentions(self, page: Page) -> list[Mention]:
