@@ -116,7 +116,7 @@ def test_dense_readings_have_a_band_around_their_mean(count: int, is_dense: bool
     assert (np.diff(at) >= 0).all()
     assert (low[~torn] <= mean[~torn]).all()
     assert (mean[~torn] <= high[~torn]).all()
-    assert (np.nanmin(low), np.nanmax(high)) == (100, 900)
+    assert (float(np.nanmin(low)), float(np.nanmax(high))) == (100.0, 900.0)
     if is_dense:
         # A bucket of 40 values may hold one high value more or less than its quarter, and a gap.
         assert abs(mean[~torn] - 300).max() < 2 * 800 / 40
