@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import pytest
+from framegen.language.command_verbs import OF_POSES
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
@@ -153,15 +154,16 @@ def verbs_in(shown: str) -> list[str]:
 
 
 HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor", "ports", "stats"]
+OF_BLINDS = ["blinds-release", "read-heights", "roll"]
 
 
 @pytest.mark.parametrize(
     ("name", "verbs"),
     [
-        ("greenhouse", ["bench-line", *HEARING, "replay", "send"]),
-        ("blinds", ["bench-line", *HEARING, "replay", "send", "play", "teach"]),
+        ("greenhouse", ["bench-line", *HEARING, "replay", "send", "station-read", "vents-open"]),
+        ("blinds", ["bench-line", *HEARING, "replay", "send", *OF_POSES, *OF_BLINDS]),
         ("weather", HEARING),
-        ("stage_lamp", [*HEARING, "replay", "send"]),
+        ("stage_lamp", [*HEARING, "replay", "send", "colour-show", "darken"]),
     ],
 )
 def test_only_what_can_work_is_offered(call: Call, name: str, verbs: list[str]) -> None:

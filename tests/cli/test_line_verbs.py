@@ -9,13 +9,14 @@ import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from importlib import import_module
 
 import pytest
 from busservo import ServoPositions, ServoPositionsRead
 from busservo._cli import link, main, send, simulate
 from busservo._cli.examples import EXAMPLES, VERBS
+from busservo._cli.method_verb import MethodVerb
 from busservo._cli.questions import in_parts
+from busservo._cli.verbs import verb_named
 from busservo._client import session
 from busservo._client.client import Client
 from busservo._serial.hid_devices import HidDevice
@@ -108,7 +109,7 @@ def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
 # `stats` has no port: it is told the rate of a line that was recorded.
 @pytest.mark.parametrize("name", sorted({*VERBS} - {"simulate", "stats"}))
 def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
-    verb = import_module(f"busservo._cli.{name.replace('-', '_')}")
+    verb = verb_named(name)
     parser = argparse.ArgumentParser()
     verb.add_arguments(parser)
     options = parser.format_help()
@@ -449,7 +450,7 @@ def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
 )
 def test_an_example_is_a_command_line(line: str) -> None:
     _, name, *words = shlex.split(line)
-    verb = import_module(f"busservo._cli.{name.replace('-', '_')}")
+    verb = verb_named(name)
     if name == "simulate":
         assert words == []
         return
@@ -458,6 +459,8 @@ def test_an_example_is_a_command_line(line: str) -> None:
     given = parser.parse_intermixed_args(words)
     if "message" in given:
         assert given.message is None or in_parts(given.message, given.fields)[0].encode()
+    if isinstance(verb, MethodVerb):
+        assert all(each.encode() for each in verb.messages(given))
 
 
 def test_no_port_is_said_where_nothing_is_plugged_in(

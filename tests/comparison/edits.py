@@ -193,6 +193,7 @@ EDITS: dict[str, tuple[Data, Data]] = {
         HOUSE,
         with_(HOUSE, *VENTS, "method", "open(ramp_s, vents)"),
     ),
+    "verb of a message": (SERVO, with_(SERVO, *MOVE, "verb", "turn")),
     "result of a method": (
         HOUSE,
         with_(HOUSE, "messages", "StationRead", "method", "station_read() -> readings"),

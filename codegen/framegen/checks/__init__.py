@@ -75,6 +75,7 @@ from framegen.checks import (
     unsent_id,
     unshown_value,
     value_range,
+    verb,
     version,
 )
 from framegen.checks.reading import READING_RULES
@@ -151,6 +152,7 @@ MODEL_RULES: tuple[ModelRule, ...] = (
     lasts.RULE,
     asks_for.RULE,
     method.RULE,
+    verb.RULE,
     pose.RULE,
 )
 # And these where all of the above hold: what the spec and its documents say of what follows.

@@ -518,6 +518,11 @@ class Message(Part):
         description="What sends it in a client: name, order of the arguments, and the field of the "
         "reply that is returned, where it is not the whole reply.",
     )
+    verb: str = Key(
+        "",
+        description="What sends it from a shell, one short word such as `move`, where the name of "
+        "its method would be long to type.",
+    )
     length: Length = Key(
         description="The value of the length part, such as `3 * servo_count + 5`, or `[2, 4]` "
         "where last fields may be absent; in a frame without one, the size of the frame."
@@ -534,7 +539,8 @@ class Message(Part):
 class Pose(Part):
     """The messages that read, command and release the positions of many actuators.
 
-    A client then has three more methods, and the command has the verbs `teach` and `play`.
+    A client then has three more methods, and the command has the verbs `stop`, `hold`, `teach` and
+    `play`. Its `stop` first sends the message with that verb, where there is one.
     """
 
     read: str = Key(description="The message that asks for positions, by a list of numbers.")

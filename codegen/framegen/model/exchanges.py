@@ -27,16 +27,17 @@ STEPS_PER_SECOND = {"s": 1, "ms": 1000}
 class Exchange:
     """A request of the client, and what comes back for it.
 
-    `echoed` pairs a field of the request with its place in the reply, such as `servo_ids` with
-    `positions.servo_id`. `acknowledged` is the report that confirms the request, and `lasts` the
-    field of the request that says how long a motion goes on. `refusal` comes instead of the reply
-    where the device refuses. `failure` is the field of the reply that says what has failed, and
-    `good` its value where nothing has. `asks_for` is the field of the request that says how many
-    items the reply holds, or empty.
+    `verb` is what sends it from a shell. `echoed` pairs a field of the request with its place in
+    the reply, such as `servo_ids` with `positions.servo_id`. `acknowledged` is the report that
+    confirms the request, and `lasts` the field of the request that says how long a motion goes on.
+    `refusal` comes instead of the reply where the device refuses. `failure` is the field of the
+    reply that says what has failed, and `good` its value where nothing has. `asks_for` is the field
+    of the request that says how many items the reply holds, or empty.
     """
 
     request: MessageLayout
     method: Method
+    verb: str
     reply: MessageLayout | None
     reports: tuple[str, ...]
     echoed: tuple[tuple[str, str], ...]
@@ -46,6 +47,11 @@ class Exchange:
     failure: Number | None
     good: int
     asks_for: str
+
+    @property
+    def long_verb(self) -> str:
+        """The verb that is named after the method."""
+        return long_verb_of(self.request.name, self.request.message)
 
     @property
     def counted(self) -> Items | None:
@@ -156,6 +162,16 @@ def method_of(name: str, message: Message) -> Method:
     return Method(snake_case(name), (*lists, *numbers), "")
 
 
+def verb_of(name: str, message: Message) -> str:
+    """Return the verb that sends a message from a shell: declared, or named after its method."""
+    return message.verb or long_verb_of(name, message)
+
+
+def long_verb_of(name: str, message: Message) -> str:
+    """Return the verb that is named after the method; it goes on when a shorter one is declared."""
+    return method_of(name, message).name.replace("_", "-")
+
+
 def arguments_of(message: Message) -> list[str]:
     """Return the fields that a user gives: all but counts, sizes, and what never changes."""
     fields = message.fields
@@ -188,6 +204,7 @@ def _exchange(messages: Mapping[str, MessageLayout], request: MessageLayout) -> 
     return Exchange(
         request,
         method_of(request.name, message),
+        verb_of(request.name, message),
         reply,
         tuple(message.reports),
         tuple(message.echoed.items()),

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser
-from importlib import import_module
 
 from .._client.exchanges import EXCHANGES
 from ..messages import MESSAGES
@@ -13,7 +12,7 @@ from .examples import PROGRAM, SUMMARY
 from .reference_topics import TOPICS
 from .shell_completion import CompletionError, Files, Folders, Function, Words, script
 from .usage_error import UsageError
-from .verbs import verbs
+from .verbs import verb_named, verbs
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -34,8 +33,7 @@ def completion(shell: str) -> str:
     parser.add_argument("--version", action="store_true", help="show the version")
     parts = parser.add_subparsers()
     for name, about in verbs().items():
-        verb = import_module(f"{__package__}.{name.replace('-', '_')}")
-        verb.add_arguments(parts.add_parser(name, help=about))
+        verb_named(name).add_arguments(parts.add_parser(name, help=about.replace("%", "%%")))
     try:
         return script(parser, shell, _candidates)
     except CompletionError as error:

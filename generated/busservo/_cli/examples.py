@@ -9,6 +9,14 @@ SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 VERBS = {
     "ports": "List the serial ports, and devices that have none.",
     "doctor": "Diagnose a port, a line or a device.",
+    "move": "Turn one or more servos to positions, all of them in the same time.",
+    "run": "Run an action group stored on the controller, a number of times or for ever.",
+    "speed": "Set the speed of one action group, or of all, in percent of its original speed.",
+    "battery": "Ask for the voltage of the battery.",
+    "unload": "Switch off the force of one or more servos, so that they can be turned by hand.",
+    "positions": "Ask where one or more servos are.",
+    "stop": "Stop the action group that is running, then hold everything where it is.",
+    "hold": "Hold what moves or is limp, where it is.",
     "monitor": "Show the traffic of a line as it arrives.",
     "teach": "Switch the device off, and record poses set by hand.",
     "play": "Play recorded poses.",
@@ -24,6 +32,28 @@ VERBS = {
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
 }
 
+# The message that each of these verbs sends.
+METHODS: dict[str, str] = {
+    "run": "ActionGroupRun",
+    "speed": "ActionGroupSpeed",
+    "battery": "BatteryVoltageRead",
+    "unload": "ServoUnload",
+}
+# Those that read and command positions.
+POSE_METHODS: dict[str, str] = {"move": "ServoMove", "positions": "ServoPositionsRead"}
+# Verbs named after methods, for which there are shorter ones.
+LONG: dict[str, str] = {
+    "move-servos": "move",
+    "run-action-group": "run",
+    "stop-action-group": "stop",
+    "set-action-group-speed": "speed",
+    "read-battery-voltage": "battery",
+    "unload-servos": "unload",
+    "read-servo-positions": "positions",
+}
+STOP_MESSAGE = "ActionGroupStop"
+"""What `stop` sends before it holds; empty for nothing."""
+
 EXAMPLES = {
     "ports": (
         ("busservo ports", "name, VID:PID and description of each port"),
@@ -36,6 +66,34 @@ EXAMPLES = {
         ("busservo doctor --port COM7 --json", "for a program to read"),
         ("busservo doctor --port COM7 --move 1", "also move that id, after asking"),
     ),
+    "move": (
+        (
+            "busservo move 1:800 --in 1s",
+            "Turn one or more servos to positions, all of them in the same time.",
+        ),
+    ),
+    "run": (
+        (
+            "busservo run 8 1",
+            "Run an action group stored on the controller, a number of times or for ever.",
+        ),
+    ),
+    "speed": (
+        (
+            "busservo speed 8 50",
+            "Set the speed of one action group, or of all, in percent of its original speed.",
+        ),
+    ),
+    "battery": (("busservo battery", "Ask for the voltage of the battery."),),
+    "unload": (
+        (
+            "busservo unload 1 2 3",
+            "Switch off the force of one or more servos, so that they can be turned by hand.",
+        ),
+    ),
+    "positions": (("busservo positions 1 2 3 4 5 6", "Ask where one or more servos are."),),
+    "stop": (("busservo stop", "everything that answers is held, the rest is named"),),
+    "hold": (("busservo hold", "all that answer"), ("busservo hold 1 2", "these two")),
     "monitor": (
         ("busservo monitor --port COM7", "every frame, and all noise"),
         (

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._client.client import Client
+    from .._client.request import Sent
     from .._frame.message import Message
 
 _NOT_ALL = "no reply came in time, or it reported less than was requested"
@@ -43,6 +44,15 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
     )
+    add_sending(parser)
+
+
+def add_sending(parser: ArgumentParser, *, answered: bool = True) -> None:
+    """Declare the options of whatever sends a message, `answered` or not."""
+    add_timeout(parser)
+    add_limits(parser)
+    if not answered:
+        return
     parser.add_argument(
         "--retries",
         type=at_least(0),
@@ -50,8 +60,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="N",
         help="ask so often again where no reply comes (default: 0)",
     )
-    add_timeout(parser)
-    add_limits(parser)
     parser.add_argument("--json", action="store_true", help="print the reply as a line of JSON")
 
 
@@ -59,31 +67,36 @@ def run(arguments: Namespace) -> int:
     """Send the message, and print the reply."""
     messages = in_parts(arguments.message, arguments.fields)
     note_deprecated(type(messages[0]))
-    if len(messages) > 1:
-        note = f"sent in {len(messages)} requests: one reply has no room for so much"
-        print(note, file=sys.stderr)
-    lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
-    missing: dict[str, list[int]] = {}
-    unanswered: ProtocolError | None = None
     with (
         failures_reported(),
         open_client(
             arguments, retries=arguments.retries, limits=limits_of(arguments)
         ) as controller,
     ):
-        for message in messages:
-            try:
-                replies = _answers(controller, message, arguments.timeout)
-            except TransportError:
-                raise
-            except ProtocolError as error:
-                unanswered = error
-                break
-            for reply in replies:
-                lines.show(Entry(reply, reply.DIRECTION.sender, 0))
-                sys.stdout.flush()
-                requested, left, _ = left_out(message, reply)
-                missing.setdefault(requested, []).extend(left)
+        return exchanged(controller, messages, arguments)
+
+
+def exchanged(controller: Client, messages: list[Message], arguments: Namespace) -> int:
+    """Send messages, one after the other, and print the replies; return the exit status."""
+    if len(messages) > 1:
+        note = f"sent in {len(messages)} requests: one reply has no room for so much"
+        print(note, file=sys.stderr)
+    lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
+    missing: dict[str, list[int]] = {}
+    unanswered: ProtocolError | None = None
+    for message in messages:
+        try:
+            replies = _answers(controller, message, arguments.timeout)
+        except TransportError:
+            raise
+        except ProtocolError as error:
+            unanswered = error
+            break
+        for reply in replies:
+            lines.show(Entry(reply, reply.DIRECTION.sender, 0))
+            sys.stdout.flush()
+            requested, left, _ = left_out(message, reply)
+            missing.setdefault(requested, []).extend(left)
     for requested, values in missing.items():
         if values:
             listed = ", ".join(str(value) for value in values)
@@ -91,6 +104,16 @@ def run(arguments: Namespace) -> int:
     if unanswered is not None:
         print(unanswered, file=sys.stderr)
     return NOT_ALL if unanswered is not None or any(missing.values()) else DONE
+
+
+def commanded(controller: Client, message: Message) -> Sent:
+    """Send a message that nothing answers. Raises UsageError for what is not sent."""
+    try:
+        return controller.send(message)
+    except LimitError as error:
+        raise refused(error) from None
+    except EncodeError as error:
+        raise UsageError(str(error)) from None
 
 
 def _answers(controller: Client, message: Message, timeout: float) -> list[Message]:
@@ -102,7 +125,7 @@ def _answers(controller: Client, message: Message, timeout: float) -> list[Messa
     reply = exchange.reply
     try:
         if reply is None:
-            controller.send(message)
+            commanded(controller, message)
             return []
         with shown_progress(lambda waited: f"waiting for {reply.__name__}, {waited:.0f} s"):
             if exchange.address.silence(message):

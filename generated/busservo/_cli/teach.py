@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -14,7 +13,6 @@ from .examples import PROGRAM
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
-from .numerals import whole
 from .posefile import Recorded, read_poses, write_poses
 from .positions import (
     UNREAD,
@@ -22,6 +20,8 @@ from .positions import (
     hold,
     in_options,
     listed,
+    nobody,
+    numbers,
     read_targets,
     the_pose,
 )
@@ -29,6 +29,8 @@ from .usage_error import UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    import argparse
+
     from .._client.client import Client
     from .._client.limits import Bounds
     from .._client.pose import Pose
@@ -49,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_port(parser)
     parser.add_argument(
         "--ids",
-        type=_numbers,
+        type=numbers,
         metavar="1-6,9",
         help="which to switch off and to record (default: all that answer)",
     )
@@ -75,8 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
             print(error, file=sys.stderr)
             return NOT_ALL
         if not ids:
-            hint = f"no {pose.noun} is there: is the supply of the {pose.noun}s on?"
-            print(hint, file=sys.stderr)
+            print(nobody(pose), file=sys.stderr)
             return NOT_ALL
         if len(ids) > pose.room:
             problem = f"{len(ids)} {pose.noun}s are too many: one motion moves up to {pose.room}"
@@ -198,23 +199,3 @@ def _line(prompt: str) -> str | None:
     if not line:
         print(file=sys.stderr)
     return line or None
-
-
-def _numbers(text: str) -> tuple[int, ...]:
-    """Return the numbers of an argument such as `1-6,9`."""
-    pose = the_pose()
-    found: dict[int, None] = {}
-    for part in text.split(","):
-        first, dash, last = part.partition("-")
-        try:
-            low, high = whole(first), whole(last if dash else first)
-        except ValueError:
-            raise argparse.ArgumentTypeError(
-                f"{part[:40]!r} is neither a number nor a range like 1-6"
-            ) from None
-        if not pose.item.low <= low <= high <= pose.item.high:
-            bounds = f"{pose.item.low}..{pose.item.high}"
-            problem = f"is outside {bounds}" if low <= high else "has its higher number first"
-            raise argparse.ArgumentTypeError(f"{part[:40]} {problem}")
-        found |= dict.fromkeys(range(low, high + 1))
-    return tuple(found)

@@ -10,11 +10,11 @@ from importlib import import_module
 
 from .._frame.protocol import PROTOCOL_VERSION
 from . import console
-from .examples import EXAMPLES, PROGRAM, SUMMARY, VERBS
+from .examples import EXAMPLES, LONG, PROGRAM, SUMMARY, VERBS
 from .exit_codes import DONE, MEANINGS, UNUSABLE
 from .shell_completion import add_option
 from .usage_error import UsageError
-from .verbs import verbs
+from .verbs import verb_named, verbs
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -30,7 +30,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(words: Sequence[str]) -> int:
     try:
-        return _run_verb(words[0], words[1:]) if words and words[0] in VERBS else _run_none(words)
+        name = LONG.get(words[0], words[0]) if words else ""
+        return _run_verb(name, words[1:]) if name in VERBS else _run_none(words)
     except UsageError as error:
         # Earlier output comes first; if that fails, console.run reports it.
         with suppress(OSError):
@@ -40,7 +41,7 @@ def _run(words: Sequence[str]) -> int:
 
 
 def _run_verb(name: str, words: Sequence[str]) -> int:
-    verb = _module(name)
+    verb = verb_named(name)
     if hasattr(verb, "hand_over"):
         handed: int = verb.hand_over(words)
         return handed
@@ -48,10 +49,6 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
     # Intermixed, so that an option may stand between the words that it belongs to.
     code: int = verb.run(parser.parse_intermixed_args(words))
     return code
-
-
-def _module(name: str) -> Any:
-    return import_module(f"{__name__}.{name.replace('-', '_')}")
 
 
 def _parser(name: str, verb: Any) -> console.Parser:
@@ -97,7 +94,7 @@ def _run_none(words: Sequence[str]) -> int:
         print(f"{PROGRAM} {version}, spec {PROTOCOL_VERSION}")
         return DONE
     if known.print_completion is not None:
-        print(_module("completion").completion(known.print_completion))
+        print(verb_named("completion").completion(known.print_completion))
         return DONE
     if known.verb is None:
         parser.print_help(sys.stderr)

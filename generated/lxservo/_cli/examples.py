@@ -20,7 +20,73 @@ VERBS = {
     "simulate": "Run a virtual device to talk to.",
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
+    "move": "Turn to a position, at even speed, and arrive after the given time.",
+    "read-move": "Ask for the position and time of the last Move.",
+    "prepare-move": "Prepare a move that MoveStart sets off.",
+    "read-prepared-move": "Ask for the position and time of the move that was prepared.",
+    "start-move": "Set off the move that was prepared.",
+    "stop-move": "Stop turning, at once.",
+    "write-servo-id": "Give the servo another number, which it keeps without power.",
+    "read-servo-id": "Ask for the number of a servo.",
+    "adjust-offset": "Shift the zero of the servo, until it is switched off.",
+    "save-offset": "Keep the offset without power.",
+    "read-offset": "Ask for the offset.",
+    "write-position-limits": "Set the lowest and the highest position that the servo turns to; it keeps them without power.",
+    "read-position-limits": "Ask for the lowest and the highest position.",
+    "write-voltage-limits": "Set the supply voltages outside which the servo lets go and blinks; it keeps them without power.",
+    "read-voltage-limits": "Ask for the lowest and the highest supply voltage.",
+    "write-temperature-limit": "Set the temperature above which the servo lets go and blinks; it keeps it without power.",
+    "read-temperature-limit": "Ask for the highest temperature.",
+    "read-temperature": "Ask how warm the servo is.",
+    "read-voltage": "Ask for the supply voltage.",
+    "read-position": "Ask where the servo is.",
+    "write-mode": "Choose between turning to positions and turning on and on.",
+    "read-mode": "Ask whether it turns to positions or on and on, and how fast.",
+    "write-torque": "Switch the force of the servo on or off.",
+    "read-torque": "Ask whether the servo has force.",
+    "write-led": "Switch the LED on or off; the servo keeps that without power.",
+    "read-led": "Ask whether the LED is on.",
+    "write-led-errors": "Choose the faults at which the LED blinks.",
+    "read-led-errors": "Ask at which faults the LED blinks.",
 }
+
+# The message that each of these verbs sends.
+METHODS: dict[str, str] = {
+    "move": "Move",
+    "read-move": "MoveRead",
+    "prepare-move": "MovePrepare",
+    "read-prepared-move": "PreparedMoveRead",
+    "start-move": "MoveStart",
+    "stop-move": "MoveStop",
+    "write-servo-id": "ServoIdWrite",
+    "read-servo-id": "ServoIdRead",
+    "adjust-offset": "OffsetAdjust",
+    "save-offset": "OffsetSave",
+    "read-offset": "OffsetRead",
+    "write-position-limits": "PositionLimitsWrite",
+    "read-position-limits": "PositionLimitsRead",
+    "write-voltage-limits": "VoltageLimitsWrite",
+    "read-voltage-limits": "VoltageLimitsRead",
+    "write-temperature-limit": "TemperatureLimitWrite",
+    "read-temperature-limit": "TemperatureLimitRead",
+    "read-temperature": "TemperatureRead",
+    "read-voltage": "VoltageRead",
+    "read-position": "PositionRead",
+    "write-mode": "ModeWrite",
+    "read-mode": "ModeRead",
+    "write-torque": "TorqueWrite",
+    "read-torque": "TorqueRead",
+    "write-led": "LedWrite",
+    "read-led": "LedRead",
+    "write-led-errors": "LedErrorsWrite",
+    "read-led-errors": "LedErrorsRead",
+}
+# Those that read and command positions.
+POSE_METHODS: dict[str, str] = {}
+# Verbs named after methods, for which there are shorter ones.
+LONG: dict[str, str] = {}
+STOP_MESSAGE = ""
+"""What `stop` sends before it holds; empty for nothing."""
 
 EXAMPLES = {
     "ports": (
@@ -194,4 +260,92 @@ EXAMPLES = {
             "how long LedErrors takes to arrive",
         ),
     ),
+    "move": (
+        (
+            "lxservo move 1 500 --in 1s",
+            "Turn to a position, at even speed, and arrive after the given time.",
+        ),
+    ),
+    "read-move": (("lxservo read-move 1", "Ask for the position and time of the last Move."),),
+    "prepare-move": (
+        ("lxservo prepare-move 2 250 2000", "Prepare a move that MoveStart sets off."),
+    ),
+    "read-prepared-move": (
+        (
+            "lxservo read-prepared-move 2",
+            "Ask for the position and time of the move that was prepared.",
+        ),
+    ),
+    "start-move": (("lxservo start-move 254", "Set off the move that was prepared."),),
+    "stop-move": (("lxservo stop-move 1", "Stop turning, at once."),),
+    "write-servo-id": (
+        (
+            "lxservo write-servo-id 1 5",
+            "Give the servo another number, which it keeps without power.",
+        ),
+    ),
+    "read-servo-id": (("lxservo read-servo-id 254", "Ask for the number of a servo."),),
+    "adjust-offset": (
+        ("lxservo adjust-offset 1 -10", "Shift the zero of the servo, until it is switched off."),
+    ),
+    "save-offset": (("lxservo save-offset 1", "Keep the offset without power."),),
+    "read-offset": (("lxservo read-offset 1", "Ask for the offset."),),
+    "write-position-limits": (
+        (
+            "lxservo write-position-limits 1 100 900",
+            (
+                "Set the lowest and the highest position that the servo turns to; it keeps them"
+                " without power."
+            ),
+        ),
+    ),
+    "read-position-limits": (
+        ("lxservo read-position-limits 1", "Ask for the lowest and the highest position."),
+    ),
+    "write-voltage-limits": (
+        (
+            "lxservo write-voltage-limits 1 6500 8400",
+            (
+                "Set the supply voltages outside which the servo lets go and blinks; it keeps them"
+                " without power."
+            ),
+        ),
+    ),
+    "read-voltage-limits": (
+        ("lxservo read-voltage-limits 1", "Ask for the lowest and the highest supply voltage."),
+    ),
+    "write-temperature-limit": (
+        (
+            "lxservo write-temperature-limit 1 75",
+            (
+                "Set the temperature above which the servo lets go and blinks; it keeps it without"
+                " power."
+            ),
+        ),
+    ),
+    "read-temperature-limit": (
+        ("lxservo read-temperature-limit 1", "Ask for the highest temperature."),
+    ),
+    "read-temperature": (("lxservo read-temperature 1", "Ask how warm the servo is."),),
+    "read-voltage": (("lxservo read-voltage 1", "Ask for the supply voltage."),),
+    "read-position": (("lxservo read-position 1", "Ask where the servo is."),),
+    "write-mode": (
+        (
+            "lxservo write-mode 1 1 -500",
+            "Choose between turning to positions and turning on and on.",
+        ),
+    ),
+    "read-mode": (
+        ("lxservo read-mode 1", "Ask whether it turns to positions or on and on, and how fast."),
+    ),
+    "write-torque": (("lxservo write-torque 1 1", "Switch the force of the servo on or off."),),
+    "read-torque": (("lxservo read-torque 1", "Ask whether the servo has force."),),
+    "write-led": (
+        ("lxservo write-led 1 1", "Switch the LED on or off; the servo keeps that without power."),
+    ),
+    "read-led": (("lxservo read-led 1", "Ask whether the LED is on."),),
+    "write-led-errors": (
+        ("lxservo write-led-errors 1 7", "Choose the faults at which the LED blinks."),
+    ),
+    "read-led-errors": (("lxservo read-led-errors 1", "Ask at which faults the LED blinks."),),
 }

@@ -226,12 +226,12 @@ def _usage(kind: type[Message]) -> str:
     optional = dict(kind.DEFAULTS)
     fields: list[str] = []
     for name in kind.__match_args__:
-        word = f"{name}={_written(getattr(kind, name))}"
+        word = f"{name}={written(getattr(kind, name))}"
         fields.append(f"[{word}]" if name in optional else word)
     return f"it is written {' '.join([kind.__name__, *fields])}"
 
 
-def _written(field: Any) -> str:
+def written(field: Any) -> str:
     """Return how a field is written: its name, or those of the fields of an element."""
     if not isinstance(field, Items):
         length = getattr(field, "length", None)

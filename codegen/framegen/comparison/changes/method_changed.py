@@ -1,10 +1,11 @@
-"""Change: the method that sends a message is another."""
+"""Change: the method or the verb that sends a message is another."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from framegen.comparison.changes.change import Change, ChangeRule
+from framegen.comparison.changes.telling import changed
 from framegen.comparison.changes.wording import became, called, signature
 from framegen.language.values import Method
 from framegen.model.exchanges import method_of
@@ -34,13 +35,16 @@ def _look(both: Both) -> Iterator[Change]:
             yield Change(
                 "method-changed", (*each.old_path, "method"), (*each.new_path, "method"), text
             )
+        old_verb, new_verb = each.old.verb, each.new.verb
+        yield from changed("method-changed", each, "verb", old_verb, new_verb, "verb")
 
 
 RULE = ChangeRule(
     id="method-changed",
-    title="The method that sends a message is another",
+    title="The method or the verb that sends a message is another",
     subject="program",
-    why="Programs call it by name, give arguments by place, and use what it returns.",
+    why="Programs call it by name, give arguments by place, and use what it returns; scripts of a "
+    "shell have its verb.",
     do="Keep name and order. Where the result must change, add a message.",
     at="messages.LampsSet",
     before="",

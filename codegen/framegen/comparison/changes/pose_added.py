@@ -22,7 +22,8 @@ RULE = ChangeRule(
     id="pose-added",
     title="Positions are read and commanded as poses",
     subject="program",
-    why="The client has more methods, and the command has the verbs `teach` and `play`.",
+    why="The client has more methods, and the command has the verbs `stop`, `hold`, `teach` and "
+    "`play`.",
     do="Nothing.",
     at="",
     before="",

@@ -22,7 +22,8 @@ RULE = ChangeRule(
     id="pose-removed",
     title="Positions are not read and commanded as poses any more",
     subject="program",
-    why="The methods of the client are gone, and so are the verbs `teach` and `play`.",
+    why="The methods of the client are gone, and so are the verbs `stop`, `hold`, `teach` and "
+    "`play`.",
     do="Keep it while programs use them.",
     at="",
     before=(

@@ -48,6 +48,7 @@ def _raises(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
 
 
 def _results(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
+    yield from _verb(old, new)
     if new.acknowledged and not old.acknowledged:
         text = f"tells whether it `started`, by {new.acknowledged}"
         yield _effect(old, new, "added", text, breaks=False)
@@ -73,6 +74,15 @@ def _results(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:
             theirs = frame_path(pair.new.model, new.request.frame.name)
             paths = (*parts, old.address.name), (*theirs, new.address.name)
             yield Effect("programs", "result", *paths, f"`{new.method.name}()`: {text}")
+
+
+def _verb(old: Exchange, new: Exchange) -> Iterator[Effect]:
+    """Yield what becomes of the verb in a shell; one named after the method goes with that."""
+    if old.request.message.verb and old.verb not in {new.verb, new.long_verb}:
+        text = f"has the verb `{new.verb}` in a shell; it had `{old.verb}`"
+        yield _effect(old, new, "result", text)
+    elif new.request.message.verb and new.verb not in {old.verb, old.long_verb}:
+        yield _effect(old, new, "added", f"has the verb `{new.verb}` in a shell", breaks=False)
 
 
 def _limits(pair: Pair, old: Exchange, new: Exchange) -> Iterator[Effect]:

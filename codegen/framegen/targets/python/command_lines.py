@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from framegen.language.command_verbs import OF_POSES, STOP, VERBS
 from framegen.model.exchanges import snake_case
+from framegen.model.slots import Items
 from framegen.targets.python.escape import Bracketed, Text, literal
 from framegen.targets.python.message_view import MessageView
 
@@ -17,10 +19,12 @@ if TYPE_CHECKING:
 
 # What stands behind a verb, and what it does.
 _Line: TypeAlias = tuple[str, str]
-# What each verb is for, in the order of a day's work; what programs call is last.
+# What each of the command's own verbs is for.
 _ABOUT = {
     "ports": "List the serial ports, and devices that have none.",
     "doctor": "Diagnose a port, a line or a device.",
+    "stop": "Stop: hold everything where it is.",
+    "hold": "Hold what moves or is limp, where it is.",
     "monitor": "Show the traffic of a line as it arrives.",
     "teach": "Switch the device off, and record poses set by hand.",
     "play": "Play recorded poses.",
@@ -35,10 +39,10 @@ _ABOUT = {
     "answer": "Answer questions on standard input: a codec for programs in any language.",
     "bench-line": "Measure how long queries take on a line, compared with what it allows.",
 }
-
-
 # What a verb does where there are questions.
 _OF_QUESTIONS = {"send": "Send a message to a port, and print the reply."}
+# The verbs of messages stand in front of this one.
+_AFTER_MESSAGES = STOP
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,19 +63,41 @@ def verbs(model: Model) -> list[VerbView]:
     """Return the verbs that this protocol has a use for, in the order of the help."""
     program = model.spec.protocol.name
     about = _ABOUT | (_OF_QUESTIONS if _questions(model) else {})
-    found: list[VerbView] = []
     examples = _examples(model)
-    for verb in [each for each in about if each in examples]:
+    own = {name: about[name] for name in VERBS if name in examples}
+    said = {exchange.verb: exchange.request.message.summary for exchange in messages_by_verb(model)}
+    if STOP in own and STOP in said:
+        own[STOP] = f"{said[STOP].rstrip('.')}, then hold everything where it is."
+    named = {each.verb for each in messages_by_verb(model) if each.request.message.verb}
+    order = [
+        *(name for name in own if VERBS.index(name) < VERBS.index(_AFTER_MESSAGES)),
+        *(name for name in said if name in named and name not in own),
+        *(name for name in own if VERBS.index(name) >= VERBS.index(_AFTER_MESSAGES)),
+        *(name for name in said if name not in named),
+    ]
+    found: list[VerbView] = []
+    for verb in order:
         lines = examples[verb]
         shown = [(f"{program} {verb} {words}".rstrip(), meaning) for words, meaning in lines]
-        found.append(VerbView(verb, about[verb], _pairs(shown)))
+        found.append(VerbView(verb, (said | own)[verb], _pairs(shown)))
     return found
+
+
+def messages_by_verb(model: Model) -> list[Exchange]:
+    """Return the messages that have a verb of their own; `send` reaches the others."""
+    taken = {*VERBS} - (OF_POSES if model.spec.pose is None else {STOP})
+    found: dict[str, Exchange] = {}
+    for exchange in sorted(model.exchanges, key=lambda each: not each.request.message.verb):
+        if exchange.verb not in taken:
+            found.setdefault(exchange.verb, exchange)
+    return [each for each in model.exchanges if found.get(each.verb) is each]
 
 
 def _examples(model: Model) -> dict[str, list[_Line]]:
     """Return the example arguments of each verb, and what they do."""
     commands, questions = _commands(model), _questions(model)
     found = {
+        **{each.verb: _verb_lines(each, model) for each in messages_by_verb(model)},
         "answer": [("", "questions on standard input, until it ends")],
         "decode": _decode_lines(model),
         "docs": _docs_lines(model),
@@ -120,6 +146,8 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
         ]
     if model.spec.pose is not None:
         found["doctor"].append(("--port COM7 --move 1", "also move that id, after asking"))
+        found["stop"] = [("", "everything that answers is held, the rest is named")]
+        found["hold"] = [("", "all that answer"), ("1 2", "these two")]
         found["play"] = [
             ("poses.json --dry-run", "what would be sent, and when"),
             ("poses.json --port COM7", "from pose to pose, each in a second"),
@@ -133,6 +161,24 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
             ("poses.json --port COM7 --ids 1-3 --append", "three ids, added to the file"),
         ]
     return found
+
+
+def _verb_lines(exchange: Exchange, model: Model) -> list[_Line]:
+    """Return an example of a message by its verb: values in the order of its method."""
+    message = MessageView(exchange.request, model)
+    fields = message.command_words(exchange.request.message.examples[0].values)
+    given = dict(field.split("=", 1) for field in fields)
+    lasts = exchange.lasts
+    words: list[str] = []
+    for name in exchange.arguments:
+        if name in given and (lasts is None or name != lasts.name):
+            field = next(each for each in exchange.request.arguments if each.name == name)
+            words += given[name].split(",") if isinstance(field, Items) else [given[name]]
+    if lasts is not None and lasts.name in given:
+        whole = given[lasts.name].removesuffix("000") if lasts.field.unit == "ms" else ""
+        is_whole = whole != given[lasts.name] and whole
+        words += ["--in", f"{whole}s" if is_whole else f"{given[lasts.name]}{lasts.field.unit}"]
+    return [(" ".join(words), exchange.request.message.summary)]
 
 
 def _decode_lines(model: Model) -> list[_Line]:

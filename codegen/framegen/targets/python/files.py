@@ -37,7 +37,10 @@ SHARED = {
 # What only some protocols have a use for, by what they have; `_used` tells which these are.
 ONLY_WITH = {
     "a distribution": {"README.md", "pyproject.toml"},
-    "poses": {"_cli/play.py", "_cli/posefile.py", "_cli/positions.py", "_cli/teach.py"},
+    "poses": {
+        *("_cli/hold.py", "_cli/play.py", "_cli/pose_verb.py", "_cli/posefile.py"),
+        *("_cli/positions.py", "_cli/stop.py", "_cli/teach.py"),
+    },
     "addresses": {"_client/address.py", "_client/async_devices.py", "_client/devices.py"},
     "failures": {"_client/failures.py"},
     "counted replies": {"_client/counted.py"},

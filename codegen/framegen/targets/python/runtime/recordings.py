@@ -5,7 +5,7 @@
 
 A recording is read piece by piece, and never held as a whole. Each line of one says when its bytes
 came and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream, and
-so is each way of a log of other programs, such as `12:01:02.123 -> 55 55`, `TX: 55 55`, a line of
+so is each way of a log of other programs, such as `12:01:02.123 -> 01 02`, `TX: 01 02`, a line of
 Python's logging, or a table with columns `tx` and `rx`; TX is what this end sends.
 """
 

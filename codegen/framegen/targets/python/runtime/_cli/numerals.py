@@ -15,6 +15,8 @@ _ANY_BASE = re.compile(r"-?(?:0[xX][0-9A-Fa-f]+|0[oO][0-7]+|0[bB][01]+|0+|[1-9][
 _DECIMAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|inf")
 # Far more digits than any number here has; Python refuses to read some thousands.
 _MOST_DIGITS = 100
+# How far from a whole number of steps a time may be, as floats are.
+_NEAR = 1e-6
 
 
 def whole(text: str) -> int:
@@ -67,6 +69,27 @@ def from_zero(*, highest: float, unit: str) -> Callable[[str], float]:
         if not 0 <= given <= highest:
             raise argparse.ArgumentTypeError(f"{text} is not in 0..{highest:g} {unit}")
         return given
+
+    return read
+
+
+def steps_of_time(*, highest: int, per_second: int) -> Callable[[str], int]:
+    """Return the argument type of a time, `1s`, `500ms` or seconds, as a number of steps."""
+
+    def read(text: str) -> int:
+        unit = 1000 if text.endswith("ms") else 1
+        number = text.removesuffix("ms").removesuffix("s")
+        if len(number) > _MOST_DIGITS or _DECIMAL.fullmatch(number) is None or "inf" in number:
+            raise argparse.ArgumentTypeError(f"{text[:40]!r} is no time: write it like 1s or 500ms")
+        steps = float(number) * per_second / unit
+        if not 0 <= steps <= highest:
+            bound = f"{highest / per_second:g}s"
+            raise argparse.ArgumentTypeError(f"{text} is not in 0s..{bound}")
+        # 0.29 s are 290 ms, though the nearest float is a little less.
+        if abs(steps - round(steps)) > _NEAR:
+            step = {1: "s", 1000: "ms"}[per_second]
+            raise argparse.ArgumentTypeError(f"{text} is no whole number of {step}")
+        return round(steps)
 
     return read
 

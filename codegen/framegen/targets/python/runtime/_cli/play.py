@@ -11,13 +11,13 @@ from pathlib import Path
 from .._client.wire_time import WireTime
 from .._frame.pluralize import pluralize
 from . import link
-from .exit_codes import DONE, INTERRUPTED
+from .exit_codes import DONE
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
 from .numerals import at_least, from_zero, whole
 from .posefile import LONGEST_PAUSE, check_limits, read_poses
-from .positions import UNREAD, hold, in_options, listed, the_pose
-from .progress_thread import shown_progress
+from .positions import stopped_by_hand, the_pose
+from .progress_thread import slept
 from .usage_error import UsageError
 from .values import fields_as_text
 
@@ -35,8 +35,6 @@ Moves to each pose of FILE, which `teach` has written, and waits for as long as 
 whole file is looked at before the first move. Ctrl-C commands the positions of that moment, so that
 nothing moves on. Give it room, and look at --dry-run first: nothing here knows what is in the way,
 and the first pose may be far away."""
-# How long one sleep may take, so that Ctrl-C is noticed on every system.
-_POLL_INTERVAL = 0.1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -82,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
     with failures_reported(), open_client(arguments, limits=limits) as controller:
-        return _play(controller, pose, steps, arguments.repeat, limits)
+        return _play(controller, steps, arguments.repeat, limits)
 
 
 class _Step:
@@ -105,9 +103,7 @@ class _Step:
         return f"{at:12.6f}  pose {self.number}  {what}"
 
 
-def _play(
-    controller: Client, pose: Pose, steps: list[_Step], times: int, limits: Bounds | None
-) -> int:
+def _play(controller: Client, steps: list[_Step], times: int, limits: Bounds | None) -> int:
     began = time.monotonic()
     done = 0
     try:
@@ -115,28 +111,14 @@ def _play(
             at = time.monotonic()
             print(step.line(at - began), flush=True)
             sent = controller.send(step.message)
-            _wait(at + sent.delay + sent.duration + step.seconds)
+            slept(at + sent.delay + sent.duration + step.seconds, "the next pose")
             done += 1
     except KeyboardInterrupt:
         ids = tuple(dict.fromkeys(each for step in steps for each in step.ids))
-        try:
-            hold(controller, pose, ids, limits)
-        except UNREAD as error:
-            state = f"the motion under way goes on to its end: {in_options(error)}"
-            print(f"\n{state}", file=sys.stderr)
-        else:
-            print(f"\n{listed(pose, ids)} held", file=sys.stderr)
-        return INTERRUPTED
+        return stopped_by_hand(controller, ids, limits)
     finally:
         print(f"{done} of {pluralize(len(steps) * times, 'pose')} played", file=sys.stderr)
     return DONE
-
-
-def _wait(until: float) -> None:
-    """Wait until a time; show that the wait goes on if it is long."""
-    with shown_progress(lambda _: f"the next pose in {until - time.monotonic():.0f} s"):
-        while (left := until - time.monotonic()) > 0:
-            time.sleep(min(left, _POLL_INTERVAL))
 
 
 def _time(text: str) -> int:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import argparse
+import sys
+
 from .._client.exchanges import POSE
 from .._client.long_question import parts_of
 from .._client.pose import HOLD_MS
 from .._frame.errors import LimitError
 from .._serial.link_errors import AbsentError, NoReplyError
+from .exit_codes import INTERRUPTED
 from .limits import refused
+from .numerals import whole
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -49,6 +54,48 @@ def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | No
         controller.send(pose.motion(targets[at : at + pose.room], HOLD_MS))
 
 
+def hold_those_there(
+    controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None
+) -> tuple[list[int], dict[int, str]]:
+    """Command the current positions of those that answer, whatever the others do.
+
+    Returns those held, and of each other one why it is not. Raises NoReplyError if nobody answers.
+    """
+    targets: list[tuple[int, int]] = []
+    left = dict.fromkeys(ids, "does not answer")
+    for request in parts_of(pose.read, ids):
+        for each in pose.there([controller.request(request)]):
+            number = each[0]
+            try:
+                targets += pose.targets_of([each], limits)
+            except LimitError as error:
+                left[number] = f"{error.value} is outside the limits"
+            else:
+                left.pop(number, None)
+    for at in range(0, len(targets), pose.room):
+        controller.send(pose.motion(targets[at : at + pose.room], HOLD_MS))
+    return [number for number, _ in targets], left
+
+
+def stopped_by_hand(controller: Client, ids: Sequence[int], limits: Bounds | None) -> int:
+    """Hold what moves, because Ctrl-C was pressed, and say so; return the exit status."""
+    if POSE is None or not ids:
+        print("\nwhat was sent goes on to its end", file=sys.stderr)
+        return INTERRUPTED
+    try:
+        hold(controller, POSE, ids, limits)
+    except UNREAD as error:
+        print(f"\nthe motion under way goes on to its end: {in_options(error)}", file=sys.stderr)
+    else:
+        print(f"\n{listed(POSE, ids)} held", file=sys.stderr)
+    return INTERRUPTED
+
+
+def nobody(pose: Pose) -> str:
+    """Return what is said where nothing answers."""
+    return f"no {pose.noun} is there: is the supply of the {pose.noun}s on?"
+
+
 def listed(pose: Pose, ids: Iterable[int]) -> str:
     """Return some of them in words: `joint 1`, `joints 1, 2`."""
     numbers = [str(each) for each in ids]
@@ -58,3 +105,23 @@ def listed(pose: Pose, ids: Iterable[int]) -> str:
 def in_options(error: Exception) -> str:
     """Return the error, in the words of the command line."""
     return str(refused(error) if isinstance(error, LimitError) else error)
+
+
+def numbers(text: str) -> tuple[int, ...]:
+    """Return the numbers of an argument such as `1-6,9`."""
+    pose = the_pose()
+    found: dict[int, None] = {}
+    for part in text.split(","):
+        first, dash, last = part.partition("-")
+        try:
+            low, high = whole(first), whole(last if dash else first)
+        except ValueError:
+            raise argparse.ArgumentTypeError(
+                f"{part[:40]!r} is neither a number nor a range like 1-6"
+            ) from None
+        if not pose.item.low <= low <= high <= pose.item.high:
+            bounds = f"{pose.item.low}..{pose.item.high}"
+            problem = f"is outside {bounds}" if low <= high else "has its higher number first"
+            raise argparse.ArgumentTypeError(f"{part[:40]} {problem}")
+        found |= dict.fromkeys(range(low, high + 1))
+    return tuple(found)

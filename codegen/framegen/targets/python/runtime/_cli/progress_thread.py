@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 
+# How long one sleep may take, so that Ctrl-C is noticed on every system.
+_POLL_INTERVAL = 0.1
+
+
 @contextmanager
 def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
     """Show each second what `tell` returns for the seconds so far, while the body waits.
@@ -39,3 +43,10 @@ def shown_progress(tell: Callable[[float], str]) -> Iterator[None]:
         ended.set()
         thread.join()
         progress.clear()
+
+
+def slept(until: float, what: str) -> None:
+    """Wait until a time; show what is waited for if it is long."""
+    with shown_progress(lambda _: f"{what} in {until - time.monotonic():.0f} s"):
+        while (left := until - time.monotonic()) > 0:
+            time.sleep(min(left, _POLL_INTERVAL))

@@ -1,0 +1,60 @@
+"""The verb `hold`: commands the positions of the moment."""
+
+from __future__ import annotations
+
+import sys
+
+from .._serial.link_errors import NoReplyError
+from . import link
+from .exit_codes import DONE, NOT_ALL
+from .limits import add_limits, limits_of
+from .link import add_port, add_timeout, failures_reported, open_client
+from .positions import find_present, hold_those_there, listed, nobody, numbers, the_pose
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+
+    from .._client.client import Client
+
+ENDS = link.ENDS | {NOT_ALL: "not everything was held: something did not answer"}
+ABOUT = """\
+Reads where everything is, and commands just that: what moves stops, and what is limp gets its force
+back. What does not answer is named; the rest is held all the same."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument(
+        "ids", nargs="*", type=numbers, metavar="ID", help="1, 2 or 1-6 (default: all that answer)"
+    )
+    add_port(parser)
+    add_limits(parser)
+    add_timeout(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Hold what answers, and say what was held."""
+    limits = limits_of(arguments)
+    with failures_reported(), open_client(arguments, limits=limits) as controller:
+        return held(controller, arguments)
+
+
+def held(controller: Client, arguments: argparse.Namespace) -> int:
+    """Hold what answers, and say what was held; return the exit status."""
+    pose = the_pose()
+    asked = tuple(dict.fromkeys(number for each in arguments.ids for number in each))
+    try:
+        ids = asked or find_present(controller, pose)
+        if not ids:
+            print(nobody(pose), file=sys.stderr)
+            return NOT_ALL
+        there, left = hold_those_there(controller, pose, ids, limits_of(arguments))
+    except NoReplyError as error:
+        print(error, file=sys.stderr)
+        return NOT_ALL
+    if there:
+        print(f"{listed(pose, there)} held", file=sys.stderr)
+    for number, why in left.items():
+        print(f"{listed(pose, [number])} not held: {why}", file=sys.stderr)
+    return NOT_ALL if left else DONE

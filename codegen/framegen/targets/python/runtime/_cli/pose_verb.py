@@ -1,0 +1,45 @@
+"""A verb that sends one message about positions: what moves is held, what is there is found."""
+
+from __future__ import annotations
+
+from .._client.long_question import parts_of
+from .method_verb import MethodVerb
+from .positions import find_present, nobody, stopped_by_hand, the_pose
+from .usage_error import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from .._client.client import Client
+    from .._client.limits import Bounds
+    from .._frame.message import Message
+
+
+class PoseVerb(MethodVerb):
+    """A verb that reads or commands positions."""
+
+    @property
+    def may_be_empty(self) -> bool:
+        """Whether its list may be left out: all positions are read then."""
+        return self.kind is the_pose().read
+
+    def messages(self, arguments: Namespace) -> list[Message]:
+        """Return what to send; nothing where all positions are read."""
+        if self.may_be_empty and not getattr(arguments, f"field {the_pose().requested}"):
+            return []
+        return super().messages(arguments)
+
+    def without_words(self, controller: Client, /) -> list[Message]:
+        """Return the question for the positions of all that answer. Raises UsageError for none."""
+        pose = the_pose()
+        ids = find_present(controller, pose)
+        if not ids:
+            raise UsageError(nobody(pose))
+        return parts_of(self.kind, ids)
+
+    def interrupted(self, controller: Client, message: Message, limits: Bounds | None, /) -> int:
+        """Hold what the message moves; return the exit status."""
+        pose = the_pose()
+        moved = [each[0] for each in getattr(message, pose.moved)]
+        return stopped_by_hand(controller, moved, limits)

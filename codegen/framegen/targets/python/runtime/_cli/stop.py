@@ -1,0 +1,28 @@
+"""The verb `stop`: ends what the device does by itself, then holds everything where it is."""
+
+from __future__ import annotations
+
+from . import hold
+from .examples import STOP_MESSAGE
+from .limits import limits_of
+from .link import failures_reported, open_client
+from .questions import in_parts
+from .send import commanded
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+
+ENDS = hold.ENDS
+ABOUT = hold.ABOUT
+add_arguments = hold.add_arguments
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Stop, hold what answers, and say what was held."""
+    messages = in_parts(STOP_MESSAGE, []) if STOP_MESSAGE else []
+    limits = limits_of(arguments)
+    with failures_reported(), open_client(arguments, limits=limits) as controller:
+        for message in messages:
+            commanded(controller, message)
+        return hold.held(controller, arguments)

@@ -1,0 +1,204 @@
+"""The verbs that send one message, and those that stop and hold what moves."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import (
+    ActionGroupRun,
+    ActionGroupSpeed,
+    ActionGroupStop,
+    ServoMove,
+    ServoPositionsRead,
+    ServoUnload,
+)
+from busservo._cli import main
+from busservo._cli.examples import LONG, METHODS, POSE_METHODS, STOP_MESSAGE
+from busservo._cli.verbs import verb_named
+from busservo._client.exchanges import EXCHANGES
+from busservo_simulator import VirtualController
+from framegen.language.command_verbs import VERBS
+from framegen.targets.python import command_lines
+
+from tests.timeouts import GENEROUS, await_that
+
+if sys.platform != "win32":
+    from tests.cli.terminal import OnTerminal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from busservo import Message
+
+FAST = ("--timeout", str(GENEROUS), "--baud", "inf")
+
+
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    with VirtualController("tcp", servos=[1, 2, 3]) as board:
+        yield board
+
+
+def sent_by(*words: str) -> list[Message]:
+    """Return what a verb makes of its words."""
+    verb = verb_named(words[0])
+    parser = argparse.ArgumentParser()
+    verb.add_arguments(parser)
+    messages: list[Message] = verb.messages(parser.parse_intermixed_args(words[1:]))
+    return messages
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("move 1:500", ServoMove(time_ms=1000, targets=[(1, 500)])),
+        ("move 1:500 2:300 --in 2s", ServoMove(time_ms=2000, targets=[(1, 500), (2, 300)])),
+        ("move 1:500,2:300 --in 0.29", ServoMove(time_ms=290, targets=[(1, 500), (2, 300)])),
+        ("move --in 500ms 0x01:500", ServoMove(time_ms=500, targets=[(1, 500)])),
+        ("move 1:500 --in 0s 2:300", ServoMove(time_ms=0, targets=[(1, 500), (2, 300)])),
+        ("move 1:500 --in 65535ms", ServoMove(time_ms=65535, targets=[(1, 500)])),
+        ("run 8 1", ActionGroupRun(8, 1)),
+        ("run 8 unlimited", ActionGroupRun(8, 0)),
+        ("speed all 50", ActionGroupSpeed(255, 50)),
+        ("unload 1 2", ServoUnload([1, 2])),
+        ("unload 1,2 3", ServoUnload([1, 2, 3])),
+        ("positions 1 2", ServoPositionsRead([1, 2])),
+    ],
+)
+def test_words_are_the_values_in_the_order_of_the_method(line: str, message: Message) -> None:
+    assert sent_by(*line.split()) == [message]
+
+
+@pytest.mark.parametrize(
+    ("line", "problem"),
+    [
+        ("move", "the following arguments are required: SERVO_ID:POSITION"),
+        ("move 1", "targets[0]: '1' is not servo_id:position"),
+        ("move 1:x", "targets[0].position: 'x' is no number: write it like 12 or 0x0C"),
+        ("move 1:500 --in 65536ms", "argument --in: 65536ms is not in 0s..65.535s"),
+        ("move 1:500 --in=-1s", "argument --in: -1s is not in 0s..65.535s"),
+        ("move 1:500 --in soon", "argument --in: 'soon' is no time: write it like 1s or 500ms"),
+        ("move 1:500 --in nan", "argument --in: 'nan' is no time: write it like 1s or 500ms"),
+        ("move 1:1001", "targets[0].position: 1001 is outside the limits 0..1000; "),
+        ("move 1:1 --in 0.1ms", "argument --in: 0.1ms is no whole number of ms"),
+        ("run 8", "the following arguments are required: TIMES"),
+        ("run 8 1 1", "unrecognized arguments: 1"),
+        ("run 256 1", "group: 256 is outside 0..255"),
+        ("unload", "the following arguments are required: SERVO_IDS"),
+        ("hold 1-300", "argument ID: 1-300 is outside 0..255"),
+        ("stop x", "argument ID: 'x' is neither a number nor a range like 1-6"),
+    ],
+)
+def test_what_cannot_be_sent_is_refused_and_nothing_arrives(
+    board: VirtualController, capsys: pytest.CaptureFixture[str], line: str, problem: str
+) -> None:
+    assert main([*line.split(), "--port", board.port]) == 2
+    assert f"busservo: error: {problem}" in capsys.readouterr().err
+    assert main(["battery", "--port", board.port, *FAST]) == 0
+    assert not any(servo.travelling for servo in board.servos.values())
+    assert all(servo.loaded for servo in board.servos.values())
+
+
+def test_a_move_ends_when_the_motion_is_over(board: VirtualController) -> None:
+    assert main(["move", "1:520", "2:480", "--in", "200ms", "--port", board.port, *FAST]) == 0
+    assert (board.servos[1].position, board.servos[2].position) == (520, 480)
+
+
+def test_a_move_need_not_be_waited_for(board: VirtualController) -> None:
+    assert main(["move", "1:800", "--in", "60s", "--no-wait", "--port", board.port, *FAST]) == 0
+    await_that(lambda: board.servos[1].travelling)
+
+
+def test_positions_of_all_that_answer(
+    board: VirtualController, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["positions", "--port", board.port, *FAST]) == 0
+    assert " ServoPositions positions=1:500,2:500,3:500 |" in capsys.readouterr().out
+    assert main(["positions", "2", "--json", "--port", board.port, *FAST]) == 0
+    assert '"positions": [{"servo_id": 2, "position": 500}]' in capsys.readouterr().out
+
+
+def test_hold_holds_what_answers_and_names_the_rest(
+    board: VirtualController, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["unload", "1", "2", "3", "--port", board.port, *FAST]) == 0
+    assert main(["hold", "1", "2", "9", "--port", board.port, *FAST]) == 1
+    assert capsys.readouterr().err == "servos 1, 2 held\nservo 9 not held: does not answer\n"
+    assert main(["battery", "--port", board.port, *FAST]) == 0
+    assert [board.servos[each].loaded for each in (1, 2, 3)] == [True, True, False]
+    assert main(["hold", "--port", board.port, *FAST]) == 0
+    assert capsys.readouterr().err == "servos 1, 2, 3 held\n"
+
+
+def test_what_is_far_outside_the_limits_is_named_and_the_rest_is_held(
+    board: VirtualController, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--limits", "600..1000", "--port", board.port, *FAST]
+    assert main(["move", "1:700", *words]) == 0
+    assert main(["hold", "1-3", *words]) == 1
+    assert capsys.readouterr().err.splitlines() == [
+        "servo 1 held",
+        "servo 2 not held: 500 is outside the limits",
+        "servo 3 not held: 500 is outside the limits",
+    ]
+
+
+def test_stop_ends_the_group_before_it_holds(
+    board: VirtualController, capsys: pytest.CaptureFixture[str]
+) -> None:
+    received: list[Message] = []
+    accepted = board.board.accepted
+
+    def noted(message: Message) -> None:
+        received.append(message)
+        accepted(message)
+
+    board.board.accepted = noted  # type: ignore[method-assign]
+    assert main(["run", "8", "unlimited", "--port", board.port, *FAST]) == 0
+    assert main(["stop", "1-2", "--port", board.port, *FAST]) == 0
+    assert capsys.readouterr().err == "servos 1, 2 held\n"
+    assert main(["battery", "--port", board.port, *FAST]) == 0
+    kinds = [type(message) for message in received]
+    assert kinds[:4] == [ActionGroupRun, ActionGroupStop, ServoPositionsRead, ServoMove]
+
+
+def test_nobody_to_hold_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp", servos=[]) as board:
+        assert main(["hold", "--port", board.port, *FAST]) == 1
+        assert "no servo is there" in capsys.readouterr().err
+        assert main(["positions", "--port", board.port, *FAST]) == 2
+    assert "no servo is there" in capsys.readouterr().err
+
+
+def test_every_message_of_this_end_has_a_verb_once() -> None:
+    sent = [*METHODS.values(), *POSE_METHODS.values(), STOP_MESSAGE]
+    assert sorted(sent) == sorted(kind.__name__ for kind in EXCHANGES)
+    assert not {*METHODS, *POSE_METHODS} & {*VERBS}
+
+
+def test_a_method_has_its_long_verb_as_well(
+    board: VirtualController, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert {*LONG.values()} == {*METHODS, *POSE_METHODS, "stop"}
+    assert main(["read-battery-voltage", "--port", board.port, *FAST]) == 0
+    assert " BatteryVoltage voltage_mv=7500 mV |" in capsys.readouterr().out
+
+
+def test_every_own_verb_says_what_it_is_for() -> None:
+    assert {*command_lines._ABOUT} == {*VERBS}
+
+
+if sys.platform != "win32":
+
+    def test_ctrl_c_holds_what_a_move_moves(board: VirtualController) -> None:
+        words = ("1:1000", "2:0", "--in", "60s", "--port", board.port, *FAST)
+        with OnTerminal("move", *words) as move:
+            await_that(lambda: board.servos[1].travelling)
+            move.type(b"\x03")
+            assert move.end() == 130
+        assert re.search("servos 1, 2 held", move.shown)
+        assert not board.servos[1].travelling or board.servos[1].target < 600
