@@ -229,5 +229,6 @@ def test_the_schema_of_site_settings_has_their_keys_and_refuses_others(
     assert SiteSettings.model_validate(every).model_dump() == every
     for good in ({}, every):
         assert judge.is_valid(good)
-    for bad in ({"tilte": "x"}, {"title": 1}, {"accent": None}, []):
+    bads: list[object] = [{"tilte": "x"}, {"title": 1}, {"accent": None}, []]
+    for bad in bads:
         assert not judge.is_valid(bad)

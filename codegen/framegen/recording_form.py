@@ -146,7 +146,7 @@ def log_lines(text: str) -> LogLines | None:
     """Return a reader of lines like the first with bytes of a text; None if that is no log.
 
     A log is what a serial monitor, Python's logging, or a table of two wires says of a line:
-    `12:01:02.123 -> 55 55`, `TX: 55 55`, `... DEBUG x: sent b'UU'`, `t;tx;rx`.
+    `12:01:02.123 -> 01 02`, `TX: 01 02`, `... DEBUG x: sent b'AB'`, `t;tx;rx`.
     """
     lines = (line for line in text.split("\n") if line.partition("#")[0].strip())
     first = next(lines, "")

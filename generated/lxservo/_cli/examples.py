@@ -31,11 +31,19 @@ VERBS = {
     "adjust-offset": "Shift the zero of the servo, until it is switched off.",
     "save-offset": "Keep the offset without power.",
     "read-offset": "Ask for the offset.",
-    "write-position-limits": "Set the lowest and the highest position that the servo turns to; it keeps them without power.",
+    "write-position-limits": (
+        "Set the lowest and the highest position that the servo turns to; it keeps them without"
+        " power."
+    ),
     "read-position-limits": "Ask for the lowest and the highest position.",
-    "write-voltage-limits": "Set the supply voltages outside which the servo lets go and blinks; it keeps them without power.",
+    "write-voltage-limits": (
+        "Set the supply voltages outside which the servo lets go and blinks; it keeps them without"
+        " power."
+    ),
     "read-voltage-limits": "Ask for the lowest and the highest supply voltage.",
-    "write-temperature-limit": "Set the temperature above which the servo lets go and blinks; it keeps it without power.",
+    "write-temperature-limit": (
+        "Set the temperature above which the servo lets go and blinks; it keeps it without power."
+    ),
     "read-temperature-limit": "Ask for the highest temperature.",
     "read-temperature": "Ask how warm the servo is.",
     "read-voltage": "Ask for the supply voltage.",

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from framegen.language.command_verbs import OF_POSES, STOP, VERBS
 from framegen.model.exchanges import snake_case
 from framegen.model.slots import Items
-from framegen.targets.python.escape import Bracketed, Text, literal
+from framegen.targets.python.characters import columns
+from framegen.targets.python.escape import WIDTH, Bracketed, Text, literal
 from framegen.targets.python.message_view import MessageView
 
 if TYPE_CHECKING:
@@ -52,6 +53,14 @@ class VerbView:
     name: str
     about: str
     examples: list[Bracketed]
+
+    @property
+    def told(self) -> str:
+        """What it is for as the entry of a dict, in brackets where it takes several lines."""
+        line = f"{literal(self.name)}: {literal(self.about)},"
+        if 4 + columns(line) <= WIDTH:
+            return line
+        return f"{literal(self.name)}: (\n        {Text(self.about).fitted(8)}\n    ),"
 
     @property
     def entry(self) -> str:
