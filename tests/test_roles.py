@@ -44,7 +44,7 @@ def _without_banner(text: str) -> list[str]:
 
 
 def test_swapped_endpoints_are_reported_where_a_client_has_methods() -> None:
-    assert set(rules(turned_round(SERVO))) == {"limits", "lasts", "method", "pose"}
+    assert set(rules(turned_round(SERVO))) == {"limits", "lasts", "method", "pose", "verb"}
 
 
 @pytest.mark.parametrize(

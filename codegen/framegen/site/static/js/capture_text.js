@@ -11,8 +11,8 @@ function recognise(sample, says) {
   const form = lineFormOf(lines);
   const log = logReader(lines, says);
   // A line of one byte may be an annotation as well.
-  const isLog = log && (!form || (!lines.every(([line]) => form.pattern.test(line)) && lines.every(isLogLine)));
-  if (isLog) return { name: "a log of a line", byLine: true, make: () => log };
+  const hasForm = form && (lines.every(([line]) => form.pattern.test(line)) || !lines.every(isLogLine));
+  if (log && !hasForm) return { name: "a log of a line", byLine: true, make: () => log };
   if (form) return { name: form.name, byLine: true, make: () => makeLineReader(form, says) };
   const header = csvHeader(lines);
   if (header) {
