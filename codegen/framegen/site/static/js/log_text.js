@@ -10,7 +10,8 @@ const LOG_MONITORED = inPieces("i",
   String.raw`\s*(?:(?<way>[TR]X)\s*:)?\s*(?<said>.*)`);
 const LOG_LOGGED = inPieces("",
   String.raw`^\s*(?:${LOG_CLOCK("at")}\s+(?:-\s+)?`,
-  String.raw`(?:${LOG_LEVEL}\s+[\w.-]+:|[\w.-]+\s+-\s+${LOG_LEVEL}\s+-)|${LOG_LEVEL}:[\w.-]+:)\s*(?<said>.*)`);
+  String.raw`(?:${LOG_LEVEL}\s+[\w.-]+:|[\w.-]+\s+-\s+${LOG_LEVEL}\s+-)`,
+  String.raw`|${LOG_LEVEL}:[\w.-]+:)\s*(?<said>.*)`);
 const LOG_LITERAL = /b(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")/g;
 const LOG_BEGIN = /^(?:b['"]|(?:0x|\\x)?[0-9a-f]{2}(?![g-z]))/i;
 // Letters alone are a word rather than bytes; unless they are one byte.
@@ -54,7 +55,8 @@ function logTable(first, says) {
         "paste whole lines");
     }
     const at = time < 0 ? null : unquoted(cells[time]);
-    const isTime = at !== null && (/^[0-9]{1,9}\.[0-9]{1,9}$/.test(at) || inPieces("", `^${LOG_CLOCK("at")}$`).test(at));
+    const isTime = at !== null
+      && (/^[0-9]{1,9}\.[0-9]{1,9}$/.test(at) || inPieces("", `^${LOG_CLOCK("at")}$`).test(at));
     return wires.map((way) => [way, names.indexOf(way)]).filter(([, column]) => unquoted(cells[column]))
       .map(([way, column]) => {
         const place = start + cells.slice(0, column).join(mark).length + (column ? 1 : 0);
@@ -84,7 +86,8 @@ function makeLogReader({ sent, received }, readLine) {
       if (!line.split("#")[0].trim()) continue;
       for (const { way, at, bytes } of readLine(line, start)) {
         const time = at ? secondsSince(at) : null;
-        const said = { tx: { channel: "tx", direction: sent }, rx: { channel: "rx", direction: received } }[way];
+        const ways = { tx: { channel: "tx", direction: sent }, rx: { channel: "rx", direction: received } };
+        const said = ways[way];
         take(bytes, { time, ...said });
       }
     }
@@ -100,7 +103,8 @@ function readLogLine(line, start) {
   const { at, bracketed, way, said } = LOG_MONITORED.exec(line).groups;
   if (!at && !bracketed && !way) {
     throw new Unreadable(line.trim(), start + line.search(/\S/),
-      "is no line of a log, with a time or a direction, as other lines are", "remove the line, or paste it apart");
+      "is no line of a log, with a time or a direction, as other lines are",
+      "remove the line, or paste it apart");
   }
   const place = start + line.length - said.length, [literal] = said.match(LOG_LITERAL) || [];
   const bytes = literal === said.trim() ? readCode(literal).bytes : readHexOf(said, place);
@@ -140,7 +144,8 @@ function saidInLog(message, place) {
       "remove it, or put a # before it");
   }
   if (!last.endsWith(":") && !LOG_SENT.has(last.toLowerCase()) && !LOG_CAME.has(last.toLowerCase())) {
-    throw new Unreadable(last, place + words[begin - 1].index, `stands before “${words[begin][0]}”, so that this may be no byte`,
+    throw new Unreadable(last, place + words[begin - 1].index,
+      `stands before “${words[begin][0]}”, so that this may be no byte`,
       "put “sent”, “received” or a colon between them");
   }
   const at = words[begin].index;

@@ -70,7 +70,8 @@ function makeSearch(index) {
   const whole = entries.map((entry) => [entry.title, ...(entry.names ?? []), ...(entry.also ?? []),
     entry.where, entry.text ?? ""].join("\n").toLowerCase());
   const titles = entries.map(({ title }) => glued(title));
-  // What is called so, which entries have a word and how well, in turn, and how names of several parts are written.
+  // What is called so, which entries have a word and how well, in turn,
+  // and how names of several parts are written.
   const exact = new Map(), vocabulary = new Map(), written = new Map();
   // A page is called what its address says, its sections are not.
   const pathOf = ({ path }) => (path.includes("#") ? ""
