@@ -162,13 +162,19 @@ class Controller(Client):
         """
         return self.send(ServoUnload(servo_ids=servo_ids))
 
-    def read_servo_positions(self, servo_ids: Iterable[int]) -> tuple[ServoPosition, ...]:
+    def read_servo_positions(
+        self,
+        servo_ids: Iterable[int] | None = None,
+    ) -> tuple[ServoPosition, ...]:
         """Ask where one or more servos are.
 
         Answered by ServoPositions. A request may name 252 servos, but a reply has room for 84: a
         request for more than 84 cannot be answered in full.
 
         `servo_ids`: The servos asked about (1..252 items).
+
+        Without any, it asks about the `ids` that the client was opened with, and raises
+        ValueError where there are none.
 
         Returns `positions` of the ServoPositions: The servos and where they are, in the order of
         the frame (0..84 items). A servo that is off or missing may be left out, so there may be
@@ -182,7 +188,7 @@ class Controller(Client):
 
         >>> answer = controller.read_servo_positions([1, 2, 3, 4, 5, 6])
         """
-        replies = self._ask_in_parts(ServoPositionsRead, ServoPositions, servo_ids)
+        replies = self._ask_in_parts(ServoPositionsRead, ServoPositions, self._asked(servo_ids))
         return tuple(each for reply in replies for each in reply.positions)
 
     def present_servos(self, servo_ids: Iterable[int] | None = None) -> tuple[int, ...]:

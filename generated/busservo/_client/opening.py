@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from os import PathLike
 
 from .._frame.protocol import BAUD, LOCAL_ECHO
@@ -10,7 +11,7 @@ from .._serial.serial_port import open_transport
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .controller import Controller
 from .exchanges import LIMITS
-from .limits import Bounds
+from .limits import Allowed
 
 
 def open_controller(
@@ -22,7 +23,8 @@ def open_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
-    limits: Bounds | None = LIMITS.usual,
+    limits: Allowed = LIMITS.usual,
+    ids: Iterable[int] = (),
     local_echo: bool = LOCAL_ECHO,
     settle: float | None = None,
 ) -> Controller:
@@ -44,6 +46,7 @@ def open_controller(
             trace=trace,
             report_limit=report_limit,
             limits=limits,
+            ids=ids,
             local_echo=local_echo,
             settle=settle,
         )

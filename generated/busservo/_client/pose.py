@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from .._frame.errors import LimitError
 from .._serial.link_errors import AbsentError
 from .limits import nearest
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from .._frame.items import Items
     from .._frame.message import Message
     from .._frame.number import Number
-    from .limits import Bounds, Limits
+    from .limits import Allowed, Limits
 
 HOLD_MS = 100
 """How long a motion takes, in milliseconds, that only holds what is there."""
@@ -106,31 +108,33 @@ class Pose:
         """Return the numbers of those that are present, in the order of the replies."""
         return tuple(number for number, _ in self.there(replies))
 
-    def targets_of(self, positions: Iterable[Any], limits: Bounds | None) -> list[tuple[int, int]]:
+    def targets_of(self, positions: Iterable[Any], limits: Allowed) -> list[tuple[int, int]]:
         """Return the targets that send those which are present to where they were.
 
         One that is absent is left out. One at its stop may be read a little below zero, or a little
         outside the limits: it is sent to the nearest position inside. Raises LimitError for one
         that is further out, and would be sent somewhere else.
         """
-        bounds = (self.place.low, self.place.high) if limits is None else limits
-        slack = (bounds[1] - bounds[0]) // _SLACK
         targets: list[tuple[int, int]] = []
         for at, each in enumerate(positions):
             if getattr(each, "absent", False):
                 continue
             number, raw = each
+            bounds = self.limits.of(number, limits) or (self.place.low, self.place.high)
+            slack = (bounds[1] - bounds[0]) // _SLACK
             below: int = getattr(each, self.position)
             value = below if -slack <= below < 0 else raw
             near = nearest(value, bounds)
             if abs(value - near) > slack:
                 path = f"{self.reported}[{at}].{self.place.name}"
+                if isinstance(limits, Mapping):
+                    raise self.limits.refusal(path, value, bounds, self.item.name, number)
                 raise LimitError(path, value, bounds, self.limits.way_out(value, read=True))
             targets.append((number, near))
         return targets
 
     def held(
-        self, exchanged: Sequence[tuple[Message, Message]], limits: Bounds | None
+        self, exchanged: Sequence[tuple[Message, Message]], limits: Allowed
     ) -> list[tuple[int, int]]:
         """Return the targets that hold everything requested, by the replies.
 

@@ -49,16 +49,26 @@ class EncodeError(ProtocolError, ValueError):
 
 
 class LimitError(EncodeError):
-    """A value that a frame could carry, but that this end does not send: it is outside `limits`."""
+    """A value that a frame could carry, but that this end does not send: it is outside `limits`.
 
-    def __init__(self, path: str, value: object, limits: tuple[int, int], way_out: str) -> None:
+    `owner` says whose limits these are (`servo 1`) where each has its own, and is empty otherwise.
+    """
+
+    def __init__(
+        self, path: str, value: object, limits: tuple[int, int], way_out: str, owner: str = ""
+    ) -> None:
         low, high = limits
-        super().__init__(path, value, f"{value} is outside the limits {low}..{high}; {way_out}")
+        whose = f" of {owner}" if owner else ""
+        problem = f"{value} is outside the limits {low}..{high}{whose}; {way_out}"
+        super().__init__(path, value, problem)
         self.limits = limits
         self.way_out = way_out
+        self.owner = owner
 
-    def __reduce__(self) -> tuple[type[LimitError], tuple[str, object, tuple[int, int], str]]:
-        return type(self), (self.path, self.value, self.limits, self.way_out)
+    def __reduce__(
+        self,
+    ) -> tuple[type[LimitError], tuple[str, object, tuple[int, int], str, str]]:
+        return type(self), (self.path, self.value, self.limits, self.way_out, self.owner)
 
 
 class DecodeError(ProtocolError, ValueError):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Iterable
 from functools import partial
 from os import PathLike
 from types import TracebackType
@@ -17,7 +17,7 @@ from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL, REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
-from .limits import Bounds
+from .limits import Allowed
 from .loop_client import LoopClient
 from .report_filter import Kinds
 from .request import Sent
@@ -57,7 +57,8 @@ class AsyncClient(LoopClient):
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
-        limits: Bounds | None = LIMITS.usual,
+        limits: Allowed = LIMITS.usual,
+        ids: Iterable[int] = (),
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
         local_echo: bool = LOCAL_ECHO,
@@ -71,6 +72,7 @@ class AsyncClient(LoopClient):
             trace=trace,
             report_limit=report_limit,
             limits=limits,
+            ids=ids,
             clock=clock,
             local_echo=local_echo,
             settle=settle,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 from os import PathLike
 from types import TracebackType
@@ -13,7 +14,7 @@ from .._serial.serial_port import open_transport
 from .async_controller import AsyncController
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
-from .limits import Bounds
+from .limits import Allowed
 from .line_threads import opened
 
 if TYPE_CHECKING:
@@ -80,7 +81,8 @@ def open_async_controller(
     retries: int = 0,
     trace: str | PathLike[str] | None = None,
     report_limit: int = REPORT_LIMIT,
-    limits: Bounds | None = LIMITS.usual,
+    limits: Allowed = LIMITS.usual,
+    ids: Iterable[int] = (),
     local_echo: bool = LOCAL_ECHO,
     settle: float | None = None,
 ) -> Opening:
@@ -98,6 +100,7 @@ def open_async_controller(
         trace=trace,
         report_limit=report_limit,
         limits=limits,
+        ids=ids,
         local_echo=local_echo,
         settle=settle,
     )

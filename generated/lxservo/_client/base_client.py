@@ -11,6 +11,7 @@ import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from operator import index
 from os import PathLike
 
 from .._codec.counters import LineCounters
@@ -24,8 +25,8 @@ from .._serial.link_errors import (
     TransportError,
 )
 from .._serial.transport import Transport
-from .exchanges import LIMITS
-from .limits import Bounds
+from .exchanges import EXCHANGES, LIMITS, POSE
+from .limits import Allowed
 from .long_question import left_out, parts_of
 from .report_filter import ReportFilter
 from .request import Request, Run, Sent
@@ -69,12 +70,15 @@ class BaseClient:
         retries: int,
         trace: str | PathLike[str] | None,
         report_limit: int,
-        limits: Bounds | None,
+        limits: Allowed,
+        ids: Iterable[int],
         clock: Callable[[], float],
         local_echo: bool,
         settle: float | None,
     ) -> None:
-        self._limits = LIMITS.chosen(limits)
+        addressed = any(each.address.field for each in EXCHANGES.values())
+        self._limits = LIMITS.chosen(limits, addressed=addressed)
+        self._ids = _chosen_ids(ids)
         self._transport = ErrorMapping(transport)
         self._name = self._transport.name
         self._retries = retries
@@ -132,6 +136,14 @@ class BaseClient:
         for values outside the limits.
         """
         self._submit_latest(message)
+
+    def _asked(self, ids: Iterable[int] | None) -> Iterable[int]:
+        """Return the numbers that are asked about: those given, or those of this client."""
+        if ids is not None:
+            return ids
+        if not self._ids:
+            raise ValueError("no ids: give them here, or to open_controller(ids=…)")
+        return self._ids
 
     # ------------------------------------------------------------------ what each client adds
 
@@ -334,3 +346,18 @@ class BaseClient:
             except Exception:
                 logger = log()
                 logger.exception("%r failed on %r", callback, report)
+
+
+def _chosen_ids(given: Iterable[int]) -> tuple[int, ...]:
+    """Return the ids given as an argument, each once. Raises ValueError for what can be none."""
+    try:
+        ids = tuple(dict.fromkeys(map(index, given)))
+    except TypeError:
+        raise ValueError(f"ids is {given!r}, and must be numbers, such as (1, 2)") from None
+    if ids and POSE is None:
+        raise ValueError(f"ids is {given!r}, and nothing that is asked here takes a list of ids")
+    for each in ids:
+        if POSE is not None and each not in POSE.ids:
+            low, high = POSE.ids[0], POSE.ids[-1]
+            raise ValueError(f"ids has {each}, and a {POSE.noun} is {low}..{high}")
+    return ids

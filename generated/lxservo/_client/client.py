@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from os import PathLike
 from types import TracebackType
 
@@ -16,7 +16,7 @@ from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
-from .limits import Bounds
+from .limits import Allowed
 from .report_filter import Kinds
 from .request import Sent
 from .thread_client import ThreadClient
@@ -48,8 +48,10 @@ class Client(ThreadClient):
     is sent again, `trace` a file that every frame is recorded in, for `recordings` and `decode` to
     read (an existing recording is never overwritten: FileExistsError), `report_limit` how many
     reports are kept, `limits` the lowest and the highest value that is sent in fields that have
-    limits, None for any. With `background`, a thread listens while nobody waits; without, only
-    calls read the line, and `clock` may be of any kind.
+    limits, None for any; a mapping of ids to these gives each its own, and the usual ones to those
+    that it does not name. `ids` are those that positions are read of where a call names none. With
+    `background`, a thread listens while nobody waits; without, only calls read the line, and
+    `clock` may be of any kind.
 
     `local_echo` says that the line returns what is sent, as half-duplex adapters do: the echo is
     then expected, compared and dropped, and EchoError raised if it does not come. `settle` is for
@@ -67,7 +69,8 @@ class Client(ThreadClient):
         retries: int = 0,
         trace: str | PathLike[str] | None = None,
         report_limit: int = REPORT_LIMIT,
-        limits: Bounds | None = LIMITS.usual,
+        limits: Allowed = LIMITS.usual,
+        ids: Iterable[int] = (),
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
         local_echo: bool = LOCAL_ECHO,
@@ -81,6 +84,7 @@ class Client(ThreadClient):
             trace=trace,
             report_limit=report_limit,
             limits=limits,
+            ids=ids,
             clock=clock,
             local_echo=local_echo,
             settle=settle,

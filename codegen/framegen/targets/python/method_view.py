@@ -29,6 +29,10 @@ _LASTS = (
     "`lasts` of the result is how many seconds its effect lasts, and its `wait()` returns once "
     "that is over, by calculation."
 )
+_KNOWN = (
+    "Without any, it asks about the `ids` that the client was opened with, and raises ValueError "
+    "where there are none."
+)
 _LATEST = (
     "`latest`: Do not wait for the line, and let a newer command for the same ids replace this "
     "one, as `send_latest` does."
@@ -82,6 +86,8 @@ class MethodView:
         left_out = True
         for argument in map(self._argument, reversed(names)):
             declared = argument.argument
+            if self._ids_known and isinstance(declared, str):
+                declared = f"{declared} | None = None"
             if isinstance(declared, str):
                 left_out = left_out and "=" in declared
                 declared = declared if left_out else declared.partition(" =")[0]
@@ -125,6 +131,7 @@ class MethodView:
         for name in self._names:
             about, *rest = self._argument(name).argument_doc
             found.append(" ".join([f"`{name}`: {about}", *rest]))
+        found += [_KNOWN] if self._ids_known else []
         return [*found, *self._returns_and_raises]
 
     @property
@@ -245,7 +252,7 @@ class MethodView:
             return ""
         if split is not None:
             return self._given(
-                "replies = ", "_ask_in_parts", [self.request, reply.name, split.name]
+                "replies = ", "_ask_in_parts", [self.request, reply.name, self._value(split.name)]
             )
         before = "reply = " if self.result else "return "
         return self._given(before, "_ask", [self._made, reply.name])
@@ -281,8 +288,17 @@ class MethodView:
 
     @property
     def _made(self) -> Bracketed:
-        given = [f"{name}={name}" for name in self._names_in_order]
+        given = [f"{name}={self._value(name)}" for name in self._names_in_order]
         return Bracketed(f"{self.request}(", given, ")")
+
+    @property
+    def _ids_known(self) -> bool:
+        """Whether it asks for positions, of the client's own ids where none are given."""
+        pose = self.model.spec.pose
+        return pose is not None and pose.read == self.request
+
+    def _value(self, name: str) -> str:
+        return f"self._asked({name})" if self._ids_known else name
 
     def _given(self, before: str, method: str, arguments: list[Part]) -> str:
         """Return the arguments of a call in the body, broken where the line would be too long."""

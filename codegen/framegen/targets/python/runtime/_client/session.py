@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     from .._frame.message import Message
     from .exchange import Unaddressed
-    from .limits import Bounds
+    from .limits import Allowed
     from .reply_matcher import Answer
     from .trace import Trace
 
@@ -58,7 +58,8 @@ class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
     `reply_timeout` is how long the device may take for a reply, beyond the time on the wire, and
-    `limits` the lowest and the highest value that is sent in fields that have limits. `local_echo`
+    `limits` the lowest and the highest value that is sent in fields that have limits, for all or
+    by number. `local_echo`
     says that the line returns what is sent; `settle` is for how many seconds no question is sent on
     a line that has just been opened, None for one reply time if that may matter.
     """
@@ -70,7 +71,7 @@ class Session:
         reply_timeout: float,
         report_limit: int,
         trace: Trace | None = None,
-        limits: Bounds | None = None,
+        limits: Allowed = None,
         local_echo: bool = False,
         settle: float | None = None,
         name: str = "the line",
@@ -135,7 +136,7 @@ class Session:
         if question is True and silence and within is None:
             raise _nobody_answers(exchange.address, message)
         exchange.check(message)
-        LIMITS.check(message, self._limits)
+        LIMITS.check(message, self._limits, exchange.address)
         check_room(message, self.largest_frame)
         request = Request(message, exchange, retries=retries, latest=latest, within=within)
         self._settling.submitted(question=request.question)
