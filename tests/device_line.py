@@ -31,7 +31,7 @@ class DeviceLine:
         pass
 
 
-def client_of(device: Any) -> Any:
+def client_of(device: Any, **given: Any) -> Any:
     """Return a client of the device's library; nothing in it sleeps."""
     package = next(
         kind.__module__.partition(".")[0]
@@ -40,4 +40,4 @@ def client_of(device: Any) -> Any:
     )
     line = DeviceLine(device)
     library = importlib.import_module(package)
-    return library.Controller(line, background=False, clock=line.clock, settle=0)
+    return library.Controller(line, background=False, clock=line.clock, settle=0, **given)

@@ -51,7 +51,7 @@ class EncodeError(ProtocolError, ValueError):
 class LimitError(EncodeError):
     """A value that a frame could carry, but that this end does not send: it is outside `limits`.
 
-    `owner` says whose limits these are (`servo 1`) where each has its own, and is empty otherwise.
+    `owner` says whose limits these are (`joint 1`) where each has its own, and is empty otherwise.
     """
 
     def __init__(
