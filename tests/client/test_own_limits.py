@@ -1,18 +1,26 @@
 """Limits of each servo, and the servos that a client asks about by itself."""
 
 import asyncio
-import importlib
+import math
 import pickle
 from pathlib import Path
 from typing import Any
 
 import lxservo
 import pytest
-from busservo import AsyncController, Controller, LimitError, ServoMove, ServoPositions
+from busservo import (
+    AsyncController,
+    Controller,
+    LimitError,
+    ServoMove,
+    ServoPositions,
+    open_async_controller,
+)
 from busservo._client.exchanges import LIMITS, POSE
+from busservo_simulator import VirtualController
 
 from tests.client.virtual_line import VirtualLine
-from tests.device_line import DeviceLine, client_of
+from tests.device_line import client_of
 from tests.factories import DEMO, data_of, files_of, library
 
 OWN = {1: (100, 900), 2: None, 3: (500, 2500)}
@@ -112,14 +120,15 @@ def test_positions_are_read_of_the_ids_of_the_client(tmp_path: Path) -> None:
             hub.read_heights()
         assert asked == [(4, 9), (5,)]
 
-        async def by_tasks() -> None:
-            line = DeviceLine(Motor())
-            made = importlib.import_module(blinds.__name__).AsyncController
-            async with made(line, background=False, clock=line.clock, ids=[9]) as hub:
-                assert [each.blind_id for each in await hub.read_heights()] == [9]
-            line = DeviceLine(Motor())
-            async with made(line, background=False, clock=line.clock) as hub:
-                with pytest.raises(ValueError, match=NO_IDS):
-                    await hub.read_heights()
 
-        asyncio.run(by_tasks())
+def test_a_client_for_asyncio_asks_about_its_ids_as_well() -> None:
+    async def by_tasks(port: str) -> None:
+        async with open_async_controller(port, baud=math.inf, ids=[3, 2]) as controller:
+            read = await controller.read_servo_positions()
+            assert [each.servo_id for each in read] == [3, 2]
+        async with open_async_controller(port, baud=math.inf) as controller:
+            with pytest.raises(ValueError, match="no ids: give them here"):
+                await controller.read_servo_positions()
+
+    with VirtualController("tcp") as board:
+        asyncio.run(by_tasks(board.port))
