@@ -101,7 +101,7 @@ def test_a_protocol_without_a_pose_takes_no_ids_and_no_limits() -> None:
             client(VirtualLine(), limits={1: (0, 9)})
 
 
-NO_IDS = r"no ids: give them here, or to open_controller\(ids=…\)"
+NO_IDS = r"ids: give them here, or to open_controller\(ids=…\)"
 
 
 def test_positions_are_read_of_the_ids_of_the_client(tmp_path: Path) -> None:
@@ -127,7 +127,7 @@ def test_a_client_for_asyncio_asks_about_its_ids_as_well() -> None:
             read = await controller.read_servo_positions()
             assert [each.servo_id for each in read] == [3, 2]
         async with open_async_controller(port, baud=math.inf) as controller:
-            with pytest.raises(ValueError, match="no ids: give them here"):
+            with pytest.raises(ValueError, match="ids: give them here"):
                 await controller.read_servo_positions()
 
     with VirtualController("tcp") as board:

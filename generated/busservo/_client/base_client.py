@@ -15,6 +15,7 @@ from operator import index
 from os import PathLike
 
 from .._codec.counters import LineCounters
+from .._frame.errors import EncodeError
 from .._frame.message import Message
 from .._log import log
 from .._serial.error_mapping import ErrorMapping
@@ -142,7 +143,7 @@ class BaseClient:
         if ids is not None:
             return ids
         if not self._ids:
-            raise ValueError("no ids: give them here, or to open_controller(ids=…)")
+            raise EncodeError("ids", ids, "give them here, or to open_controller(ids=…)")
         return self._ids
 
     # ------------------------------------------------------------------ what each client adds
