@@ -43,6 +43,8 @@ ASK = servo_bus_frame(7, 28)
         # Cut at both ends, as whatever is listened to in the middle is.
         (MOVE[4:] + 2 * MOVE + MOVE[:5], SERVO_BUS),
         (MOVE[:-1] + bytes([MOVE[-1] ^ 1]), None),
+        # Half of what came are its frames, just so, and a byte less than half.
+        (b"\x00" * 10 + MOVE, SERVO_BUS),
         (b"\x00" * 11 + MOVE, None),
         (bytes.fromhex("55 55 02 01"), DIALECT),
         (bytes.fromhex("55 55 05 0A 01 02 03"), DIALECT),

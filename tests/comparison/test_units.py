@@ -1,5 +1,7 @@
 """Units: what is spelt in two ways is the same, and what only looks alike is not."""
 
+from fractions import Fraction
+
 import pytest
 from framegen.comparison.units import is_known, quantity
 from framegen.comparison.wire import try_out, wire_effects
@@ -71,6 +73,16 @@ def test_temperatures_have_a_zero_of_their_own(
 def test_a_step_of_a_temperature_and_a_prefix_are_the_same() -> None:
     said = {"type": "u16", "about": "A number.", "scale": "0.1 °C"}
     assert quantity(NumberField.model_validate(said)) == quantity(field("d°C"))
+
+
+def test_an_offset_is_in_the_unit_of_its_step() -> None:
+    # By hand: 21.5 °C, in steps of half a degree above 20 °C and of five tenths of a degree.
+    for scale, raw in [("0.5 °C + 20", 3), ("5 d°C + 200", 3), ("500 m°C + 20000", 3)]:
+        said = {"type": "u16", "about": "A number.", "scale": scale}
+        found = quantity(NumberField.model_validate(said))
+        assert found is not None
+        assert (found.value(raw), found.unit) == (Fraction("294.65"), "K"), scale
+        assert found.raw(Fraction("294.65")) == raw
 
 
 @pytest.mark.parametrize("unit", KNOWN)

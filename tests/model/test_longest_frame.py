@@ -104,3 +104,57 @@ def test_what_is_no_smaller_frame_may_be_a_larger_one(line: ReferenceDecoder) ->
 def test_no_longer_one_is_awaited_than_there_is_room_for(line: ReferenceDecoder) -> None:
     small = ReferenceDecoder(line.model, line.directions, max_frame=3)
     assert named(small.decode_so_far(BOTH[:3])) == [("Narrow", BOTH[:3])]
+
+
+# The same bytes may be a message of one kind of frame, and of an unknown id in another, whose
+# length and checksum prove that it is a frame.
+TWO_KINDS = {
+    **{key: said for key, said in SUMMED.items() if key != "frame"},
+    "frames": {
+        "sized": {
+            "kind": {"is": "id", "type": "u8", "about": "What it is."},
+            "length": {
+                "is": "length",
+                "type": "u8",
+                "counts": ["kind", "length", "body", "sum"],
+                "about": "How many bytes.",
+            },
+            "body": {"is": "body", "about": "The fields."},
+            "sum": {
+                "is": "checksum",
+                "type": "u8",
+                "method": "xor",
+                "covers": ["kind", "length", "body"],
+                "about": "All of them combined.",
+            },
+        },
+        "bare": SUMMED["frame"],
+    },
+    "messages": {
+        "Sized": message(frame="sized", id=2, length=4, fields={"level": number("u8")}),
+        "Wide": message(
+            frame="bare", id=1, length=5, fields={"level": number("u16"), "more": number("u8")}
+        ),
+        "Narrow": message(frame="bare", id=3, length=3, fields={"level": number("u8")}),
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("data", "read"),
+    [
+        # The first three bytes alone are proven, too; the message is longer.
+        ("01 03 02 04 04", [("Wide", "01 03 02 04 04")]),
+        ("01 03 02 04 05", [("unknown", "01 03 02"), ("noise", "04 05")]),
+        # Both are of three bytes, and what is known comes first.
+        ("03 03 00", [("Narrow", "03 03 00")]),
+        # The frame of unknown id is longer.
+        ("03 05 06 01 01", [("unknown", "03 05 06 01 01")]),
+        ("03 05 06 01 02", [("Narrow", "03 05 06"), ("noise", "01 02")]),
+    ],
+)
+def test_an_unknown_frame_counts_as_long_as_it_is(data: str, read: list[tuple[str, str]]) -> None:
+    line = ReferenceDecoder(derive(Spec.model_validate(TWO_KINDS)), [Direction("sensor", "host")])
+    assert named(line.decode(bytes.fromhex(data))) == [
+        (name, bytes.fromhex(text)) for name, text in read
+    ]
