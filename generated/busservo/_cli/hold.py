@@ -10,7 +10,7 @@ from . import link
 from .exit_codes import DONE, NOT_ALL
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
-from .positions import find_present, hold_those_there, listed, nobody, numbers, the_pose
+from .positions import find_present, hold_those_there, nobody, numbers, the_pose
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -50,12 +50,8 @@ def held(controller: Client, arguments: argparse.Namespace) -> int:
         if not ids:
             print(nobody(pose), file=sys.stderr)
             return NOT_ALL
-        there, left = hold_those_there(controller, pose, ids, limits_of(arguments))
+        done = hold_those_there(controller, pose, ids, limits_of(arguments))
     except NoReplyError as error:
         print(error, file=sys.stderr)
         return NOT_ALL
-    if there:
-        print(f"{listed(pose, there)} held", file=sys.stderr)
-    for number, why in left.items():
-        print(f"{listed(pose, [number])} not held: {why}", file=sys.stderr)
-    return NOT_ALL if left else DONE
+    return DONE if done else NOT_ALL

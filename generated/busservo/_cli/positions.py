@@ -7,6 +7,7 @@ import argparse
 import sys
 
 from .._client.exchanges import POSE
+from .._client.holding import Holding
 from .._client.long_question import parts_of
 from .._client.pose import HOLD_MS
 from .._frame.errors import LimitError
@@ -57,38 +58,33 @@ def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | No
 
 def hold_those_there(
     controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None
-) -> tuple[list[int], dict[int, str]]:
-    """Command the current positions of those that answer, whatever the others do.
+) -> bool:
+    """Command the current positions of those that answer, and say which; whether that is all.
 
-    Returns those held, and of each other one why it is not. Raises NoReplyError if nobody answers.
+    Of each other it says why it is not held. Raises NoReplyError if nobody answers.
     """
-    targets: list[tuple[int, int]] = []
-    left = dict.fromkeys(ids, "does not answer")
-    for request in parts_of(pose.read, ids):
-        for each in pose.there([controller.request(request)]):
-            number = each[0]
-            try:
-                targets += pose.targets_of([each], limits)
-            except LimitError as error:
-                left[number] = f"{error.value} is outside the limits"
-            else:
-                left.pop(number, None)
-    for at in range(0, len(targets), pose.room):
-        controller.send(pose.motion(targets[at : at + pose.room], HOLD_MS))
-    return [number for number, _ in targets], left
+    holding = Holding(pose, ids, limits)
+    for question in holding.questions:
+        holding.take(controller.request(question))
+    for command in holding.commands():
+        controller.send(command)
+    if holding.held:
+        print(f"{listed(pose, holding.held)} held", file=sys.stderr)
+    for number, why in holding.left.items():
+        print(f"{listed(pose, [number])} not held: {why}", file=sys.stderr)
+    return not holding.left
 
 
 def stopped_by_hand(controller: Client, ids: Sequence[int], limits: Bounds | None) -> int:
     """Hold what moves, because Ctrl-C was pressed, and say so; return the exit status."""
+    print(file=sys.stderr)
     if POSE is None or not ids:
-        print("\nwhat was sent goes on to its end", file=sys.stderr)
+        print("what was sent goes on to its end", file=sys.stderr)
         return INTERRUPTED
     try:
-        hold(controller, POSE, ids, limits)
-    except UNREAD as error:
-        print(f"\nthe motion under way goes on to its end: {in_options(error)}", file=sys.stderr)
-    else:
-        print(f"\n{listed(POSE, ids)} held", file=sys.stderr)
+        hold_those_there(controller, POSE, ids, limits)
+    except NoReplyError as error:
+        print(f"the motion under way goes on to its end: {error}", file=sys.stderr)
     return INTERRUPTED
 
 
