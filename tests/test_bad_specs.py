@@ -14,6 +14,7 @@ from framegen.reading.yamltree import Unusable
 
 from tests import bad_specs
 from tests.bad_specs import bad_spec
+from tests.in_turn import in_turn
 from tests.spec_edits import EditError, edited
 from tests.timeouts import GENEROUS
 
@@ -35,7 +36,7 @@ def said_of(source: Source, *, remarked: str = "") -> tuple[list[Finding], str]:
         return ([], str(refusal)) if refusal.finding is None else ([refusal.finding], "")
 
 
-@pytest.mark.parametrize("name", bad_specs.names())
+@in_turn("name", bad_specs.names)
 def test_a_bad_spec_gives_exactly_its_findings(name: str) -> None:
     bad = bad_spec(name)
     remarked = next((each.rule for each in bad.findings if each.rule in REMARKED), "")
@@ -49,7 +50,7 @@ def rendered(findings: list[Finding], source: Source) -> str:
     return "\n".join(finding.render(source) for finding in findings)
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@in_turn("rule", lambda: RULES, ids=lambda rule: rule.id)
 def test_every_rule_has_a_bad_spec(rule: AnyRule) -> None:
     assert any(
         finding.rule == rule.id
@@ -66,7 +67,7 @@ def test_a_bad_spec_has_a_name_of_its_own_that_begins_with_its_rule() -> None:
         } == set()
 
 
-@pytest.mark.parametrize("name", bad_specs.base_names())
+@in_turn("name", bad_specs.base_names)
 def test_what_bad_specs_begin_with_is_good(name: str) -> None:
     assert said_of(Source(f"{name}.yaml", bad_specs.base(name))) == ([], "")
 
@@ -114,9 +115,9 @@ lamps:
 ONE = "  one:\n    level: 1\n    about: A lamp.\n"
 
 
-@pytest.mark.parametrize(
-    ("edit", "text"),
-    [
+@in_turn(
+    "edit, text",
+    lambda: [
         ({"replace": "level: 1", "with": "level: «3»"}, LINES.replace("level: 1", "level: «3»")),
         ({"mark": "«level: 2»"}, LINES.replace("level: 2", "«level: 2»")),
         (
@@ -139,9 +140,9 @@ def test_the_outermost_of_lines_that_begin_alike_is_meant() -> None:
     assert edited("a:\n  b: 1\nb: 2", {"remove": "b:"}) == "a:\n  b: 1"
 
 
-@pytest.mark.parametrize(
-    ("edit", "why"),
-    [
+@in_turn(
+    "edit, why",
+    lambda: [
         (
             {"replace": "level: 3", "with": ""},
             "`level: 3` must be there once, and is there 0 times",

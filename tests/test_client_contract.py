@@ -9,12 +9,12 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import pytest
 from busservo import AsyncController, Controller
 from busservo._client.exchanges import EXCHANGES
 from framegen.model.exchanges import STEPS_PER_SECOND
 
 from tests.factories import BUSSERVO, Data, compiled_values, data_of, is_misfit, layout_of
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -99,10 +99,10 @@ def results_of(data: Data) -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("client", [Controller, AsyncController])
-@pytest.mark.parametrize("row", CONTRACT.values(), ids=CONTRACT)
-def test_a_method_raises_for_its_values_if_it_is_given_any(client: type, row: Row) -> None:
-    method, arguments, *_ = row
+@in_turn("client", lambda: [Controller, AsyncController])
+@in_turn("name", lambda: CONTRACT)
+def test_a_method_raises_for_its_values_if_it_is_given_any(client: type, name: str) -> None:
+    method, arguments, *_ = CONTRACT[name]
     said = " ".join(str(getattr(client, method).__doc__).split())
     assert ("EncodeError for values" in said) is bool(arguments)
     assert "TransportError." in said
@@ -211,9 +211,7 @@ def results() -> Iterator[tuple[str, str, Any]]:
 CHANGES = [*methods(), *echoes(), *answers(), *results()]
 
 
-@pytest.mark.parametrize(
-    ("name", "key", "value"), [pytest.param(*each, id=str(each)[:90]) for each in CHANGES]
-)
+@in_turn("name, key, value", lambda: CHANGES)
 def test_a_changed_fact_contradicts_the_contract(name: str, key: str, value: Any) -> None:
     data = json.loads(json.dumps(FACTS))
     message = data["messages"][name]

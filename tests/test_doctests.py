@@ -5,7 +5,8 @@ from importlib import import_module
 from pkgutil import walk_packages
 
 import busservo
-import pytest
+
+from tests.in_turn import in_turn
 
 # The examples of the clients need a controller: tests/client/test_examples.py has one.
 ELSEWHERE = {
@@ -20,7 +21,7 @@ MODULES = [
 ]
 
 
-@pytest.mark.parametrize("name", ["busservo", *MODULES])
+@in_turn("name", lambda: ["busservo", *MODULES])
 def test_examples_are_true(name: str) -> None:
     assert doctest.testmod(import_module(name)).failed == 0
 

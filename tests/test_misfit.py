@@ -19,6 +19,7 @@ from framegen.language.other_words import (
 )
 
 from tests.factories import DEMO, compiled_of, data_of
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -31,9 +32,9 @@ ANGLE = ("messages", "VentsOpen", "fields", "vents", "fields", "angle")
 LONG = "abcdefghij" * 4
 
 
-@pytest.mark.parametrize(
-    ("path", "value", "said", "hint"),
-    [
+@in_turn(
+    "path, value, said, hint",
+    lambda: [
         (("link",), None, "a mapping of keys is expected here, not nothing", ""),
         (("link",), {}, "the key `baud` is missing", "Bits per second."),
         (("link", "baud"), LONG, f"a whole number is expected here, not `{LONG}`", ""),
@@ -110,7 +111,7 @@ def _each(table: Mapping[str, str]) -> Iterator[tuple[str, str]]:
 MEANT = [(model, word, hint) for model, words in _BY_MODEL.items() for word, hint in _each(words)]
 
 
-@pytest.mark.parametrize(("model", "word", "hint"), MEANT, ids=lambda each: str(each)[:30])
+@in_turn("model, word, hint", lambda: MEANT)
 def test_another_word_is_no_key_and_its_hint_names_keys(
     model: type[BaseModel], word: str, hint: str
 ) -> None:
@@ -121,7 +122,7 @@ def test_another_word_is_no_key_and_its_hint_names_keys(
     assert set(written) <= {*known, "big", "little"}
 
 
-@pytest.mark.parametrize("word", [word for words in _KINDS for word in words.split()])
+@in_turn("word", lambda: [word for words in _KINDS for word in words.split()])
 def test_another_word_for_a_part_is_none_and_its_hint_is_one(word: str) -> None:
     kinds = ["constant", "reserved", "body", "length", "id", "address", "counter", "checksum"]
     assert word not in kinds
@@ -129,8 +130,9 @@ def test_another_word_for_a_part_is_none_and_its_hint_is_one(word: str) -> None:
     assert kind in kinds
 
 
-@pytest.mark.parametrize(
-    ("word", "type_"), [(word, type_) for word, type_ in _each(_TYPES) if word not in NUMBER_TYPES]
+@in_turn(
+    "word, type_",
+    lambda: [(word, type_) for word, type_ in _each(_TYPES) if word not in NUMBER_TYPES],
 )
 def test_another_word_for_a_type_is_none_and_its_hint_is_one(word: str, type_: str) -> None:
     assert type_ in NUMBER_TYPES

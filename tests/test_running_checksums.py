@@ -6,6 +6,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
@@ -16,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 
 RUNTIME = Path(target).parent / "runtime" / "_frame"
 METHODS = [(name, width) for name, row in CHECKSUMS.items() for width in row.widths]
@@ -74,9 +76,9 @@ def test_every_module_that_a_method_needs_is_in_the_runtime() -> None:
     assert {f"_frame/{file.name}" for file in RUNTIME.iterdir()} >= needed
 
 
-@pytest.mark.parametrize(
-    ("method", "width", "made"),
-    [
+@in_turn(
+    "method, width, made",
+    lambda: [
         ("sum", 8, "Sum(8)"),
         ("inverted sum", 16, "Sum(16, inverted=True)"),
         ("negated sum", 8, "Sum(8, negated=True)"),
@@ -99,7 +101,7 @@ def test_a_method_is_made_of_what_sets_it_apart(method: str, width: int, made: s
     assert ChecksumView(method, width).made == made
 
 
-@pytest.mark.parametrize(("method", "width"), METHODS)
+@in_turn("method, width", lambda: METHODS)
 @few_each
 @given(data=st.binary(max_size=300))
 def test_a_checksum_is_the_one_of_the_catalogue(method: str, width: int, data: bytes) -> None:
@@ -133,7 +135,7 @@ def inquiries(draw: st.DrawFn) -> tuple[bytes, list[tuple[int, list[tuple[int, i
     return data, asked
 
 
-@pytest.mark.parametrize(("method", "width"), KINDS)
+@in_turn("method, width", lambda: KINDS)
 @few_each
 @given(inquiry=inquiries(), copied=st.integers(0, 30))
 def test_any_stretch_of_a_stream_has_the_checksum_of_the_catalogue(
@@ -159,10 +161,10 @@ def test_any_stretch_of_a_stream_has_the_checksum_of_the_catalogue(
         assert running.of(data[dropped:], dropped, *moved) == CHECKSUMS[method].of(covered, width)
 
 
-@pytest.mark.parametrize(("method", "width"), KINDS)
-@pytest.mark.parametrize("frames_between", [False, True])
+@in_turn("method, width", lambda: KINDS)
+@in_turn("frames_between", lambda: [False, True])
 def test_long_claims_at_every_byte_cost_each_byte_twice_at_most(
-    method: str, width: int, frames_between: bool, monkeypatch: pytest.MonkeyPatch
+    method: str, width: int, frames_between: bool
 ) -> None:
     checksum = make(method, width)
     kind = type(checksum.running())
@@ -176,21 +178,21 @@ def test_long_claims_at_every_byte_cost_each_byte_twice_at_most(
 
         return counted
 
-    monkeypatch.setattr(kind, "_go_on", counting(kind._go_on))
-    checksum.of = counting(checksum.of)
-    running = checksum.running()
     data, claim, at = bytes(range(256)) * 16, 1000, 0
-    while at + claim <= len(data):
-        # What a decoder has read by then is no longer there.
-        running.of(data[at:], at, (0, claim))
-        at += 1
-        if frames_between and at % 7 == 0:
-            running.of(data[at:], at, (1, 9))
-            at += 10
+    with patch.object(kind, "_go_on", counting(kind._go_on)):
+        checksum.of = counting(checksum.of)
+        running = checksum.running()
+        while at + claim <= len(data):
+            # What a decoder has read by then is no longer there.
+            running.of(data[at:], at, (0, claim))
+            at += 1
+            if frames_between and at % 7 == 0:
+                running.of(data[at:], at, (1, 9))
+                at += 10
     assert summed <= 2 * len(data)
 
 
-@pytest.mark.parametrize(("method", "width"), KINDS)
+@in_turn("method, width", lambda: KINDS)
 def test_no_more_registers_are_kept_than_two_of_the_longest_claims(method: str, width: int) -> None:
     running = make(method, width).running()
     data, claim = bytes(range(256)) * 40, 500

@@ -24,6 +24,7 @@ from framegen.cases.valid import range_ends
 from tests import oracle
 from tests.cases import CASES
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.in_turn import in_turn
 from tests.strategies import joined, said
 
 VECTORS: dict[str, Any] = json.loads(
@@ -35,18 +36,16 @@ INVALID: list[dict[str, Any]] = VECTORS["invalid"]
 STREAMS: list[dict[str, Any]] = VECTORS["streams"]
 CLASSES: dict[str, Any] = {kind.__name__: kind for kind in MESSAGES}
 
-each_valid = pytest.mark.parametrize(
-    "vector", VALID, ids=lambda vector: f"{vector['message']}: {vector['title']}"
+each_valid = in_turn(
+    "vector", lambda: VALID, ids=lambda vector: f"{vector['message']}: {vector['title']}"
 )
-each_unencodable = pytest.mark.parametrize(
-    "vector", UNENCODABLE, ids=lambda vector: str(vector["title"])
-)
-each_invalid = pytest.mark.parametrize(
-    "vector", INVALID, ids=lambda vector: f"{vector['direction']}: {vector['hex']}"
+each_unencodable = in_turn("vector", lambda: UNENCODABLE, ids=lambda vector: str(vector["title"]))
+each_invalid = in_turn(
+    "vector", lambda: INVALID, ids=lambda vector: f"{vector['direction']}: {vector['hex']}"
 )
 
-each_stream = pytest.mark.parametrize(
-    "vector", STREAMS, ids=lambda vector: f"{vector['direction']}: {vector['title']}"
+each_stream = in_turn(
+    "vector", lambda: STREAMS, ids=lambda vector: f"{vector['direction']}: {vector['title']}"
 )
 
 
@@ -168,7 +167,7 @@ def shown(event: Message | Noise) -> dict[str, Any]:
     return {"event": "message", "message": name, "fields": fields, "hex": digits}
 
 
-@pytest.mark.parametrize("vector", [each for each in STREAMS if each["max_frame"] is None])
+@in_turn("vector", lambda: [each for each in STREAMS if each["max_frame"] is None])
 def test_the_oracle_agrees_with_a_stream(vector: dict[str, Any]) -> None:
     *stretches, last = map(b"".join, stretches_of(vector))
     way = vector["direction"]

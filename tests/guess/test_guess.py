@@ -24,6 +24,7 @@ from tests.factories import BUSSERVO, compiled_file
 from tests.few_each import few_each
 from tests.guess.traffic import traffic
 from tests.guess.truth import wrong
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
 SPECS = {**FILES, "busservo": BUSSERVO}
@@ -211,7 +212,7 @@ def test_noise_decides_nothing(seed: int) -> None:
     assert found is None or not any(each.is_decided for each in found.conclusions)
 
 
-@pytest.mark.parametrize(("method", "width"), METHODS)
+@in_turn("method, width", lambda: METHODS)
 @few_each
 @given(data=st.binary(min_size=1, max_size=20))
 def test_checksums_of_all_beginnings_are_those_of_the_catalogue(

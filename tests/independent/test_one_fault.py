@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from busservo import Controller
 
+from tests.in_turn import in_turn
 from tests.independent import faults, firmware
 from tests.independent.board import BITS_PER_BYTE, Board
 from tests.independent.conversation import SIX, Conversation, wire_time
@@ -134,7 +135,7 @@ def all_faults() -> list[tuple[str, str]]:
     ]
 
 
-@pytest.mark.parametrize(("read", "name"), all_faults())
+@in_turn("read, name", all_faults)
 def test_after_any_fault_the_second_next_read_is_right(read: str, name: str) -> None:
     script = (FAULTS | OF_POSITIONS)[name]
     for bench in BENCHES:
@@ -149,7 +150,7 @@ HEADERS = {"every high byte": 0x5500, "some a header": 0x5550}
 
 
 @pytest.mark.parametrize("numbers", HEADERS)
-@pytest.mark.parametrize(("read", "name"), all_faults())
+@in_turn("read, name", all_faults)
 def test_after_any_fault_in_replies_that_end_in_headers_reads_recover(
     read: str, name: str, numbers: str
 ) -> None:

@@ -24,6 +24,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 
 CRCS = [method for method in CHECKSUMS.values() if isinstance(method, Crc)]
 PUBLISHED = {kind._names[0].lower(): kind for kind in ALLCRCCLASSES if kind._width % 8 == 0}
@@ -44,7 +45,7 @@ def named(method: Checksum) -> str:
     return method.name
 
 
-@pytest.mark.parametrize("method", CHECKSUMS.values(), ids=named)
+@in_turn("method", CHECKSUMS.values, ids=named)
 def test_a_method_has_its_check_value_in_each_width(method: Checksum) -> None:
     assert {width: method.of(CHECK_DATA, width) for width in method.widths} == method.checks
 
@@ -54,7 +55,7 @@ def test_the_catalogue_has_every_published_crc_of_whole_numbers() -> None:
     assert {method.name for method in CRCS} == published | UNPUBLISHED
 
 
-@pytest.mark.parametrize("method", CRCS, ids=named)
+@in_turn("method", lambda: CRCS, ids=named)
 @few_each
 @given(data=st.binary(max_size=40))
 def test_a_crc_is_what_crccheck_makes_of_the_same_data(method: Crc, data: bytes) -> None:
@@ -68,7 +69,7 @@ def _peer(method: Crc) -> Peer:
     return Peer(method.width, method.poly, method.init, method.reflected, last, method.xor_out)
 
 
-@pytest.mark.parametrize("method", CRCS, ids=named)
+@in_turn("method", lambda: CRCS, ids=named)
 def test_a_crc_with_any_number_changed_misses_its_check_value(method: Crc) -> None:
     changes: dict[str, Any] = {
         "poly": method.poly ^ 8,
@@ -140,9 +141,9 @@ def test_adler_32_is_what_zlib_makes_of_the_same_data(data: bytes) -> None:
     assert CHECKSUMS["adler-32"].of(data, 32) == adler32(data)
 
 
-@pytest.mark.parametrize(
-    ("method", "data", "value"),
-    [
+@in_turn(
+    "method, data, value",
+    lambda: [
         # The examples that Fletcher's checksum is explained with everywhere.
         ("fletcher-16", b"abcde", 0xC8F0),
         ("fletcher-16", b"abcdef", 0x2057),
@@ -201,9 +202,9 @@ def test_every_kind_of_method_is_in_the_catalogue() -> None:
     assert {type(method) for method in CHECKSUMS.values()} == {Sum, Xor, Fletcher, Crc}
 
 
-@pytest.mark.parametrize(
-    ("method", "hint"),
-    [
+@in_turn(
+    "method, hint",
+    lambda: [
         ("crc-16/ccitt-false", "write `crc-16/ibm-3740`, which is the same method"),
         ("CRC16_MODBUS", "write `crc-16/modbus`, which is the same method"),
         ("Sum", "write `sum`, which is the same method"),
@@ -250,7 +251,7 @@ def test_another_crc_is_not_suggested_for_one_that_is_unknown(method: str, width
     assert "has the parameters of each" in hint
 
 
-@pytest.mark.parametrize("method", CHECKSUMS)
+@in_turn("method", lambda: CHECKSUMS)
 def test_a_slip_in_a_name_is_answered_with_that_name(method: str) -> None:
     near = {f"did you mean `{method}`?", f"write `{method}`, which is the same method"}
     slip = f"{method[:-1]}{method[-1] * 2}"
@@ -266,7 +267,7 @@ def test_every_other_name_leads_to_methods_and_is_none_itself() -> None:
             assert all(f"`{each}`" in suggest(name) for each in meant)
 
 
-@pytest.mark.parametrize("method", CHECKSUMS.values(), ids=named)
+@in_turn("method", CHECKSUMS.values, ids=named)
 @few_each
 @given(data=st.binary(max_size=20), behind=st.binary(max_size=20), drawn=st.data())
 def test_bytes_that_a_checksum_tells_apart_never_have_the_same(

@@ -17,6 +17,7 @@ from framegen.model.data import method_terms
 
 from tests.docs.peers import noisy_lines
 from tests.factories import compiled_file, compiled_of, library, library_files
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of, model_of
 
 if TYPE_CHECKING:
@@ -35,14 +36,14 @@ EXAMPLES = [
 ]
 
 
-@pytest.mark.parametrize(("name", "width"), METHODS)
+@in_turn("name, width", lambda: METHODS)
 def test_a_checksum_is_worked_out_from_the_terms_of_its_method(name: str, width: int) -> None:
     assert checksum(method_terms(name), width, CHECK_DATA) == CHECKSUMS[name].checks[width]
     data = bytes(range(3, 250, 7))
     assert checksum(method_terms(name), width, data) == CHECKSUMS[name].of(data, width)
 
 
-@pytest.mark.parametrize(("name", "message", "data"), EXAMPLES)
+@in_turn("name, message, data", lambda: EXAMPLES)
 def test_every_byte_and_every_value_of_an_example_is_explained(
     name: str, message: str, data: bytes
 ) -> None:
@@ -219,7 +220,7 @@ REFUSALS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "data", "reason", "due", "hints"), REFUSALS)
+@in_turn("name, data, reason, due, hints", lambda: REFUSALS)
 def test_a_refusal_says_what_was_due_and_what_the_bytes_would_be(
     name: str, data: str, reason: str, due: str, hints: list[str]
 ) -> None:

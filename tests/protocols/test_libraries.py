@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
 from tests.protocols.specs import FILES, all_messages, messages_of, model_of, values_of
 from tests.protocols.streams import all_ways, lines
@@ -29,7 +30,8 @@ if TYPE_CHECKING:
 WAYS = [pytest.param(name, way, id=f"{name}-{way.sender}") for name, way in all_ways()]
 
 
-@pytest.mark.parametrize(("name", "message"), all_messages())
+@pytest.mark.parametrize("name", FILES)
+@in_turn("message", messages_of)
 def test_a_published_frame_is_read_and_written_again(
     libraries: Libraries, name: str, message: str
 ) -> None:
@@ -45,7 +47,8 @@ def test_a_published_frame_is_read_and_written_again(
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize(("name", "message"), all_messages())
+@pytest.mark.parametrize("name", FILES)
+@in_turn("message", messages_of)
 @few_each
 @given(data=st.data())
 def test_what_is_written_is_read(
@@ -139,8 +142,8 @@ def _lists_of_bytes() -> list[tuple[str, str, str]]:
     ]
 
 
-@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview])
-@pytest.mark.parametrize(("name", "message", "field"), _lists_of_bytes())
+@in_turn("convert", lambda: [bytes, bytearray, memoryview])
+@in_turn("name, message, field", _lists_of_bytes)
 def test_a_list_of_bytes_may_be_given_as_bytes(
     libraries: Libraries, name: str, message: str, field: str, convert: Callable[[bytes], Any]
 ) -> None:

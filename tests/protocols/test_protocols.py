@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from framegen.model.codec import decode, encode
@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from tests.factories import compiled_file
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.protocols.by_hand import BY_HAND
 from tests.protocols.peers import PEERS
 from tests.protocols.specs import (
@@ -38,7 +39,7 @@ def test_a_spec_has_no_findings(name: str) -> None:
     assert [finding.render(compiled.source) for finding in compiled.findings] == []
 
 
-@pytest.mark.parametrize(("name", "message", "number"), EXAMPLES)
+@in_turn("name, message, number", lambda: EXAMPLES)
 def test_a_published_frame_is_read_and_written_again(name: str, message: str, number: int) -> None:
     layout = messages_of(name)[message]
     example = layout.message.examples[number]
@@ -49,7 +50,8 @@ def test_a_published_frame_is_read_and_written_again(name: str, message: str, nu
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize(("name", "message"), all_messages())
+@pytest.mark.parametrize("name", FILES)
+@in_turn("message", messages_of)
 @few_each
 @given(data=st.data())
 def test_what_is_written_is_read(name: str, message: str, data: st.DataObject) -> None:
@@ -59,15 +61,8 @@ def test_what_is_written_is_read(name: str, message: str, data: st.DataObject) -
     assert (decoded.layout.name, decoded.values) == (message, values)
 
 
-def _with_peers(what: str) -> list[Any]:
-    return [
-        pytest.param(peer, message, id=f"{peer.package}-{message}")
-        for peer in PEERS
-        for message in getattr(peer, what)
-    ]
-
-
-@pytest.mark.parametrize(("kind", "message"), _with_peers("writes"))
+@pytest.mark.parametrize("kind", [peer for peer in PEERS if peer.writes])
+@in_turn("message", lambda kind: kind.writes)
 @few_each
 @given(data=st.data())
 def test_a_peer_writes_the_same_bytes(kind: type[Peer], message: str, data: st.DataObject) -> None:
@@ -76,7 +71,8 @@ def test_a_peer_writes_the_same_bytes(kind: type[Peer], message: str, data: st.D
     assert kind().write(message, values) == encode(layout, values)
 
 
-@pytest.mark.parametrize(("kind", "message"), _with_peers("reads"))
+@pytest.mark.parametrize("kind", [peer for peer in PEERS if peer.reads])
+@in_turn("message", lambda kind: kind.reads)
 @few_each
 @given(data=st.data())
 def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.DataObject) -> None:
@@ -85,9 +81,8 @@ def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.D
     assert kind().read(message, encode(layout, values)) == values
 
 
-@pytest.mark.parametrize(
-    ("name", "message"), [(name, message) for name in BY_HAND for message in BY_HAND[name]]
-)
+@pytest.mark.parametrize("name", BY_HAND)
+@in_turn("message", lambda name: BY_HAND[name])
 @few_each
 @given(data=st.data())
 def test_a_frame_written_by_hand_has_the_same_bytes(

@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.protocols.libraries import Libraries, direction_of
-from tests.protocols.specs import FILES, all_messages, messages_of, model_of, values_of
+from tests.protocols.specs import FILES, messages_of, model_of, values_of
 
 # The protocols with messages that only a checksum tells from the beginning of a longer one.
 BY_CHANCE = ["roboclaw", "gauges"]
@@ -23,7 +24,8 @@ def test_the_protocols_in_which_frames_begin_alike_are_known() -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize(("name", "message"), all_messages())
+@pytest.mark.parametrize("name", FILES)
+@in_turn("message", messages_of)
 @few_each
 @given(data=st.data())
 def test_what_the_reference_writes_it_reads(name: str, message: str, data: st.DataObject) -> None:
