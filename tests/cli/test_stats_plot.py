@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
 from busservo._cli import main
-from busservo._tables.stats import plot, traces
+from busservo._tables.stats import panels, traces
 from busservo._tables.stats.trace import Trace
 
 if TYPE_CHECKING:
@@ -77,10 +77,24 @@ def test_positions_and_the_battery_are_drawn(capsys: Capture, tmp_path: Path) ->
     assert [y for _, y in first] == sorted((y for _, y in first), reverse=True)
     assert len({y for _, y in second}) == 1
     assert [y for _, y in battery] == sorted(y for _, y in battery)
-    for text in ("Position", "Voltage", "V", "servo_id", "1", "2"):
+    for text in ("Position", "Voltage", "V", "servo_id 1", "servo_id 2"):
         assert text in texts
     assert "time since the recording began (s)" in texts
     assert "line.hex: Hiwonder bus servo controller" in texts
+
+
+def test_only_an_excerpt_is_drawn(capsys: Capture, tmp_path: Path) -> None:
+    picture = tmp_path / "line.svg"
+    words = ["--from", "2s", "--to", "4", "--ids", "1", "--plot", str(picture)]
+    assert main(["stats", str(positions(tmp_path)), *words]) == 0
+    texts, lines = drawn(picture)
+    # Both ends are included: a reading each 0.25 s.
+    assert {name: len(points) for name, points in lines.items()} == {
+        "ServoPositions.positions.position.1": 9,
+        "BatteryVoltage.voltage_mv.0": 1,
+    }
+    assert "line.hex from 2s to 4: Hiwonder bus servo controller" in texts
+    assert {"2.00", "4.00"} <= {*texts}
 
 
 def test_readings_between_absent_ones_are_seen(capsys: Capture, tmp_path: Path) -> None:
@@ -195,13 +209,58 @@ def test_a_bus_has_a_line_for_each_address(capsys: Capture, tmp_path: Path) -> N
     assert "°" in texts
 
 
-def test_more_quantities_than_there_is_room_for_are_named(
+def many(tmp_path: Path, count: int) -> Path:
+    """Write a recording of many servos, each of which stands at its own number."""
+    file = tmp_path / "many.hex"
+    read = ServoPositions([ServoPosition(each, each) for each in range(1, count + 1)])
+    data = read.encode().hex(" ")
+    file.write_text("".join(f"{data}  # {at} s, controller: positions\n" for at in (3.0, 4.0)))
+    return file
+
+
+def test_each_servo_has_a_panel_and_all_share_the_axes(capsys: Capture, tmp_path: Path) -> None:
+    # The words, the servos that are drawn, and how many panels stand in the first row.
+    rows: list[tuple[int, list[str], list[int], int]] = [
+        (1, [], [1], 1),
+        (6, [], [*range(1, 7)], 1),
+        (6, ["--ids", "5,2-3"], [2, 3, 5], 1),
+        (12, [], [*range(1, 13)], 2),
+        (32, [], [*range(1, 33)], 4),
+        (70, [], [*range(1, 65)], 4),
+    ]
+    for count, words, servos, across in rows:
+        picture = tmp_path / "many.svg"
+        assert main(["stats", str(many(tmp_path, count)), "--plot", str(picture), *words]) == 0
+        texts, lines = drawn(picture)
+        name = "ServoPositions.positions.position"
+        assert [*lines] == [f"{name}.{each}" for each in servos]
+        assert [text for text in texts if text.startswith("servo_id")] == [
+            f"servo_id {each}" for each in servos
+        ]
+        begins = [points[0][0] for points in lines.values()]
+        assert len({*begins}) == across
+        assert begins == [begins[at % across] for at in range(len(servos))]
+        lengths = {round(points[-1][0] - points[0][0], 3) for points in lines.values()}
+        assert len(lengths) == 1
+        more = f"not drawn, as there is no room: {name} of {count - 64} more servo_id"
+        expected = f"{more} (--ids chooses)\n" if count > 64 else ""
+        assert capsys.readouterr().err == expected
+
+
+def test_more_panels_than_there_is_room_for_are_named(
     capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(plot, "PANELS", 1)
-    assert main(["stats", str(positions(tmp_path)), "--plot", str(tmp_path / "a.svg")]) == 0
-    monkeypatch.setattr(traces, "_MOST_LINES", 1)
-    assert main(["stats", str(positions(tmp_path)), "--plot", str(tmp_path / "a.svg")]) == 0
-    shown = "not drawn, as there is no room: BatteryVoltage.voltage_mv"
-    more = "ServoPositions.positions.position of 1 more servo_id"
-    assert capsys.readouterr().err == f"{shown}\n{shown}, {more}\n"
+    name = "ServoPositions.positions.position"
+    battery = "BatteryVoltage.voltage_mv"
+    more = f"{name} of 1 more servo_id (--ids chooses)"
+    rows = [
+        (panels, "QUANTITIES", 1, battery),
+        (panels, "PANELS", 2, battery),
+        (panels, "PANELS", 1, f"{more}, {battery}"),
+        (traces, "_MOST_LINES", 1, more),
+    ]
+    for module, limit, value, expected in rows:
+        with monkeypatch.context() as patch:
+            patch.setattr(module, limit, value)
+            assert main(["stats", str(positions(tmp_path)), "--plot", str(tmp_path / "a.svg")]) == 0
+        assert capsys.readouterr().err == f"not drawn, as there is no room: {expected}\n"

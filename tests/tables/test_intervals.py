@@ -12,7 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pytest
+    from numpy.typing import NDArray
 
 READING = BatteryVoltage(7000).encode()
 
@@ -55,6 +58,13 @@ def test_the_first_of_equally_long_silences_are_shown() -> None:
 
 # --- Gaps ----------------------------------------------------------------------------------------
 
+
+def moments(seconds: NDArray[np.float64], recording: Sequence[int] = ()) -> Moments:
+    """Return moments of a recording that does not say when it began."""
+    numbers = np.array([*recording] or [0] * len(seconds))
+    return Moments(seconds, numbers, np.full(len(seconds), np.nan))
+
+
 gaps = st.lists(st.sampled_from([0.0, 0.001, 0.02, 1.5, 3000.0]), min_size=1, max_size=40)
 
 
@@ -64,7 +74,7 @@ def test_gaps_are_the_same_however_they_come(between: list[float], size: int, ti
     seconds = np.cumsum([0.0, *between * times])
     for start in range(0, len(seconds), size * times):
         piece = seconds[start : start + size * times]
-        found.add(Moments(piece, np.zeros(len(piece), np.int64)))
+        found.add(moments(piece))
     every = sorted(np.diff(seconds))
     assert found.longest == every[-1]
     assert found.median is not None
@@ -77,7 +87,7 @@ def test_the_median_of_many_gaps_counts_all_of_them() -> None:
     now = 0.0
     for gap, count in ((0.001, 5000), (1.5, 1000), (1.5, 1000)):
         seconds = np.linspace(now + gap, now + gap * count, count, dtype=np.float64)
-        found.add(Moments(seconds, np.zeros(count, np.int64)))
+        found.add(moments(seconds))
         now = float(seconds[-1])
     assert found.median is not None
     assert abs(found.median / 0.001 - 1) < 0.01
@@ -85,8 +95,8 @@ def test_the_median_of_many_gaps_counts_all_of_them() -> None:
 
 def test_from_one_recording_to_the_next_is_no_gap() -> None:
     found = Intervals()
-    found.add(Moments(np.array([0.0, 1.0]), np.array([0, 0])))
-    found.add(Moments(np.array([9.0, 11.0, 50.0]), np.array([1, 1, 2])))
+    found.add(moments(np.array([0.0, 1.0])))
+    found.add(moments(np.array([9.0, 11.0, 50.0]), [1, 1, 2]))
     assert (found.longest, found.median) == (2.0, 1.5)
 
 

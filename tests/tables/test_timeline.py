@@ -5,7 +5,7 @@ from io import BytesIO
 import pytest
 from busservo import recordings
 from busservo._tables.by_entry import events_by_entry
-from busservo._tables.stats.timeline import Timeline
+from busservo._tables.stats.timeline import Clockwork, Timeline
 
 RECORDING = """\
 # recorded of 'a line' from 2026-01-02 09:08:07.250000 +0000 on
@@ -24,12 +24,13 @@ RECORDING = """\
 
 @pytest.mark.parametrize("many", [1, 2, 3, 4, 5, 100])
 def test_times_that_go_back_stand_still_until_they_are_reached(many: int) -> None:
-    timeline = Timeline()
+    clockwork, timeline = Clockwork(), Timeline()
     seconds: list[float] = []
     recording: list[int] = []
     for stretch in events_by_entry(recordings.read(BytesIO(RECORDING.encode())), many):
-        moments = timeline.add(stretch)
+        moments = clockwork.moments(stretch)
         assert moments is not None
+        timeline.add(stretch, moments)
         seconds += moments.seconds.tolist()
         recording += moments.recording.tolist()
     assert seconds == [3.0, 10.0, 10.0, 10.25, 10.25, 11.0, 11.0, 11.0, 11.5]

@@ -187,6 +187,10 @@ EXAMPLES = {
     "stats": (
         ("busservo stats line.hex", "a recording: what came how often, and when"),
         ("busservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
+        (
+            "busservo stats line.hex --from 1m30s --to 2m --ids 1,3-5",
+            "a part of it, and of these alone",
+        ),
         ("busservo stats --json line.hex", "for a program to read"),
     ),
     "replay": (

@@ -5,17 +5,36 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._recording.excerpt import ExcerptError
 from .._tables.stats.statistics import Statistics, statistics
 from .._tables.stats.traces import Traces
+from .capture import direction_in
+from .excerpts import excerpt_of
+from .usage_error import UsageError
 
 if TYPE_CHECKING:
-    from .._frame.direction import Direction
+    from argparse import Namespace
+
     from .recording import Recording
 
 
 def measured(
-    recording: Recording, form: str, direction: Direction | None, baud: float | None
+    recording: Recording, form: str, arguments: Namespace
 ) -> tuple[Statistics, Traces | None]:
-    """Return what a recording holds; with a rate of the line, also the traces of its readings."""
-    traces = None if baud is None else Traces(baud)
-    return statistics(recording, form=form, direction=direction, traces=traces), traces
+    """Return what a recording holds, and the traces of its readings if they are to be drawn.
+
+    Raises UsageError.
+    """
+    traces = None if arguments.plot is None else Traces(arguments.baud)
+    try:
+        found = statistics(
+            recording,
+            form=form,
+            direction=direction_in(arguments),
+            traces=traces,
+            excerpt=excerpt_of(arguments),
+            ids=arguments.ids,
+        )
+    except ExcerptError as error:
+        raise UsageError(f"{recording.name}: {error}") from None
+    return found, traces

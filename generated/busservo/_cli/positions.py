@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 
 from .._client.exchanges import POSE
@@ -14,7 +13,7 @@ from .._frame.errors import LimitError
 from .._serial.link_errors import AbsentError, NoReplyError
 from .exit_codes import INTERRUPTED
 from .limits import refused
-from .numerals import whole
+from .numerals import ranges
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -106,19 +105,5 @@ def in_options(error: Exception) -> str:
 
 def numbers(text: str) -> tuple[int, ...]:
     """Return the numbers of an argument such as `1-6,9`."""
-    pose = the_pose()
-    found: dict[int, None] = {}
-    for part in text.split(","):
-        first, dash, last = part.partition("-")
-        try:
-            low, high = whole(first), whole(last if dash else first)
-        except ValueError:
-            raise argparse.ArgumentTypeError(
-                f"{part[:40]!r} is neither a number nor a range like 1-6"
-            ) from None
-        if not pose.item.low <= low <= high <= pose.item.high:
-            bounds = f"{pose.item.low}..{pose.item.high}"
-            problem = f"is outside {bounds}" if low <= high else "has its higher number first"
-            raise argparse.ArgumentTypeError(f"{part[:40]} {problem}")
-        found |= dict.fromkeys(range(low, high + 1))
-    return tuple(found)
+    bounds = the_pose().item
+    return ranges(text, bounds.low, bounds.high)

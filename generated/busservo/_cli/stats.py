@@ -8,10 +8,11 @@ from pathlib import Path
 
 from .._frame.protocol import BAUD
 from .capture import add_capture, direction_in, opened_capture
+from .excerpts import add_excerpt, excerpt_of
 from .exit_codes import DONE
 from .extra import imported
 from .look_alike import beginning, hint
-from .numerals import at_least
+from .numerals import at_least, ranges
 from .statistics_sheet import as_json, show
 from .usage_error import UsageError
 
@@ -23,6 +24,8 @@ ABOUT = """\
 Counts and shares of each message, noise by reason, and the range of each value; of a recording
 also rates, gaps, and how much of what the line allows was used. It takes the extra `tables`, and
 --plot the extra `plots`."""
+# The highest number that --ids takes: no bus has as many addresses.
+_HIGHEST = 65535
 _SUFFIXES = (".svg", ".png", ".pdf")
 
 
@@ -35,6 +38,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=BAUD,
         metavar="BAUD",
         help=f"the rate of the line, for its load (default: {BAUD})",
+    )
+    add_excerpt(parser)
+    parser.add_argument(
+        "--ids",
+        type=_ids,
+        metavar="1-6,9",
+        help="of values that are measured of several numbers, only those of these",
     )
     parser.add_argument(
         "--plot",
@@ -50,6 +60,7 @@ def run(arguments: Namespace) -> int:
     plot: Path | None = arguments.plot
     baud: int = arguments.baud
     # What cannot work is reported before a long file is read.
+    excerpt = excerpt_of(arguments)
     if plot is not None:
         _refuse(plot)
     measuring = imported("measuring")
@@ -57,19 +68,25 @@ def run(arguments: Namespace) -> int:
     with opened_capture(arguments) as (recording, form):
         recording.is_quiet = True
         with recording.from_the_beginning():
-            direction = direction_in(arguments)
-            found, traces = measuring.measured(
-                recording, form, direction, None if plot is None else baud
-            )
+            found, traces = measuring.measured(recording, form, arguments)
         mostly_noise = 2 * found.noise_size > found.size
-        begun = beginning(recording, form, direction) if mostly_noise else b""
-    print(as_json(found, baud)) if arguments.json else show(found, recording.name, baud)
+        begun = beginning(recording, form, direction_in(arguments)) if mostly_noise else b""
+    name = recording.name if excerpt is None else f"{recording.name} {excerpt.words}"
+    print(as_json(found, baud)) if arguments.json else show(found, name, baud)
     sys.stdout.flush()
     hint(begun)
+    measured = {each.key for each in found.ranges}
+    absent = [str(each) for each in arguments.ids or () if each not in measured]
+    if absent:
+        print(f"no value is measured of {', '.join(absent)}", file=sys.stderr)
     if drawing is not None:
-        for note in drawing.drawn(traces, plot, recording.name, baud):
+        for note in drawing.drawn(traces, plot, name, baud):
             print(note, file=sys.stderr)
     return DONE
+
+
+def _ids(text: str) -> tuple[int, ...]:
+    return ranges(text, 0, _HIGHEST)
 
 
 def _refuse(plot: Path) -> None:

@@ -203,6 +203,10 @@ EXAMPLES = {
     "stats": (
         ("lxservo stats line.hex", "a recording: what came how often, and when"),
         ("lxservo stats line.bin --plot line.svg", "also a drawing of what was measured"),
+        (
+            "lxservo stats line.hex --from 1m30s --to 2m --ids 1,3-5",
+            "a part of it, and of these alone",
+        ),
         ("lxservo stats --json line.hex", "for a program to read"),
     ),
     "replay": (

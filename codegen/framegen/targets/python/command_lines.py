@@ -133,6 +133,7 @@ def _examples(model: Model) -> dict[str, list[_Line]]:
         "stats": [
             ("line.hex", "a recording: what came how often, and when"),
             ("line.bin --plot line.svg", "also a drawing of what was measured"),
+            ("line.hex --from 1m30s --to 2m --ids 1,3-5", "a part of it, and of these alone"),
             ("--json line.hex", "for a program to read"),
         ],
         "simulate": [

@@ -14,15 +14,19 @@ from ..._frame.errors import Reason
 from ..layout import DIRECTIONS, layouts
 from ..reader import BLOCK, events
 from ..source import opened
+from .excerpted import Excerpted
 from .extremes import Ranges
 from .noise_count import NoiseCount, NoiseOfReason
 from .quantities import readings
-from .timeline import Intervals, Timeline
+from .timeline import Clockwork, Intervals, Timeline
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from numpy.typing import NDArray
 
     from ..._frame.direction import Direction
+    from ..._recording.excerpt import Excerpt
     from ..events import Events, Frames, NoiseRuns, Numbers
     from ..source import Source
     from .extremes import Extremes
@@ -107,23 +111,35 @@ def statistics(
     form: str = "auto",
     direction: Direction | None = None,
     traces: Traces | None = None,
+    excerpt: Excerpt | None = None,
+    ids: Collection[int] | None = None,
 ) -> Statistics:
     """Return what a line carried, of a capture of any size; its values go into `traces`, too.
 
-    The arguments are those of tables.read, and so are the errors.
+    With an `excerpt`, only what came in it counts; raises ExcerptError if that is nothing. With
+    `ids`, of quantities that are measured of several numbers only the values of these count. The
+    other arguments are those of tables.read, and so are the errors.
     """
-    survey = _Survey(traces)
+    survey, clockwork = _Survey(traces, ids), Clockwork()
+    excerpted = None if excerpt is None else Excerpted(excerpt)
     with opened(source, form) as capture:
         for each in events(capture, direction, BLOCK):
-            survey.add(each)
+            moments = clockwork.moments(each)
+            if excerpted is None:
+                survey.add(each, moments)
+            else:
+                survey.add(*excerpted.chosen(each, moments))
+    if excerpted is not None:
+        excerpted.end()
     return survey.result()
 
 
 class _Survey:
     """All that is counted, stretch by stretch."""
 
-    def __init__(self, traces: Traces | None) -> None:
+    def __init__(self, traces: Traces | None, ids: Collection[int] | None) -> None:
         self._traces = traces
+        self._ids = None if ids is None else np.array([*ids], np.int64)
         self._count = np.zeros(len(layouts()), np.int64)
         self._size = np.zeros(len(layouts()), np.int64)
         self._sent = np.zeros(len(DIRECTIONS) + 1, np.int64)
@@ -134,15 +150,16 @@ class _Survey:
         self._unknown_size: Counter[tuple[tuple[str, int], ...]] = Counter()
         self._ranges = Ranges()
 
-    def add(self, stretch: Events) -> None:
-        """Take in a stretch."""
+    def add(self, stretch: Events, moments: Moments | None) -> None:
+        """Take in a stretch, and when its events came."""
         frames, runs = stretch.frames, stretch.noise
         # One more, so that an unknown sender comes first.
         self._sent += _summed(frames.direction + 1, frames.size, len(self._sent))
         self._sent += _summed(runs.direction + 1, runs.size, len(self._sent))
         self._noise.add(runs)
         self._count_unknown(runs)
-        moments = self._timeline.add(stretch)
+        if moments is not None:
+            self._timeline.add(stretch, moments)
         self._count += np.bincount(frames.kind, minlength=len(self._count))
         self._size += _summed(frames.kind, frames.size, len(self._size))
         for kind in np.flatnonzero(np.bincount(frames.kind)).tolist():
@@ -152,7 +169,10 @@ class _Survey:
             self._add_values(kind, frames.chosen(which), moments and moments.chosen(which))
 
     def _add_values(self, kind: int, frames: Frames, moments: Moments | None) -> None:
-        for quantity, values in readings(layouts()[kind], frames):
+        for quantity, every in readings(layouts()[kind], frames):
+            values = every
+            if self._ids is not None and quantity.key is not None:
+                values = every.measured_of(self._ids)
             self._ranges.add(quantity, values)
             if self._traces is not None:
                 self._traces.add(quantity, values, frames.offset, moments)

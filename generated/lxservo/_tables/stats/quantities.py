@@ -86,6 +86,11 @@ class Readings:
     value: NDArray[Any]
     absent: NDArray[np.bool_]
 
+    def measured_of(self, ids: Numbers) -> Readings:
+        """Return those that are measured of some numbers."""
+        which = np.isin(self.key, ids)
+        return Readings(self.frame[which], self.key[which], self.value[which], self.absent[which])
+
 
 @cache
 def quantities(layout: Layout) -> tuple[Quantity, ...]:

@@ -73,6 +73,25 @@ def from_zero(*, highest: float, unit: str) -> Callable[[str], float]:
     return read
 
 
+def ranges(text: str, lowest: int, highest: int) -> tuple[int, ...]:
+    """Return the numbers of an argument such as `1-6,9`. Raises ArgumentTypeError."""
+    found: dict[int, None] = {}
+    for part in text.split(","):
+        first, dash, last = part.partition("-")
+        try:
+            low, high = whole(first), whole(last if dash else first)
+        except ValueError:
+            raise argparse.ArgumentTypeError(
+                f"{part[:40]!r} is neither a number nor a range like 1-6"
+            ) from None
+        if not lowest <= low <= high <= highest:
+            bounds = f"{lowest}..{highest}"
+            problem = f"is outside {bounds}" if low <= high else "has its higher number first"
+            raise argparse.ArgumentTypeError(f"{part[:40]} {problem}")
+        found |= dict.fromkeys(range(low, high + 1))
+    return tuple(found)
+
+
 def steps_of_time(*, highest: int, per_second: int) -> Callable[[str], int]:
     """Return the argument type of a time, `1s`, `500ms` or seconds, as a number of steps."""
 

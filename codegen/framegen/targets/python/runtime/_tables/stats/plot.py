@@ -1,29 +1,28 @@
-"""Quantities over time, drawn: a panel for each, with a line for each channel or address."""
+"""Quantities over time, drawn: a panel for each of their channels or addresses."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from ..layout import described
+from .panels import more_of, page_of
 from .trace import alone
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from .panels import Block, Page, Panel
     from .quantities import Quantity
-    from .trace import Trace
     from .traces import Traces
 
-PANELS = 8
-"""How many quantities are drawn at most."""
-
-# Colours that people of any sight tell apart, and then what else there is.
+# Colours that people of any sight tell apart: one for each quantity.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#7a5195", "#8c564b")
-_STYLES = ("-", "--", ":", "-.")
 _INK, _FAINT, _GRID = "#24292f", "#57606a", "#d8dee4"
 _STYLE: dict[str, Any] = {
     "svg.hashsalt": "captures",
@@ -56,6 +55,8 @@ _METADATA: dict[str, dict[str, None]] = {
 _LONG = ((2 * 3600.0, 3600.0, "h"), (300.0, 60.0, "min"), (0.0, 1.0, "s"))
 # So few points are shown as such; a line alone could hide them.
 _FEW = 60
+# How many steps the scale of a panel has at most: of one alone, and of one of several.
+_TICKS, _FEWER_TICKS = 6, 3
 _BANDS = (
     "\nwhere readings are dense, the line is their mean, and the band goes from lowest to highest"
 )
@@ -69,81 +70,87 @@ def drawing(traces: Traces, suffix: str, title: str, baud: float) -> tuple[bytes
     panels = traces.panels()
     if not panels:
         raise ValueError("the capture holds no message with a number in it")
+    page, left_out = page_of(panels)
     made = BytesIO()
     with rc_context(_STYLE):
-        figure = _drawn(panels[:PANELS], traces, title, baud)
+        figure = _drawn(page, traces.has_times, title, baud)
         figure.savefig(made, format=suffix[1:], metadata=_METADATA[suffix], facecolor="white")
-    left_out = [quantity.name for quantity, _ in panels[PANELS:]]
-    for quantity, keys in traces.left_out.items():
-        of = "" if quantity.key is None else f" {quantity.key.name}"
-        left_out.append(f"{quantity.name} of {len(keys)} more{of}")
+    left_out += [more_of(quantity, len(keys)) for quantity, keys in traces.left_out.items()]
     return made.getvalue(), left_out
 
 
-def _drawn(
-    panels: list[tuple[Quantity, dict[int, Trace]]], traces: Traces, title: str, baud: float
-) -> Figure:
-    heights = [2.6 if len(lines) > 1 else 1.7 for _, lines in panels]
-    figure = Figure(figsize=(10, sum(heights) + 0.9), dpi=100, layout="constrained")
-    axes = figure.subplots(
-        len(panels), 1, sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights}
-    )[:, 0]
-    figure.suptitle(f"{title}: {described().title}", x=0.01, ha="left", fontsize=11)
-    points = [trace.points() for _, lines in panels for trace in lines.values()]
-    longest = max(float(at[-1]) for at, _ in points)
-    divisor, unit = next((by, unit) for least, by, unit in _LONG if longest >= least)
-    for place, (quantity, lines) in zip(axes, panels, strict=True):
-        _draw(place, quantity, lines, divisor)
-    if traces.has_times:
+def _drawn(page: Page, has_times: bool, title: str, baud: float) -> Figure:
+    figure = Figure(figsize=(page.width, page.height), dpi=100)
+    drawn = [trace for block in page.blocks for trace in block.traces.values()]
+    points = [trace.points()[0] for trace in drawn]
+    length = max(float(at[-1]) for at in points) - min(float(at[0]) for at in points)
+    divisor, unit = next((by, unit) for least, by, unit in _LONG if length >= least)
+    text = _Text(figure, page)
+    text.show(f"{title}: {described().title}", 0.1, 0.08, fontsize=11)
+    first: Axes | None = None
+    for number, (block, top, panels) in enumerate(page.placed()):
+        text.show(_heading(block.quantity), panels[0].left, top, fontweight="bold", fontsize=10)
+        layout = block.quantity.layout
+        about = f"{layout.name}: {layout.described.said['summary']}"
+        text.show(about, page.width - 0.15, top, ha="right", color=_FAINT, fontsize=8)
+        beside: Axes | None = None
+        for panel in panels:
+            axes = figure.add_axes(page.place_of(panel), sharex=first, sharey=beside)
+            first, beside = first or axes, beside or axes
+            _draw(axes, block, panel, divisor, _COLOURS[number % len(_COLOURS)])
+            is_last = page.columns > 1 or block is page.blocks[-1]
+            axes.tick_params(
+                labelleft=panel.is_leftmost, labelbottom=panel.is_lowest and is_last, length=0
+            )
+    if has_times:
         label = f"time since the recording began ({unit})"
     else:
         label = f"time on the wire at {baud:g} baud ({unit}); the capture holds no times"
-    if any(trace.is_dense for _, lines in panels for trace in lines.values()):
+    if any(trace.is_dense for trace in drawn):
         label += _BANDS
-    axes[-1].set_xlabel(label)
-    figure.align_ylabels([*axes])
+    text.show(label, page.width / 2, page.height - 0.55, ha="center", color=_FAINT)
     return figure
 
 
-def _draw(axes: Axes, quantity: Quantity, lines: dict[int, Trace], divisor: float) -> None:
-    for number, (key, trace) in enumerate(lines.items()):
-        if trace.is_dense:
-            at, low, value, high = trace.band()
-            colour = _COLOURS[number % len(_COLOURS)]
-            axes.fill_between(at / divisor, low, high, color=colour, alpha=0.25, linewidth=0)
-        else:
-            at, value = trace.points()
-        places = alone(value).tolist()
-        is_few = trace.count <= _FEW
-        axes.plot(
-            at / divisor,
-            value,
-            color=_COLOURS[number % len(_COLOURS)],
-            linestyle=_STYLES[number // len(_COLOURS) % len(_STYLES)],
-            marker="." if is_few or places else "",
-            markersize=5,
-            markevery=None if is_few else places,
-            label=str(key),
-            gid=f"{quantity.name}.{key}",
-        )
-    _, _, unit = quantity.scale
-    said = quantity.layout.described.said
-    axes.set_title(_heading(quantity), loc="left", fontweight="bold", fontsize=10)
-    axes.set_title(
-        f"{quantity.layout.name}: {said['summary']}", loc="right", color=_FAINT, fontsize=8
+@dataclass(frozen=True, slots=True)
+class _Text:
+    """Text on a page, placed in inches from the left and from the top."""
+
+    figure: Figure
+    page: Page
+
+    def show(self, text: str, left: float, top: float, **how: Any) -> None:
+        """Show some."""
+        across, up = left / self.page.width, 1 - top / self.page.height
+        self.figure.text(across, up, text, va="top", **how)
+
+
+def _draw(axes: Axes, block: Block, panel: Panel, divisor: float, colour: str) -> None:
+    quantity, trace = block.quantity, panel.trace
+    if trace.is_dense:
+        at, low, value, high = trace.band()
+        axes.fill_between(at / divisor, low, high, color=colour, alpha=0.25, linewidth=0)
+    else:
+        at, value = trace.points()
+    places = alone(value).tolist()
+    is_few = trace.count <= _FEW
+    axes.plot(
+        at / divisor,
+        value,
+        color=colour,
+        marker="." if is_few or places else "",
+        markersize=5,
+        markevery=None if is_few else places,
+        gid=f"{quantity.name}.{panel.key}",
     )
-    axes.set_ylabel(unit)
-    axes.margins(x=0.01, y=0.12)
-    axes.ticklabel_format(useOffset=False, style="plain", axis="y")
     if quantity.key is not None:
-        axes.legend(
-            title=quantity.key.name,
-            loc="center left",
-            bbox_to_anchor=(1.0, 0.5),
-            ncols=1 + (len(lines) - 1) // 12,
-            fontsize=8,
-            title_fontsize=8,
-        )
+        name = f"{quantity.key.name} {panel.key}"
+        axes.set_title(name, loc="left", fontsize=8, color=_FAINT, pad=3)
+    if panel.is_leftmost:
+        axes.set_ylabel(quantity.scale[2])
+    axes.margins(x=0.01, y=0.12)
+    axes.yaxis.set_major_locator(MaxNLocator(_TICKS if len(block.traces) == 1 else _FEWER_TICKS))
+    axes.ticklabel_format(useOffset=False, style="plain")
 
 
 def _heading(quantity: Quantity) -> str:

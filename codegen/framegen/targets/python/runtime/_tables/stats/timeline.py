@@ -33,70 +33,61 @@ class Silence:
 
 @dataclass(frozen=True, slots=True)
 class Moments:
-    """When the events of a stretch came: seconds on the line of time, and in which recording."""
+    """When the events of a stretch came: seconds on the line of time, and in which recording.
+
+    `clock` is the time of day, in seconds since 1970; NaN where it is not known.
+    """
 
     seconds: Seconds
     recording: Numbers
+    clock: Seconds
 
     def chosen(self, which: Numbers) -> Moments:
         """Return some of them."""
-        return Moments(self.seconds[which], self.recording[which])
+        return Moments(self.seconds[which], self.recording[which], self.clock[which])
 
 
-@dataclass(slots=True)
-class Timeline:
-    """The time from the first event on, without the time between two recordings."""
+class Clockwork:
+    """Places events on one line of time, without the time between two recordings."""
 
-    first: float | None = None
-    last: float = 0.0
-    began: float | None = None
-    recordings: int = 0
-    silences: list[Silence] = field(default_factory=list)
-    _time: float = 0.0
-    _clock: float = np.nan
-    # Where the present recording begins: by its own times, and on the line.
-    _begins: float = 0.0
-    _base: float = 0.0
+    def __init__(self) -> None:
+        self._last: float | None = None
+        self._time = 0.0
+        self._clock = np.nan
+        self._number = 0
+        # Where the present recording begins: by its own times, and on the line.
+        self._begins = self._base = 0.0
 
-    @property
-    def seconds(self) -> float | None:
-        """How long the recordings are together; None without times."""
-        return None if self.first is None else self.last - self.first
-
-    def add(self, stretch: Events) -> Moments | None:
-        """Take in the events of a stretch; return when its frames came, None without times."""
+    def moments(self, stretch: Events) -> Moments | None:
+        """Return when the frames of a stretch came, and then its noise; None without times."""
         frames, runs = stretch.frames, stretch.noise
         if frames.time is None and runs.time is None:
             return None
         count = len(frames.offset)
-        offset = np.concatenate((frames.offset, runs.offset))
-        order = np.argsort(offset, kind="stable")
+        order = _in_order(stretch)
         time = seconds_of(frames.time, count, runs.time, len(runs.offset))[order]
         if np.isnan(time).any():
             return None
         clock = seconds_of(frames.clock, count, runs.clock, len(runs.offset))[order] - time
-        if self.first is None:
-            self.first = self.last = self._time = self._begins = self._base = float(time[0])
-            self.began = None if np.isnan(clock[0]) else float(clock[0] + time[0])
-            self._clock, self.recordings = float(clock[0]), 1
-        placed = self._placed(time, clock)
-        self._note_silences(placed, offset[order])
-        self.last, self._time, self._clock = float(placed.seconds[-1]), time[-1], clock[-1]
+        if self._last is None:
+            self._last = self._time = self._begins = self._base = float(time[0])
+            self._clock = float(clock[0])
+        placed = self._placed(time, clock, self._last)
+        self._last, self._time = float(placed.seconds[-1]), float(time[-1])
+        self._clock, self._number = float(clock[-1]), int(placed.recording[-1])
         back = np.empty_like(order)
         back[order] = np.arange(len(order))
-        return placed.chosen(back[:count])
+        return placed.chosen(back)
 
-    def _placed(self, time: Seconds, clock: Seconds) -> Moments:
+    def _placed(self, time: Seconds, clock: Seconds, at: float) -> Moments:
         before = np.concatenate(([self._time], time[:-1]))
         clock_before = np.concatenate(([self._clock], clock[:-1]))
         is_known = ~np.isnan(clock) & ~np.isnan(clock_before)
         is_new = np.where(
             is_known, np.abs(clock - clock_before) > _ANOTHER_CLOCK, time < before - _BACK
         )
-        numbers = self.recordings - 1 + np.cumsum(is_new)
         seconds = np.empty_like(time)
         bounds = [0, *np.flatnonzero(is_new).tolist(), len(time)]
-        at = self.last
         for start, end in pairwise(bounds):
             if start == end:
                 continue
@@ -105,8 +96,41 @@ class Timeline:
             reached = np.maximum.accumulate(self._base + (time[start:end] - self._begins))
             seconds[start:end] = np.maximum(reached, at)
             at = float(seconds[end - 1])
-        self.recordings = int(numbers[-1]) + 1
-        return Moments(seconds, numbers)
+        return Moments(seconds, self._number + np.cumsum(is_new), clock + time)
+
+
+@dataclass(slots=True)
+class Timeline:
+    """The time from the first event to the last, and the longest silences in it."""
+
+    first: float | None = None
+    last: float = 0.0
+    began: float | None = None
+    ended: float | None = None
+    recordings: int = 0
+    silences: list[Silence] = field(default_factory=list)
+    _recording: int = -1
+
+    @property
+    def seconds(self) -> float | None:
+        """How long the recordings are together; None without times."""
+        return None if self.first is None else self.last - self.first
+
+    def add(self, stretch: Events, moments: Moments) -> None:
+        """Take in the events of a stretch, and when they came."""
+        order = _in_order(stretch)
+        placed = moments.chosen(order)
+        if not len(order):
+            return
+        if self.first is None:
+            self.first = self.last = float(placed.seconds[0])
+            self.began = _known(placed.clock[0])
+        offset = np.concatenate((stretch.frames.offset, stretch.noise.offset))
+        self._note_silences(placed, offset[order])
+        numbers = np.concatenate(([self._recording], placed.recording))
+        self.recordings += int((np.diff(numbers) != 0).sum())
+        self._recording = int(numbers[-1])
+        self.last, self.ended = float(placed.seconds[-1]), _known(placed.clock[-1])
 
     def _note_silences(self, placed: Moments, offset: Numbers) -> None:
         before = np.concatenate(([self.last], placed.seconds[:-1]))
@@ -115,6 +139,16 @@ class Timeline:
             if long[at] > 0:
                 self.silences.append(Silence(float(long[at]), float(before[at]), int(offset[at])))
         self.silences = heapq.nsmallest(_SILENCES, self.silences, lambda s: (-s.seconds, s.offset))
+
+
+def _in_order(stretch: Events) -> Numbers:
+    """Return the places of the frames, and of the noise behind them, as the capture has them."""
+    offset = np.concatenate((stretch.frames.offset, stretch.noise.offset))
+    return np.argsort(offset, kind="stable")
+
+
+def _known(clock: float) -> float | None:
+    return None if np.isnan(clock) else float(clock)
 
 
 class Intervals:

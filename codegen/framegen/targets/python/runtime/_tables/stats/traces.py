@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from .quantities import Quantity, Readings
     from .timeline import Moments
 
-# So many lines of one quantity are kept; more could not be told apart.
-_MOST_LINES = 32
+# So many channels or addresses of one quantity are kept.
+_MOST_LINES = 64
 
 
 class Traces:
