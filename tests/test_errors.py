@@ -26,6 +26,7 @@ from busservo import (
     LimitError,
     NoReplyError,
     NoReportError,
+    NotHeldError,
     PortAddressError,
     PortBusyError,
     PortNotFoundError,
@@ -57,6 +58,7 @@ FAMILIES: dict[type[ProtocolError], set[type[Exception]]] = {
     NoReportError: {OSError, TimeoutError},
     IncompleteReplyError: set(),
     AbsentError: set(),
+    NotHeldError: set(),
 }
 PORT = ("/dev/ttyUSB0", "it is in use", "close the other program")
 LINE_ERRORS = [kind for kind in FAMILIES if issubclass(kind, TransportError)]
@@ -72,6 +74,7 @@ ERRORS: list[ProtocolError] = [
     NoReportError("ActionGroupStarted", 1.5, {ActionGroupStopped(): 2}),
     IncompleteReplyError("servo_id", [3], [ActionGroupStop()], [1, 2]),
     AbsentError("servo_id", [3], [], []),
+    NotHeldError("servos not held", {3: "no answer"}),
 ]
 each_error = pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
 

@@ -57,6 +57,7 @@ _HOMES = {
     "NoReplyError": "_serial.link_errors",
     "NoReportError": "_serial.link_errors",
     "Noise": "_codec.noise",
+    "NotHeldError": "_serial.link_errors",
     "PortAddressError": "_serial.link_errors",
     "PortBusyError": "_serial.link_errors",
     "PortNotFoundError": "_serial.link_errors",

@@ -57,6 +57,7 @@ _HOMES = {
     "NoReplyError": "_serial.link_errors",
     "NoReportError": "_serial.link_errors",
     "Noise": "_codec.noise",
+    "NotHeldError": "_serial.link_errors",
     "Offset": "messages",
     "OffsetAdjust": "messages",
     "OffsetRead": "messages",

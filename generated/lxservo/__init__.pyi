@@ -36,6 +36,7 @@ from ._serial.link_errors import EchoError as EchoError
 from ._serial.link_errors import IncompleteReplyError as IncompleteReplyError
 from ._serial.link_errors import NoReplyError as NoReplyError
 from ._serial.link_errors import NoReportError as NoReportError
+from ._serial.link_errors import NotHeldError as NotHeldError
 from ._serial.link_errors import PortAddressError as PortAddressError
 from ._serial.link_errors import PortBusyError as PortBusyError
 from ._serial.link_errors import PortNotFoundError as PortNotFoundError
@@ -136,6 +137,7 @@ __all__ = [
     "NoReplyError",
     "NoReportError",
     "Noise",
+    "NotHeldError",
     "Offset",
     "OffsetAdjust",
     "OffsetRead",

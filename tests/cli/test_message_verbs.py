@@ -127,7 +127,7 @@ def test_hold_holds_what_answers_and_names_the_rest(
 ) -> None:
     assert main(["unload", "1", "2", "3", "--port", board.port, *FAST]) == 0
     assert main(["hold", "1", "2", "9", "--port", board.port, *FAST]) == 1
-    assert capsys.readouterr().err == "servos 1, 2 held\nservo 9 not held: does not answer\n"
+    assert capsys.readouterr().err == "servos 1, 2 held\nservo 9 not held: no answer\n"
     assert main(["battery", "--port", board.port, *FAST]) == 0
     assert [board.servos[each].loaded for each in (1, 2, 3)] == [True, True, False]
     assert main(["hold", "--port", board.port, *FAST]) == 0

@@ -70,6 +70,7 @@ POSE: Pose = Pose(
     position="signed_position",
     moved="targets",
     time="time_ms",
+    releasing="unload",
     limits=LIMITS,
 )
 """How positions are read, commanded and released; None for a protocol without positions."""

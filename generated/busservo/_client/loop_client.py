@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .._serial.transport import Transport
-from .base_client import BaseClient
+from .leaving import LeavingClient
 from .line_threads import LineThreads, settle
 from .motion import AsyncMotion
 from .polled_line import PolledLine
@@ -28,7 +28,7 @@ _Result = TypeVar("_Result")
 _Reply = TypeVar("_Reply", bound="Message")
 
 
-class LoopClient(BaseClient):
+class LoopClient(LeavingClient):
     """A client of one event loop: that in which it is first used."""
 
     def __init__(self, transport: Transport, *, background: bool, **settings: Any) -> None:
@@ -119,6 +119,8 @@ class LoopClient(BaseClient):
         watcher: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._watchers.add(watcher)
         try:
+            # What is due goes now; and what ends by that ends the wait.
+            self._advance()
             left = None if until is None else max(0.0, until - self._clock())
             await asyncio.wait([watcher], timeout=left)
         finally:

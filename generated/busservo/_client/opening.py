@@ -25,6 +25,7 @@ def open_controller(
     report_limit: int = REPORT_LIMIT,
     limits: Allowed = LIMITS.usual,
     ids: Iterable[int] = (),
+    on_exit: str | None = None,
     local_echo: bool = LOCAL_ECHO,
     settle: float | None = None,
 ) -> Controller:
@@ -47,6 +48,7 @@ def open_controller(
             report_limit=report_limit,
             limits=limits,
             ids=ids,
+            on_exit=on_exit,
             local_echo=local_echo,
             settle=settle,
         )

@@ -32,6 +32,7 @@ class Pose:
     `read`, `move` and `release` are the messages that do so. `requested` is the list of numbers in
     `read` and `release`, `reported` the list of positions in the reply to `read`, each a number and
     a position; `moved` the list in `move`, and `time` the milliseconds that the motion takes.
+    `releasing` is the word for letting go.
     `position` is the property that gives a position, below zero included. `ids` are all possible
     numbers, `limits` those of the positions that are commanded.
 
@@ -51,6 +52,7 @@ class Pose:
         "position",
         "read",
         "release",
+        "releasing",
         "reported",
         "requested",
         "room",
@@ -69,6 +71,7 @@ class Pose:
         position: str,
         moved: str,
         time: str,
+        releasing: str,
         limits: Limits,
     ) -> None:
         self.read = read
@@ -80,6 +83,7 @@ class Pose:
         self.position = position
         self.moved = moved
         self.time = time
+        self.releasing = releasing
         self.limits = limits
         targets: Items[Any] = getattr(move, moved)
         self.item, self.place = targets.fields
@@ -98,6 +102,12 @@ class Pose:
     def letting_go(self, ids: Iterable[int]) -> Message:
         """Return the command that releases these. Raises EncodeError."""
         return self.release(**{self.requested: list(ids)})
+
+    @property
+    def releases(self) -> int:
+        """How many fit into one such command."""
+        listed: Items[int] = getattr(self.release, self.requested)
+        return listed.most
 
     def there(self, replies: Iterable[Message]) -> list[Any]:
         """Return the positions in the replies, without those that are reported absent."""

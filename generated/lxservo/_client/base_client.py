@@ -175,6 +175,10 @@ class BaseClient:
             message, question=question, retries=retries or 0, within=within
         )
         yield request
+        return self._ended(request)
+
+    def _ended(self, request: Request) -> Request:
+        """Return a request that is done. Raises the error that it ended with."""
         if request.reply is None and self._failure is not None:
             # A command whose frame the port did not take counts as done, but is not.
             raise self._failure.again()
@@ -203,8 +207,12 @@ class BaseClient:
     def _question(self, message: Message, retries: int | None = None) -> Steps[Message]:
         """Send a question; give the reply, whole or not."""
         request = yield from self._exchange(message, self._retries if retries is None else retries)
+        return self._good_reply(request)
+
+    def _good_reply(self, request: Request) -> Message:
+        """Return what has answered a question. Raises the error that it tells of."""
         if request.reply is None:
-            raise AssertionError(f"{message!r} ended without an error, and without a reply")
+            raise AssertionError(f"{request.message!r} ended without an error and without a reply")
         error = request.exchange.failures.error(request.message, request.reply)
         if error is not None:
             raise error

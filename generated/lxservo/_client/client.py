@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -53,6 +54,11 @@ class Client(ThreadClient):
     `background`, a thread listens while nobody waits; without, only calls read the line, and
     `clock` may be of any kind.
 
+    `on_exit` says what `close`, and so the end of the `with`, does with those that this client has
+    moved and with `ids`, if the protocol has positions: `"hold"` asks where they are and commands
+    just that, so that nothing moves on; the verb that lets go of them (else `"release"`) does so.
+    Those released last are left alone. None (the default) leaves all of them to themselves.
+
     `local_echo` says that the line returns what is sent, as half-duplex adapters do: the echo is
     then expected, compared and dropped, and EchoError raised if it does not come. `settle` is for
     how many seconds after opening no request is sent, so that no reply to an earlier program is
@@ -71,6 +77,7 @@ class Client(ThreadClient):
         report_limit: int = REPORT_LIMIT,
         limits: Allowed = LIMITS.usual,
         ids: Iterable[int] = (),
+        on_exit: str | None = None,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
         local_echo: bool = LOCAL_ECHO,
@@ -85,6 +92,7 @@ class Client(ThreadClient):
             report_limit=report_limit,
             limits=limits,
             ids=ids,
+            on_exit=on_exit,
             clock=clock,
             local_echo=local_echo,
             settle=settle,
@@ -106,7 +114,7 @@ class Client(ThreadClient):
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        self.close()
+        self._close(error)
 
     def send(self, message: Message) -> Sent:
         """Send a command, as soon as the frames before it have left: no lag builds up unseen.
@@ -188,10 +196,22 @@ class Client(ThreadClient):
 
         Requests of other threads end with ClosedError. May be called again, and by several threads
         at once: each of them returns once the line is closed.
+
+        What `on_exit` asks for comes after all that is sent, within two seconds. Raises
+        NotHeldError, once the line is closed, for those that were not reached; while another
+        exception is being handled, that is logged instead. In a signal handler that has interrupted
+        a call of this client, what `on_exit` asks for is done, and the line closed, as that call
+        ends.
         """
+        self._close(sys.exc_info()[1])
+
+    def _close(self, under_way: BaseException | None) -> None:
         with self._lock:
             closer, self._closing = self._closer, True
             if closer is None:
+                if self._to_leave() and threading.get_ident() in self._calling:
+                    self._close_later = True
+                    return
                 self._closer = threading.current_thread()
         if closer is not None:
             # Whoever closes waits for the listener, and no thread can wait for itself.
@@ -200,8 +220,13 @@ class Client(ThreadClient):
             return
         try:
             self._end()
+        except BaseException as error:
+            # A second Ctrl-C: the line is closed, and whoever is left over is named.
+            self._tell_left(error)
+            raise
         finally:
             self._closed_now.set()
+        self._tell_left(under_way)
 
     def reconnect(self) -> None:
         """Open the same port again after the line was lost; all that was in progress has failed.
@@ -235,6 +260,9 @@ class Client(ThreadClient):
             with self._lock:
                 self._session.refuse_questions(self._closed())
                 self._changed.notify_all()
+                self._drain()
+                for wait in self._leave():
+                    self._wait_for(wait)
                 self._drain()
                 left = max(0.0, self._session.wire_time.free_at - self._clock())
             if self._failure is None:

@@ -26,6 +26,7 @@ from .._frame.errors import EncodeError
 from .._log import log
 from .._serial.link_errors import DoubtfulReplyError, NoReplyError
 from .acknowledgements import Acknowledgements
+from .commanded import Commanded
 from .exchanges import EXCHANGES, LIMITS
 from .frame_reader import FrameReader
 from .local_echo import EchoWatch, LocalEcho, echo_error
@@ -84,6 +85,7 @@ class Session:
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
         self.acknowledgements = Acknowledgements(self.wire_time, reply_timeout)
+        self.commanded = Commanded()
         # Reports for callbacks, to be taken out by the driver of the session.
         self.callback_queue: deque[Message] = deque(maxlen=report_limit)
         # The longest frame that the line carries; None for any.
@@ -312,6 +314,7 @@ class Session:
         request.owed += 1
         request.written = False
         self.counters.sent += 1
+        self.commanded.sent(request.message)
         if self._trace is not None:
             self._trace.sent(request.message, now)
         if request.exchange.reports:

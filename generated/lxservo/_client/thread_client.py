@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 import weakref
 
 from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
-from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL, BaseClient
+from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL
+from .leaving import LeavingClient
 from .motion import Motion
 from .request import Request
 
@@ -34,7 +36,7 @@ else:
 _LONGEST_WAIT = 0.25
 
 
-class ThreadClient(BaseClient):
+class ThreadClient(LeavingClient):
     """A client of any number of threads, which take turns in reading the line."""
 
     def __init__(self, transport: Transport, *, background: bool, **settings: typing.Any) -> None:
@@ -51,6 +53,11 @@ class ThreadClient(BaseClient):
         self._waiters = 0
         self._idle = threading.Condition(self._lock)
         self._reading = False
+        # The threads that are in the middle of a call. A signal handler may close this in such a
+        # thread, and can wait for no answer then, which the interrupted call would have to read:
+        # whether that call closes it instead, as it ends.
+        self._calling: list[int] = []
+        self._close_later = False
         self._telling = False
         self._background = background
         self._listener: threading.Thread | None = None
@@ -91,15 +98,22 @@ class ThreadClient(BaseClient):
 
     def _finish(self, steps: Steps[_Result]) -> _Result:
         """Take the steps of a call, one after the other, and wait between them."""
+        caller = threading.get_ident()
         while True:
-            with self._lock:
-                self._waiters += 1
-                try:
-                    results = self._take_steps(steps)
-                finally:
-                    # Another waiter must read from now on.
-                    self._waiters -= 1
-                    self._hand_over()
+            try:
+                with self._lock:
+                    self._waiters += 1
+                    self._calling.append(caller)
+                    try:
+                        results = self._take_steps(steps)
+                    finally:
+                        # Another waiter must read from now on.
+                        self._waiters -= 1
+                        self._calling.remove(caller)
+                        self._hand_over()
+            finally:
+                if self._close_later:
+                    self._close(sys.exc_info()[1])
             self._tell()
             for result in results:
                 return result
@@ -115,14 +129,27 @@ class ThreadClient(BaseClient):
             if self._session.callback_queue:
                 return []
 
+    def _close(self, under_way: BaseException | None) -> None:
+        """Close the line; an exception that is under way goes on."""
+        raise NotImplementedError
+
     def _submit_latest(self, message: Message) -> Request:
-        with self._lock:
-            self._check()
-            request = self._session.submit(message, question=False, latest=True)
-            # Whoever waits for it must learn that it has been sent or replaced.
-            request.notify = self._wake
-            self._send_due()
-            self._wake()
+        caller = threading.get_ident()
+        try:
+            with self._lock:
+                self._calling.append(caller)
+                try:
+                    self._check()
+                    request = self._session.submit(message, question=False, latest=True)
+                    # Whoever waits for it must learn that it has been sent or replaced.
+                    request.notify = self._wake
+                    self._send_due()
+                    self._wake()
+                finally:
+                    self._calling.remove(caller)
+        finally:
+            if self._close_later:
+                self._close(sys.exc_info()[1])
         return request
 
     def _wake(self) -> None:
@@ -137,6 +164,8 @@ class ThreadClient(BaseClient):
         wait.notify = done.notify
         try:
             while not wait.done:
+                if self._close_later:
+                    self._session.refuse_questions(self._closed())
                 self._wait(None, done)
         finally:
             self._session.cancel(wait)

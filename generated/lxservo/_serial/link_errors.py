@@ -193,6 +193,27 @@ class AbsentError(IncompleteReplyError):
         )
 
 
+class NotHeldError(ProtocolError):
+    """Not everything that a client was to hold, or to let go of, as it was closed was reached.
+
+    `left` has the number of each that was not, and why; `what` is what they are and what was to
+    become of them, in words.
+    """
+
+    def __init__(self, what: str, left: Mapping[int, str]) -> None:
+        super().__init__(what, left)
+        self.what = what
+        self.left = dict(left)
+
+    def __str__(self) -> str:
+        reasons = dict.fromkeys(self.left.values())
+        parts = [
+            f"{', '.join(str(each) for each, of in self.left.items() if of == why)} ({why})"
+            for why in reasons
+        ]
+        return f"{self.what}: {'; '.join(parts)}"
+
+
 class NoReportError(ProtocolError, TimeoutError):
     """A report did not come. `report` is the expected one, `waited` how many seconds.
 

@@ -39,6 +39,7 @@ HOMES = {
     "Motion": "_client.motion",
     "NoReplyError": "_serial.link_errors",
     "NoReportError": "_serial.link_errors",
+    "NotHeldError": "_serial.link_errors",
     "Noise": "_codec.noise",
     "PortAddressError": "_serial.link_errors",
     "PortBusyError": "_serial.link_errors",

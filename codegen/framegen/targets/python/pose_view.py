@@ -47,6 +47,7 @@ class PoseView:
             "moved": self._moved.name,
             "time": self.time,
         }
+        names["releasing"] = self.model.spec.messages[pose.release].verb or "release"
         items += [f"{key}={literal(name)}" for key, name in names.items()]
         items.append("limits=LIMITS")
         return Bracketed("POSE: Pose = Pose(", items, ")").fitted(0)

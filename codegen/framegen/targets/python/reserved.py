@@ -45,12 +45,12 @@ LIBRARY_CLASSES = words(
     Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError Event Exchange
     EXCHANGES F32 F64 FailureError Failures Field HEADER I16 I24 I32 I64 I8 IncompleteReplyError
     Items Kind LimitError LIMITS Limits LineCounters LineError List Message MESSAGES MixedElement
-    Motion Noise NoReplyError NoReportError Number OneDevice Optional Packed PortAddressError
-    PortBusyError PortNotFoundError PortPermissionError POSE Pose ProtocolError Reason RECEIVED
-    RefusedError Rejects Report Reserved Run SearchStrategy Sent Shape StreamDecoder SwappedF32
-    SwappedF64 SwappedI16 SwappedI24 SwappedI32 SwappedI64 SwappedU16 SwappedU24 SwappedU32
-    SwappedU64 Table Text Timed Transport TransportError U16 U24 U32 U64 U8 UNFIT UnknownFrame
-    WriteStuckError
+    Motion Noise NoReplyError NoReportError NotHeldError Number OneDevice Optional Packed
+    PortAddressError PortBusyError PortNotFoundError PortPermissionError POSE Pose ProtocolError
+    Reason RECEIVED RefusedError Rejects Report Reserved Run SearchStrategy Sent Shape StreamDecoder
+    SwappedF32 SwappedF64 SwappedI16 SwappedI24 SwappedI32 SwappedI64 SwappedU16 SwappedU24
+    SwappedU32 SwappedU64 Table Text Timed Transport TransportError U16 U24 U32 U64 U8 UNFIT
+    UnknownFrame WriteStuckError
     """
 )
 

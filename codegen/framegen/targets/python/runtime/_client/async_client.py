@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 import time
 from collections.abc import AsyncIterator, Callable, Iterable
 from functools import partial
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, TypeVar, overload
 
 from .._frame.message import Message
 from .._frame.protocol import BAUD, LOCAL_ECHO
-from .._serial.link_errors import TransportError
+from .._serial.link_errors import ClosedError, TransportError
 from .._serial.transport import Transport
 from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL, REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS
@@ -58,6 +59,7 @@ class AsyncClient(LoopClient):
         report_limit: int = REPORT_LIMIT,
         limits: Allowed = LIMITS.usual,
         ids: Iterable[int] = (),
+        on_exit: str | None = None,
         background: bool = True,
         clock: Callable[[], float] = time.monotonic,
         local_echo: bool = LOCAL_ECHO,
@@ -72,6 +74,7 @@ class AsyncClient(LoopClient):
             report_limit=report_limit,
             limits=limits,
             ids=ids,
+            on_exit=on_exit,
             clock=clock,
             local_echo=local_echo,
             settle=settle,
@@ -92,7 +95,7 @@ class AsyncClient(LoopClient):
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        await self.close()
+        await self._close(error)
 
     async def send(self, message: Message) -> Sent:
         """Send a command, as soon as the frames before it have left: no lag builds up unseen.
@@ -172,14 +175,29 @@ class AsyncClient(LoopClient):
         Requests of other tasks end with ClosedError. May be called again, and by several tasks at
         once: each of them returns once the line is closed. If the event loop in which it was used
         has ended, it may be closed in another.
+
+        What `on_exit` asks for comes after all that is sent, within two seconds; if this is
+        cancelled, it is given up at once. Raises NotHeldError, once the line is closed, for those
+        that were not reached; while another exception is being handled, that is logged instead.
         """
+        await self._close(sys.exc_info()[1])
+
+    async def _close(self, under_way: BaseException | None) -> None:
         if self._ending is None:
+            if self._loop is None and self._to_leave():
+                self._bind()
             self._closing = True
             self._ending = asyncio.ensure_future(self._end())
         # It is closed as well if the loop ended in the middle of closing it.
         if not self._ending.cancelled():
-            # Once begun, it is completed: half a frame on the line would spoil the next one.
-            await asyncio.shield(self._ending)
+            try:
+                # Once begun, it is completed: half a frame on the line would spoil the next one.
+                await asyncio.shield(self._ending)
+            except asyncio.CancelledError as error:
+                self._hurry()
+                self._tell_left(error)
+                raise
+        self._tell_left(under_way)
 
     async def reconnect(self) -> None:
         """Open the same port again after the line was lost; all that was in progress has failed.
@@ -217,11 +235,17 @@ class AsyncClient(LoopClient):
         self._wake()
         try:
             await self._drain()
+            for wait in self._leave():
+                await self._wait_for(wait)
+            await self._drain()
             longest = DRAIN_TIMEOUT if self._failure is None else 0.0
             await self._line.call(partial(self._line.shut, longest))
             await self._given_back()
-        except asyncio.CancelledError:
-            # The loop is about to end; the port is closed all the same.
+            if self._failure is not None and not isinstance(self._failure, ClosedError):
+                # Nothing tells which frames a line has carried that was lost meanwhile.
+                self._lose(self._failure, self._leaving)
+        except BaseException:
+            # The loop is about to end, as a rule; the port is closed all the same.
             self._line.shut(0.0)
             raise
         finally:

@@ -58,7 +58,7 @@ class Opening:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        await self._controller.close()
+        await self._controller.__aexit__(kind, error, traceback)
 
     async def _opened(self) -> AsyncController:
         # Opening may take a while (a socket, a slow adapter), and would block the loop.
@@ -82,6 +82,7 @@ def open_async_controller(
     report_limit: int = REPORT_LIMIT,
     limits: Allowed = LIMITS.usual,
     ids: Iterable[int] = (),
+    on_exit: str | None = None,
     local_echo: bool = LOCAL_ECHO,
     settle: float | None = None,
 ) -> Opening:
@@ -100,6 +101,7 @@ def open_async_controller(
         report_limit=report_limit,
         limits=limits,
         ids=ids,
+        on_exit=on_exit,
         local_echo=local_echo,
         settle=settle,
     )

@@ -19,8 +19,7 @@ class Holding:
     """The questions for positions and the commands of just these, for whoever sends them.
 
     `questions` are to be asked, and each reply given to `take`; then `commands` are to be sent.
-    `held` has the numbers of those whose command was sent, and `left` of each other why not. Raises
-    EncodeError for numbers that there cannot be.
+    `held` has the numbers of those whose command was sent, and `left` of each other why not.
     """
 
     __slots__ = ("_limits", "_pose", "_targets", "held", "left", "questions")
@@ -30,9 +29,14 @@ class Holding:
         self._limits = limits
         self._targets: list[tuple[int, int]] = []
         numbers = tuple(dict.fromkeys(ids))
-        self.questions = parts_of(pose.read, numbers)
+        asked = [each for each in numbers if each in pose.ids]
+        self.questions = parts_of(pose.read, asked) if asked else []
         self.held: list[int] = []
-        self.left = dict.fromkeys(numbers, "does not answer")
+        low, high = pose.ids[0], pose.ids[-1]
+        self.left = {
+            each: "no answer" if each in pose.ids else f"it is outside {low}..{high}"
+            for each in numbers
+        }
 
     def take(self, reply: Message) -> None:
         """Take in the positions of a reply, save those that are outside the limits."""
