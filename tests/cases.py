@@ -7,7 +7,6 @@ the library. Whatever reads or writes frames is held to these tables.
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupRun,
@@ -27,6 +26,8 @@ from busservo import (
     ServoTarget,
     ServoUnload,
 )
+
+from tests.in_turn import in_turn
 
 HOST = Direction.HOST_TO_CONTROLLER
 CONTROLLER = Direction.CONTROLLER_TO_HOST
@@ -166,7 +167,7 @@ CASES = (
     Case(BatteryVoltage(0x5555), "55 55 04 0F 55 55", CONTROLLER, "a header as a voltage"),
 )
 
-each_case = pytest.mark.parametrize("case", CASES, ids=lambda case: case.source)
+each_case = in_turn("case", lambda: CASES, ids=lambda case: case.source)
 
 
 class BadFrame(NamedTuple):
@@ -244,8 +245,8 @@ BAD_FRAMES = (
     BadFrame("55 55 01 07 01 F4 01 E8 03 16", HOST, Reason.LENGTH_MISMATCH, 2),
 )
 
-each_bad_frame = pytest.mark.parametrize(
-    "bad", BAD_FRAMES, ids=lambda bad: f"{bad.direction and bad.direction.sender}-{bad.hex}"
+each_bad_frame = in_turn(
+    "bad", lambda: BAD_FRAMES, ids=lambda bad: f"{bad.direction and bad.direction.sender}-{bad.hex}"
 )
 
 
@@ -377,6 +378,4 @@ BAD_VALUES = (
     BadValue(*_move((256, 65536), time_ms=-1), "time_ms", -1, "-1 is outside 0..65535"),
 )
 
-each_bad_value = pytest.mark.parametrize(
-    "bad", BAD_VALUES, ids=lambda bad: f"{bad.path}-{bad.problem}"
-)
+each_bad_value = in_turn("bad", lambda: BAD_VALUES, ids=lambda bad: f"{bad.path}-{bad.problem}")

@@ -37,6 +37,8 @@ def in_turn(
             failed, number = [], 0
             for number, row in enumerate(rows(**_taken(rows, fixtures)), 1):  # noqa: B007 - counted
                 values, shown = _told(row, ids, alone=len(keys) == 1)
+                if "capsys" in fixtures:  # What a row has printed and not read is not the next's.
+                    fixtures["capsys"].readouterr()
                 try:
                     test(**fixtures, **dict(zip(keys, values, strict=True)))
                 except _WRONG:  # of whatever kind, the other rows come first

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-import pytest
 from framegen.compile import compile_spec
 from framegen.language import misfit
 from framegen.language.load import load, read_source
@@ -17,6 +16,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from tests.factories import BUSSERVO, kiln
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -112,7 +112,7 @@ def keys_of_the_language(value: Any) -> Iterator[Steps]:
             yield here
 
 
-@pytest.mark.parametrize("value", ODD, ids=repr)
+@in_turn("value", lambda: ODD)
 def test_anything_in_place_of_a_value_is_reported_in_our_words(value: object) -> None:
     """And never in those of the library that reads it."""
     data = copied(KILN)

@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, compiled_file
 from tests.hex_cases import HEX, NO_HEX
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -105,7 +106,7 @@ COUNTS: dict[str, Callable[[bytes], int]] = {
 REFUSALS = (RecordingError, Unusable, UsageError, ValueError)
 
 
-@pytest.mark.parametrize("name", FORMS)
+@in_turn("name", lambda: FORMS)
 def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) -> None:
     content, data = FORMS[name]
     counts: dict[str, Callable[[bytes], int]] = {

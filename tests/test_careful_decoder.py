@@ -23,6 +23,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import compiled_of, library, library_files
+from tests.in_turn import in_turn
 from tests.strategies import joined
 
 if TYPE_CHECKING:
@@ -60,8 +61,8 @@ def bytes_of(events: Iterable[Message | Noise]) -> bytes:
     return b"".join(each.data if isinstance(each, Noise) else each.encode() for each in events)
 
 
-@pytest.mark.parametrize("lost", range(1, 3))
-@pytest.mark.parametrize("cut", range(8))
+@in_turn("lost", lambda: range(1, 3))
+@in_turn("cut", lambda: range(8))
 def test_a_battery_reply_with_a_hole_is_no_message(lost: int, cut: int) -> None:
     """55 55 04 0F, two bytes lost, and a report: 21845 mV, if it were taken for whole."""
     torn = BatteryVoltage(0x1D4C).encode()[: -lost or None]
@@ -79,10 +80,8 @@ def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
                 assert messages(careful(line, flushed=True)) == [follows], (torn, follows, lost)
 
 
-@pytest.mark.parametrize(
-    "follows", [[ActionGroupStopped()], [REPORT], [ActionGroupStopped(), REPORT]]
-)
-@pytest.mark.parametrize("part", range(8))
+@in_turn("follows", lambda: [[ActionGroupStopped()], [REPORT], [ActionGroupStopped(), REPORT]])
+@in_turn("part", lambda: range(8))
 def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], part: int) -> None:
     filling = b"".join(each.encode() for each in follows) + REPORT.encode()[:part]
     torn = ServoPositions([(servo, 500) for servo in range(1, 7)]).encode()
@@ -90,7 +89,7 @@ def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], p
     assert messages(careful(line, flushed=True)) == [*follows, REPORT]
 
 
-@pytest.mark.parametrize("message", MESSAGES, ids=repr)
+@in_turn("message", lambda: MESSAGES)
 def test_a_message_alone_is_reported_at_once_or_when_the_line_is_quiet(message: Message) -> None:
     assert careful(message.encode(), flushed=True) == [message]
     doubtful = message.encode()[-1] == 0x55 or message == BatteryVoltage(0x5504)
@@ -100,8 +99,8 @@ def test_a_message_alone_is_reported_at_once_or_when_the_line_is_quiet(message: 
         assert careful(message.encode()) == []
 
 
-@pytest.mark.parametrize("first", MESSAGES, ids=repr)
-@pytest.mark.parametrize("second", MESSAGES, ids=repr)
+@in_turn("first", lambda: MESSAGES)
+@in_turn("second", lambda: MESSAGES)
 def test_whole_messages_are_reported_whatever_they_end_in(first: Message, second: Message) -> None:
     assert careful(first.encode() + second.encode(), flushed=True) == [first, second]
 

@@ -109,7 +109,7 @@ EXIT_CODES = [
 ]
 
 
-@pytest.mark.parametrize(("words", "code"), EXIT_CODES, ids=repr)
+@in_turn("words, code", lambda: EXIT_CODES)
 def test_exit_code(words: list[str], code: int, capsys: Capture) -> None:
     assert main(words) == code
     printed = capsys.readouterr()
@@ -146,7 +146,7 @@ def test_without_a_verb_the_help_goes_to_the_error_stream(capsys: Capture) -> No
     assert "\nverbs:\n" in printed.err
 
 
-@pytest.mark.parametrize("verb", VERBS)
+@in_turn("verb", lambda: VERBS)
 def test_help_of_a_verb_teaches_by_example(verb: str, capsys: Capture) -> None:
     assert main([verb, "--help"]) == 0
     shown = capsys.readouterr().out

@@ -25,6 +25,7 @@ from hypothesis import strategies as st
 from serial.tools.list_ports_common import ListPortInfo
 
 from tests.documents import ROOT
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -304,7 +305,7 @@ def _hostile_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("_hostile_files")
-@pytest.mark.parametrize(("program", "words"), CALLS, ids=ascii)
+@in_turn("program, words", lambda: CALLS, ids=ascii)
 def test_a_hostile_call_is_refused_in_visible_text(
     capsys: Capture, program: str, words: list[str]
 ) -> None:

@@ -21,6 +21,7 @@ from tests.cases import (
     each_case,
 )
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.strategies import HEADS, damaged_frames, directions
 
 COMMANDS = ", ".join(
@@ -28,7 +29,7 @@ COMMANDS = ", ".join(
     for command in sorted(kind.COMMAND for kind in MESSAGES if kind.DIRECTION is CONTROLLER)
 )
 
-each_message = pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
+each_message = in_turn("kind", lambda: MESSAGES, ids=lambda kind: kind.__name__)
 
 
 def strategy_of(kind: type[Message]) -> st.SearchStrategy[Message]:
@@ -135,9 +136,9 @@ def test_a_bad_frame_is_refused_with_reason_and_offset(bad: BadFrame) -> None:
     assert isinstance(caught.value, ValueError)
 
 
-@pytest.mark.parametrize(
-    ("frame", "direction", "text"),
-    [
+@in_turn(
+    "frame, direction, text",
+    lambda: [
         ("55 54", HOST, "bad header at byte 1: a frame begins 55 55"),
         ("55", HOST, "too short at byte 1: a frame begins 55 55"),
         ("55 55 02", HOST, "too short at byte 3: the shortest frame has 4 bytes"),

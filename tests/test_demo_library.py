@@ -42,6 +42,7 @@ from tests.factories import (
     vectors_of,
     write_files,
 )
+from tests.in_turn import in_turn
 
 SPEC = data_of(DEMO)
 LAYOUT = layout_of(SPEC)
@@ -377,9 +378,9 @@ def test_a_narrowed_range_is_held_both_ways(greenhouse: Any, angle: int) -> None
     assert str(unfit.value) == f"vents[1].angle: {angle} is outside -900..900"
 
 
-@pytest.mark.parametrize(
-    ("name", "fields", "said"),
-    [
+@in_turn(
+    "name, fields, said",
+    lambda: [
         ("VentsOpen", {"ramp_s": 0, "vents": []}, "vents: 0 items is outside 1..8"),
         ("VentsOpen", {"ramp_s": 0, "vents": [(1, 0)] * 9}, "vents: 9 items is outside 1..8"),
         ("VentsOpen", {"ramp_s": 65536, "vents": [(1, 0)]}, "ramp_s: 65536 is outside 0..65535"),

@@ -18,6 +18,7 @@ from framegen.pluralize import describe_range
 
 from tests.cases import CASES
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.in_turn import in_turn
 
 COMMANDS = ", ".join(map(str, sorted({kind.COMMAND for kind in busservo.MESSAGES})))
 
@@ -101,9 +102,9 @@ def test_a_length_above_127_is_no_negative_number() -> None:
     assert decode(layout, Direction("host", "controller"), frame).values == values
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
+@in_turn(
+    "text, expected",
+    lambda: [
         ("C3", "a frame begins C3 5A A5"),
         ("C3 5B", "a frame begins C3 5A A5"),
         ("C3 5A A5 10 00", "the shortest frame has 6 bytes"),

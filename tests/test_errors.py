@@ -38,6 +38,8 @@ from busservo import (
 )
 from busservo._serial.port_errors import not_opened
 
+from tests.in_turn import in_turn
+
 # What Python's own handlers catch of them: the sentence of the README, error by error.
 FAMILIES: dict[type[ProtocolError], set[type[Exception]]] = {
     ProtocolError: set(),
@@ -76,7 +78,7 @@ ERRORS: list[ProtocolError] = [
     AbsentError("servo_id", [3], [], []),
     NotHeldError("servos not held", {3: "no answer"}),
 ]
-each_error = pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
+each_error = in_turn("error", lambda: ERRORS, ids=lambda error: type(error).__name__)
 
 
 def exported() -> set[type[ProtocolError]]:
@@ -128,8 +130,8 @@ def test_an_error_can_be_copied_and_pickled(error: Any) -> None:
             assert copied == (error.errno, error.strerror, error.filename)
 
 
-@pytest.mark.parametrize("number", [None, errno.EBUSY])
-@pytest.mark.parametrize("kind", LINE_ERRORS)
+@in_turn("number", lambda: [None, errno.EBUSY])
+@in_turn("kind", lambda: LINE_ERRORS)
 def test_an_error_of_the_line_is_an_error_of_the_system(kind: Any, number: int | None) -> None:
     error: TransportError = kind(*PORT, number)
     for each in (error, error.again()):

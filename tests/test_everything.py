@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 
 from tests.factories import compiled_file, library, library_files
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
@@ -155,9 +156,9 @@ def test_an_impossible_tail_is_refused(
         everything.Tail(1, **given)
 
 
-@pytest.mark.parametrize(
-    ("changes", "problem"),
-    [
+@in_turn(
+    "changes, problem",
+    lambda: [
         ({"a_u8": 2}, r"a_u8: 2 is outside 3\.\.200"),
         ({"a_u8": True}, "a_u8: True is a truth value, not a whole number"),
         ({"a_u24": 1 << 24}, r"a_u24: 16777216 is outside 0\.\.16777215"),
@@ -173,7 +174,6 @@ def test_an_impossible_tail_is_refused(
         ({"sequence": 256}, r"sequence: 256 is outside 0\.\.255"),
         ({"station": 0}, r"station: 0 is outside 1\.\.500"),
     ],
-    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )
 def test_a_bad_number_is_named(everything: Any, changes: dict[str, Any], problem: str) -> None:
     with pytest.raises(everything.EncodeError, match=problem) as raised:
@@ -182,9 +182,9 @@ def test_a_bad_number_is_named(everything: Any, changes: dict[str, Any], problem
     assert (raised.value.path, raised.value.value) == (path, changes[path])
 
 
-@pytest.mark.parametrize(
-    ("changes", "problem"),
-    [
+@in_turn(
+    "changes, problem",
+    lambda: [
         ({"channels": [0] * 7}, "channels: 7 numbers, and there are always 8"),
         ({"channels": [0] * 7 + [2048]}, r"channels\[7\]: 2048 is outside 0\.\.2047"),
         ({"channels": "12345678"}, "channels: '12345678' is not a list of whole numbers"),

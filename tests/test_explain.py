@@ -19,6 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.factories import data_of
+from tests.in_turn import in_turn
 
 ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
@@ -264,7 +265,7 @@ EXAMPLES = [
 ]
 
 
-@pytest.mark.parametrize(("model", "name", "data"), EXAMPLES)
+@in_turn("model, name, data", lambda: EXAMPLES)
 def test_every_byte_of_an_example_is_explained(model: Model, name: str, data: bytes) -> None:
     explanation = explain(model, data, model.directions)
     (reading,) = (each for each in explanation.readings if each.message == name)
@@ -274,7 +275,7 @@ def test_every_byte_of_an_example_is_explained(model: Model, name: str, data: by
     assert explanation.hints == ()
 
 
-@pytest.mark.parametrize(("model", "name", "data"), EXAMPLES)
+@in_turn("model, name, data", lambda: EXAMPLES)
 def test_every_value_of_an_example_is_shown(model: Model, name: str, data: bytes) -> None:
     message = model.messages[name]
     (reading,) = explain(model, data, [message.direction]).readings
@@ -291,7 +292,7 @@ def test_every_value_of_an_example_is_shown(model: Model, name: str, data: bytes
                 assert values[f"{field}[{index}].{inner}"] == number
 
 
-@pytest.mark.parametrize(("model", "name", "data"), EXAMPLES)
+@in_turn("model, name, data", lambda: EXAMPLES)
 def test_a_frame_cut_short_is_explained_up_to_the_cut(model: Model, name: str, data: bytes) -> None:
     direction = model.messages[name].direction
     (whole,) = explain(model, data, [direction]).readings
@@ -335,7 +336,7 @@ REFUSALS = [
 ]
 
 
-@pytest.mark.parametrize(("hex_text", "direction", "reason", "offset", "right"), REFUSALS)
+@in_turn("hex_text, direction, reason, offset, right", lambda: REFUSALS)
 def test_a_refusal_has_its_reason_and_offset(
     hex_text: str, direction: Direction, reason: str, offset: int, right: int
 ) -> None:
@@ -493,9 +494,9 @@ def test_hex_longer_than_a_path_can_be_is_hex(
 # ---------------------------------------------------------------------------- hex
 
 
-@pytest.mark.parametrize(
-    ("text", "problem", "hint"),
-    [
+@in_turn(
+    "text, problem, hint",
+    lambda: [
         ("", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
         (" , ", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
         ("55 5 02", "`5` is half a byte\n  55 5 02\n     ^", "did you mean 05?"),

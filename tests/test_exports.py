@@ -18,6 +18,8 @@ from busservo import (
     UnknownFrame,
 )
 
+from tests.in_turn import in_turn
+
 STUB = Path(busservo.__file__).with_suffix(".pyi")
 
 
@@ -41,9 +43,7 @@ def test_the_stub_exports_what_the_package_does() -> None:
     assert ast.literal_eval(named.value) == busservo.__all__
 
 
-@pytest.mark.parametrize(
-    ("module", "alias"), [*imports()], ids=lambda each: getattr(each, "name", "")
-)
+@in_turn("module, alias", imports, ids=lambda row: f"{row[1].name} of {row[0]}")
 def test_a_name_of_the_stub_is_that_of_the_package(module: str, alias: ast.alias) -> None:
     owner = import_module(module, "busservo")
     assert getattr(busservo, alias.name) is getattr(owner, alias.name)

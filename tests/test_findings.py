@@ -14,6 +14,7 @@ from framegen.reading.source import Source, Span
 
 from tests.bad_specs import bad_spec
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -48,17 +49,17 @@ def test_a_finding_in_two_places_is_shown_with_both() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("found", "rule"),
-    [
+@in_turn(
+    "found, rule",
+    lambda: [
         ("type: u16", "unknown-type"),
         ("authority: vendor", "unknown-source"),
         ("element: ServoTarget", "identifier"),
         ("is: id", "wrong-value"),
     ],
 )
-@pytest.mark.parametrize(
-    "value", ["x" * 200_000, "x " * 100_000, "x`y " * 50_000, "`.x " * 50_000, "9" * 4000]
+@in_turn(
+    "value", lambda: ["x" * 200_000, "x " * 100_000, "x`y " * 50_000, "`.x " * 50_000, "9" * 4000]
 )
 def test_a_finding_repeats_no_more_of_a_value_than_can_be_read(
     found: str, rule: str, value: str
@@ -141,9 +142,9 @@ def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
     assert len(searched) == sum(f"`{word}`" in f.message for f in findings for word in words)
 
 
-@pytest.mark.parametrize(
-    ("line", "column", "length", "shown", "carets"),
-    [
+@in_turn(
+    "line, column, length, shown, carets",
+    lambda: [
         ("a: v16", 4, 3, "a: v16", "   ^^^"),
         ("\ta: v16", 5, 3, " a: v16", "    ^^^"),
         ("a\u200b: v16", 5, 3, "a\N{REPLACEMENT CHARACTER}: v16", "    ^^^"),

@@ -5,10 +5,12 @@ from framegen.language.formula import Formula, parse_formula
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 
-@pytest.mark.parametrize(
-    ("text", "formula"),
-    [
+
+@in_turn(
+    "text, formula",
+    lambda: [
         ("5", Formula(5)),
         ("0", Formula(0)),
         ("  7 ", Formula(7)),
@@ -31,9 +33,9 @@ def test_a_rule_is_read(text: str, formula: Formula) -> None:
     assert parse_formula(text) == formula
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
+@in_turn(
+    "text, said",
+    lambda: [
         ("", "`` is no term"),
         (" ", "`` is no term"),
         ("+", "`` is no term"),

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO
 from tests.hex_cases import HEX, NO_HEX, random_texts
+from tests.in_turn import in_turn
 
 # What has no place among the words of a command line.
 WORDS = [text for text in NO_HEX if "\0" not in text]
@@ -24,13 +25,13 @@ def test_the_library_has_the_text_of_framegen() -> None:
     assert ours == getsource(framegen.hextext)
 
 
-@pytest.mark.parametrize(("text", "data"), HEX)
+@in_turn("text, data", lambda: HEX)
 def test_hex_of_any_usual_shape_is_read(text: str, data: str) -> None:
     assert read_hex(text) == bytes.fromhex(data)
     assert is_hex(text) == bool(data)
 
 
-@pytest.mark.parametrize("text", NO_HEX)
+@in_turn("text", lambda: NO_HEX)
 def test_what_is_no_hex_is_refused(text: str) -> None:
     with pytest.raises(HexError) as caught:
         read_hex(text)
@@ -38,7 +39,7 @@ def test_what_is_no_hex_is_refused(text: str) -> None:
     assert not is_hex(text)
 
 
-@pytest.mark.parametrize("text", WORDS)
+@in_turn("text", lambda: WORDS)
 def test_the_commands_refuse_it_as_well(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["decode", text]) == 2
     assert capsys.readouterr().err.startswith("busservo: error: no hex: ")

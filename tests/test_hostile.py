@@ -47,6 +47,7 @@ from tests.factories import (
     vectors_of,
     write_files,
 )
+from tests.in_turn import in_turn
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 HARMLESS = "Plain words."
@@ -332,7 +333,7 @@ def _with(data: Data, place: Steps, text: str) -> Data:
     return changed_
 
 
-@pytest.mark.parametrize("text", UNSEEN, ids=ascii)
+@in_turn("text", lambda: UNSEEN, ids=ascii)
 def test_text_that_nobody_can_see_is_a_finding_everywhere(text: str) -> None:
     data = SPECS["greenhouse"]
     some = [path for path, _ in leaves(data) if is_prose(path)][::10]
@@ -419,9 +420,9 @@ def test_what_is_no_prose_is_a_finding_or_inert() -> None:
     assert results["finding"] > results["inert"] > 0
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "version",
-    [
+    lambda: [
         *INERT[::7],
         "coding",
         "coding=utf-7",
@@ -437,9 +438,9 @@ def test_a_hostile_version_is_a_finding(version: str) -> None:
     assert {*rules_broken(data)} & {"version", "unusable"}
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "name",
-    [
+    lambda: [
         "a\nimport os\n.yaml",
         "coding: utf-7.yaml",
         "coding:utf-7",
@@ -519,7 +520,7 @@ NAMED = {
 }
 
 
-@pytest.mark.parametrize("kind", NAMED)
+@in_turn("kind", lambda: NAMED)
 def test_what_is_no_plain_name_is_a_finding(kind: str) -> None:
     for name in NO_NAMES:
         data = renamed(SPECS["greenhouse"], NAMED[kind], name)
@@ -734,9 +735,9 @@ def test_a_docstring_is_one_string_behind_its_margin(blocks: list[str], indent: 
     assert shown.endswith('"""')
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
+@in_turn(
+    "text, said",
+    lambda: [
         ('a "quoted" word', 'a "quoted" word'),
         ('"quoted"', '"quoted"'),
         ('"""', '""\\u0022'),
@@ -759,9 +760,9 @@ def test_prose_escapes_no_more_than_it_must(text: str, said: str) -> None:
     assert prose(text) == said
 
 
-@pytest.mark.parametrize(
-    ("text", "summary"),
-    [
+@in_turn(
+    "text, summary",
+    lambda: [
         ("Opens it.", "Opens it."),
         ("Opens it", "Opens it."),
         ("opens it", "Opens it."),

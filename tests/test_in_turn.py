@@ -26,6 +26,13 @@ def test_a_row_comes_with_fixtures(tmp_path: Path, row: str) -> None:
     (tmp_path / row).touch(exist_ok=False)
 
 
+@in_turn("row", lambda: ["a", "b"])
+def test_what_a_row_prints_is_its_own(capsys: pytest.CaptureFixture[str], row: str) -> None:
+    print(row)
+    if row == "b":
+        assert capsys.readouterr().out == "b\n"
+
+
 def test_each_row_that_fails_is_shown() -> None:
     with pytest.raises(AssertionError, match=r"2 of 4 rows fail\n\(1, 2\)(?s:.*)\n\(4, 5\)"):
         alike()

@@ -16,6 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, Data, data_of, layout_of
+from tests.in_turn import in_turn
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 LAYOUTS = {name: layout_of(data) for name, data in SPECS.items()}
@@ -67,7 +68,7 @@ DOCUMENT = {
 }
 
 
-@pytest.mark.parametrize("name", DOCUMENT)
+@in_turn("name", lambda: DOCUMENT)
 def test_a_message_lies_as_the_document_has_it(name: str) -> None:
     row, message = DOCUMENT[name], SERVO.messages[name]
     offsets = {slot.name: slot.at for slot in message.fields}
@@ -232,7 +233,7 @@ def every_message() -> list[Any]:
     ]
 
 
-@pytest.mark.parametrize("message", every_message())
+@in_turn("message", every_message)
 def test_the_slots_of_every_legal_frame_fill_it_without_gap_or_overlap(
     message: MessageLayout,
 ) -> None:
@@ -242,7 +243,7 @@ def test_the_slots_of_every_legal_frame_fill_it_without_gap_or_overlap(
         assert taken == list(range(message.size_at(count)))
 
 
-@pytest.mark.parametrize("message", every_message())
+@in_turn("message", every_message)
 def test_each_legal_length_has_one_count_and_each_count_one_length(message: MessageLayout) -> None:
     lengths = [message.formula.at(count) for count in message.counts]
     assert lengths == list(message.lengths)
@@ -362,7 +363,7 @@ def examples() -> list[Any]:
     ]
 
 
-@pytest.mark.parametrize(("house", "name", "text", "values"), examples())
+@in_turn("house, name, text, values", examples)
 def test_the_reference_codec_reads_and_writes_every_example(
     house: str, name: str, text: str, values: dict[str, Any]
 ) -> None:
@@ -373,9 +374,9 @@ def test_the_reference_codec_reads_and_writes_every_example(
     assert encode(message, values) == frame
 
 
-@pytest.mark.parametrize(
-    ("text", "reason", "offset"),
-    [
+@in_turn(
+    "text, reason, offset",
+    lambda: [
         ("", "too short", 0),
         ("55", "too short", 1),
         ("54", "bad header", 0),
@@ -411,9 +412,9 @@ def test_the_reference_codec_holds_to_ranges(angle: str) -> None:
     assert "vents[0].angle is " in str(refused.value)
 
 
-@pytest.mark.parametrize(
-    ("name", "values", "said"),
-    [
+@in_turn(
+    "name, values, said",
+    lambda: [
         ("ServoMove", {"targets": []}, "`time_ms` is missing"),
         ("ServoMove", {"time_ms": 1, "targets": [], "x": 1}, "ServoMove has no field `x`"),
         ("ServoMove", {"time_ms": 1, "targets": {}}, "targets must be a list"),

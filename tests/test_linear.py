@@ -13,6 +13,7 @@ from framegen.reading.source import Source
 from framegen.render import render
 
 from tests.factories import yaml_of
+from tests.in_turn import in_turn
 
 FEW = 20
 
@@ -205,7 +206,7 @@ def lines_per_byte(pattern: bytes, size: int) -> float:
 # each piece is reported with its reason, is many times as dear.
 @nobody_traces
 @pytest.mark.parametrize(("size", "times"), [(2048, 55), (64, 25), (1, 12)])
-@pytest.mark.parametrize("pattern", DEAR)
+@in_turn("pattern", lambda: DEAR)
 def test_no_bytes_cost_many_times_normal_traffic(pattern: str, size: int, times: float) -> None:
     normal = lines_per_byte(NORMAL, size)
     assert lines_per_byte(bytes.fromhex(pattern), size) <= times * normal
@@ -213,7 +214,7 @@ def test_no_bytes_cost_many_times_normal_traffic(pattern: str, size: int, times:
 
 @nobody_traces
 @pytest.mark.parametrize(("size", "times"), [(2048, 8), (64, 5), (1, 14)])
-@pytest.mark.parametrize("pattern", RUNS)
+@in_turn("pattern", lambda: RUNS)
 def test_runs_of_one_byte_cost_little_more_than_traffic(
     pattern: str, size: int, times: float
 ) -> None:

@@ -16,6 +16,7 @@ from framegen.cli import main as framegen_main
 
 from tests.factories import BUSSERVO
 from tests.hex_cases import HEX, LOGS, NO_HEX, NO_LOGS
+from tests.in_turn import in_turn
 
 STOP, VOLTAGE = "55 55 02 07", "55 55 04 0F 4C 1D"
 BOTH = f"12:00:59.5 TX: {STOP}\n12:01:00.25 RX: 55 55 04\n12:01:00.5 RX: 0F 4C 1D\n"
@@ -28,7 +29,7 @@ def said(text: str) -> list[tuple[str, str]]:
     return [(way, read_hex(hex_).hex()) for line in lines for hex_, _, way in line]
 
 
-@pytest.mark.parametrize(("text", "pieces"), LOGS)
+@in_turn("text, pieces", lambda: LOGS)
 def test_each_line_of_a_log_says_its_bytes_and_their_way(
     text: str, pieces: list[tuple[str, str]]
 ) -> None:
@@ -44,7 +45,7 @@ def test_each_line_of_a_log_says_its_bytes_and_their_way(
         assert {entry.sender for entry in entries} == senders
 
 
-@pytest.mark.parametrize(("text", "line", "problem"), NO_LOGS)
+@in_turn("text, line, problem", lambda: NO_LOGS)
 def test_what_is_not_clear_is_refused_in_its_line(
     text: str, line: int, problem: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -58,7 +59,7 @@ def test_what_is_not_clear_is_refused_in_its_line(
     assert "Traceback" not in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("text", [text for text, _ in HEX] + NO_HEX)
+@in_turn("text", lambda: [text for text, _ in HEX] + NO_HEX)
 def test_hex_is_no_log(text: str) -> None:
     assert log_lines(text) is None
     assert without_log(text) == text

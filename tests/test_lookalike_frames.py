@@ -6,11 +6,12 @@ import pytest
 from framegen.explanation.lookalikes import recognise
 
 from tests.factories import DEMO, compiled_of, data_of, layout_of
+from tests.in_turn import in_turn
 
 
-@pytest.mark.parametrize(
-    ("hex_", "name", "command", "meaning"),
-    [
+@in_turn(
+    "hex_, name, command, meaning",
+    lambda: [
         ("C3 5A A5 04 02 20 01 D8", "orchard", 0x20, ""),
         ("C3 5A A5 04 01 20 DA", "orchard", 0x20, ""),
         ("C3 5A A5 04 02 20 02 D7", "orchard", 0x20, ""),

@@ -18,6 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
 LAYOUT = layout_of(data_of(BUSSERVO))
@@ -35,9 +36,9 @@ MOVE = servo_bus_frame(1, 1, bytes.fromhex("20 03 E8 03"))
 ASK = servo_bus_frame(7, 28)
 
 
-@pytest.mark.parametrize(
-    ("data", "title"),
-    [
+@in_turn(
+    "data, title",
+    lambda: [
         (MOVE, SERVO_BUS),
         (ASK + MOVE + ASK, SERVO_BUS),
         # Cut at both ends, as whatever is listened to in the middle is.

@@ -58,6 +58,7 @@ from tests.cases import (
     each_case,
 )
 from tests.factories import BUSSERVO, data_of
+from tests.in_turn import in_turn
 
 # --- Making and reading --------------------------------------------------------------------------
 
@@ -127,9 +128,9 @@ def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
     assert ServoMove(1000, [[1, 800]]) == named  # type: ignore[list-item]
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "listed",
-    [
+    lambda: [
         list,
         tuple,
         dict,
@@ -252,9 +253,9 @@ def test_named_values_are_constants() -> None:
     assert ServoPositions([(3, 0xFFFF)]).positions[0].position == ServoPosition.POSITION_ABSENT
 
 
-@pytest.mark.parametrize(
-    ("kind", "command", "direction", "lengths"),
-    [
+@in_turn(
+    "kind, command, direction, lengths",
+    lambda: [
         ("ServoMove", 3, HOST, [3 * n + 5 for n in range(1, 84)]),
         ("ActionGroupRun", 6, HOST, [5]),
         ("ActionGroupStop", 7, HOST, [2]),
@@ -713,7 +714,7 @@ def test_the_names_that_others_build_on_are_there() -> None:
     assert len(busservo.__all__) == len(set(busservo.__all__))
 
 
-@pytest.mark.parametrize("name", [*sorted({*busservo.__all__} - CONSTANTS - UNIONS), "__doc__"])
+@in_turn("name", lambda: [*sorted({*busservo.__all__} - CONSTANTS - UNIONS), "__doc__"])
 def test_a_public_name_is_documented(name: str) -> None:
     public = busservo if name == "__doc__" else getattr(busservo, name)
 

@@ -45,6 +45,7 @@ from tests.factories import (
     vectors_of,
     write_files,
 )
+from tests.in_turn import in_turn
 from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
 
 if TYPE_CHECKING:
@@ -136,7 +137,7 @@ def test_the_modules_that_know_messages_are_known() -> None:
     )
 
 
-@pytest.mark.parametrize("module", MODULES)
+@in_turn("module", lambda: MODULES)
 def test_what_a_module_needs_is_reserved(module: str) -> None:
     # Nor has the name of a message a line below it.
     needed = {name for name in names_in(module) - MINE if "_" not in name}
@@ -185,9 +186,9 @@ def test_no_suffix_makes_another_reserved_word() -> None:
 # ------------------------------------------------------------------ what becomes of a name
 
 
-@pytest.mark.parametrize(
-    ("kind", "old", "name", "bent"),
-    [
+@in_turn(
+    "kind, old, name, bent",
+    lambda: [
         ("endpoint", "station", "any", "any_"),
         ("endpoint", "station", "noise", "noise_"),
         ("endpoint", "station", "class", "class"),
@@ -406,9 +407,9 @@ def test_the_reference_shows_the_bent_name_in_code() -> None:
     assert "print(event.class_)  # -2" in shown
 
 
-@pytest.mark.parametrize(
-    ("name", "stem"),
-    [
+@in_turn(
+    "name, stem",
+    lambda: [
         ("Con", "Con_"),
         ("NUL", "NUL_"),
         ("com1", "com1_"),

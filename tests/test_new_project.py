@@ -19,6 +19,7 @@ from framegen.skeleton import skeleton, spec_path
 from framegen.writing import disk
 
 from tests.factories import ROOT, compiled_file, write_files
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -252,7 +253,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("name", "why"), REFUSED)
+@in_turn("name, why", lambda: REFUSED)
 def test_a_name_that_no_library_can_have_is_refused(
     name: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:

@@ -13,6 +13,7 @@ import pytest
 
 from tests import oracle
 from tests.captures import make_noisy_line
+from tests.in_turn import in_turn
 from tests.oracle import CONTROLLER_TO_HOST, HOST_TO_CONTROLLER, OracleError, build, parse, scan
 
 CAPTURES = Path(__file__).parent / "captures"
@@ -159,8 +160,8 @@ FROM_ELSEWHERE = (
     ),
 )
 
-each_example = pytest.mark.parametrize(
-    "example", DOCUMENTED + FROM_ELSEWHERE, ids=lambda example: example.id
+each_example = in_turn(
+    "example", lambda: DOCUMENTED + FROM_ELSEWHERE, ids=lambda example: example.id
 )
 
 
@@ -388,13 +389,13 @@ def test_without_a_direction_a_frame_that_is_legal_both_ways_is_the_hosts() -> N
 # --- Values that cannot be sent ------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("value", [-1, 256, True, 1.0, "1", b"1", None, [1], {}])
+@in_turn("value", lambda: [-1, 256, True, 1.0, "1", b"1", None, [1], {}])
 def test_a_group_is_one_byte(value: object) -> None:
     with pytest.raises(OracleError):
         build("ActionGroupRun", {"group": value, "times": 1})
 
 
-@pytest.mark.parametrize("value", [-1, 65536, False, 0.5, "", None, [], [1, 2]])
+@in_turn("value", lambda: [-1, 65536, False, 0.5, "", None, [], [1, 2]])
 def test_a_time_is_two_bytes(value: object) -> None:
     with pytest.raises(OracleError):
         build("ServoMove", {"time_ms": value, "targets": servos((1, 500))})
@@ -412,9 +413,9 @@ def test_every_position_can_be_sent(value: int) -> None:
     assert parse(build("ServoMove", fields), HOST_TO_CONTROLLER) == ("ServoMove", fields)
 
 
-@pytest.mark.parametrize(
-    ("name", "fields"),
-    [
+@in_turn(
+    "name, fields",
+    lambda: [
         ("ActionGroupRun", {"group": 1}),
         ("ActionGroupRun", {"group": 1, "times": 1, "speed": 1}),
         ("ActionGroupStop", {"group": 1}),
@@ -482,10 +483,12 @@ STREAMS: dict[str, tuple[str, list[Any]]] = {
     ),
     "half a header at the end": ("55 55 02 07 55", [STOP, b"\x55"]),
 }
-each_stream = pytest.mark.parametrize(
-    ("data", "events"),
-    [(bytes.fromhex(hex_data), events) for hex_data, events in STREAMS.values()],
-    ids=STREAMS,
+each_stream = in_turn(
+    "data, events",
+    lambda: [
+        pytest.param(bytes.fromhex(hex_data), events, id=name)
+        for name, (hex_data, events) in STREAMS.items()
+    ],
 )
 
 
@@ -546,9 +549,9 @@ def test_every_beginning_of_an_example_may_become_a_frame(example: Example) -> N
     assert not oracle.may_become_frame(example.frame, example.direction)
 
 
-@pytest.mark.parametrize(
-    ("hex_data", "direction"),
-    [
+@in_turn(
+    "hex_data, direction",
+    lambda: [
         ("56", None),
         ("55 54", None),
         # A length that no command can have, refused at the third byte.

@@ -25,6 +25,7 @@ from busservo import (
 from busservo._cli.values import fields_in_json
 
 from tests.cases import Case, each_case
+from tests.in_turn import in_turn
 
 # ------------------------------------------------------------------ to_dict, from_dict
 
@@ -58,9 +59,9 @@ def test_elements_are_dicts_and_may_be_given_as_tuples() -> None:
 TARGET = {"servo_id": 1, "position": 800}
 
 
-@pytest.mark.parametrize(
-    ("kind", "fields", "said"),
-    [
+@in_turn(
+    "kind, fields, said",
+    lambda: [
         (ServoMove, {"time_ms": 1}, "targets: it is missing; ServoMove has time_ms, targets"),
         (
             ServoMove,

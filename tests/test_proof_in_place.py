@@ -11,6 +11,7 @@ from framegen.targets import python
 from framegen.targets.python.proof_view import proof_in_place
 
 from tests.factories import compiled_values, library
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -190,7 +191,7 @@ def test_frames_of_several_kinds_are_tested_in_place_if_all_are_alike(
     assert (proof_in_place(model) is not None) == in_place
 
 
-@pytest.mark.parametrize("name", CASES)
+@in_turn("name", lambda: CASES)
 def test_a_frame_with_any_byte_changed_is_judged_as_the_reference_judges_it(name: str) -> None:
     compiled = compiled_frames(one=CASES[name][0])
     (message,) = compiled.model.messages.values()

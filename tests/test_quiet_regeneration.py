@@ -19,6 +19,7 @@ from framegen.site.site import render_site
 from framegen.targets import docs, python
 
 from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, Data, Steps, data_of
+from tests.in_turn import in_turn
 
 SPECS = {"busservo": BUSSERVO, "greenhouse": DEMO}
 PATH = "spec/some.yaml"
@@ -197,7 +198,7 @@ def test_prose_stands_in_many_places() -> None:
     } <= kinds
 
 
-@pytest.mark.parametrize(("name", "kind"), PLACES)
+@in_turn("name, kind", lambda: PLACES)
 def test_a_changed_word_changes_few_files(name: str, kind: str) -> None:
     data = data_of(SPECS[name])
     before = modules_and_pages(as_text(data))

@@ -7,21 +7,20 @@ from pathlib import Path
 import pytest
 
 from tests.documents import PAGES, ROOT, copy_project, played, refresh
+from tests.in_turn import in_turn
 
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = set(re.findall(r"^([a-z-]+):.*## ", MAKEFILE, flags=re.MULTILINE))
 
-pages = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 
-
-@pages
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_examples_print_what_the_page_says(page: Path, tmp_path: Path) -> None:
     text = page.read_text(encoding="utf-8")
     truth = played(text, copy_project(tmp_path, text))
     assert truth == text, "if this was meant to change: python -m tests.documents"
 
 
-@pages
+@in_turn("page", lambda: PAGES)
 def test_links_lead_somewhere(page: Path) -> None:
     # The links of Markdown that a page shows are those of another project.
     text = re.sub(
@@ -35,14 +34,14 @@ def test_links_lead_somewhere(page: Path) -> None:
     assert missing == []
 
 
-@pages
+@in_turn("page", lambda: PAGES)
 def test_commands_of_make_exist(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     named = re.findall(r"(?:^ *|`)make ([a-z]+)", text, flags=re.MULTILINE)
     assert set(named) <= TARGETS
 
 
-@pages
+@in_turn("page", lambda: PAGES)
 def test_code_has_a_place(page: Path) -> None:
     """File that a page names in code, without linking to them."""
     text = page.read_text(encoding="utf-8")

@@ -31,6 +31,7 @@ from hypothesis import strategies as st
 
 from tests.client.virtual_line import VirtualLine
 from tests.hex_cases import HEX, NO_HEX
+from tests.in_turn import in_turn
 from tests.strategies import joined, lines
 from tests.strategies import read as decoded
 
@@ -81,9 +82,9 @@ UNKNOWN = bytes.fromhex("55 55 03 01 2A")
 MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
 
 
-@pytest.mark.parametrize(
-    ("line", "expected"),
-    [
+@in_turn(
+    "line, expected",
+    lambda: [
         (f"{SAME}  # 1 s, host: a", [(1.0, "host", RUN)]),
         (f"{SAME}  # 1 s, controller: a", [(1.0, "controller", STARTED)]),
         (f"{SAME}  # 1 s, either: a", [(1.0, None, RUN)]),
@@ -150,9 +151,9 @@ def test_who_sent_what_either_end_may_have_sent_can_be_said() -> None:
     assert said(entries(f"{SAME}  # 1 s, host: a", direction=BOARD)) == [(1.0, "host", RUN)]
 
 
-@pytest.mark.parametrize(
-    ("text", "problem"),
-    [
+@in_turn(
+    "text, problem",
+    lambda: [
         (
             "55 55 02 0F  # 0 s, martian: a\n",
             "line 1: 'martian' is none of those who send: host,",
@@ -235,9 +236,9 @@ def test_quiet_ends_a_frame_in_plain_hex_too() -> None:
 # ---------------------------------------------------------------------------- what it is
 
 
-@pytest.mark.parametrize(
-    ("content", "text"),
-    [
+@in_turn(
+    "content, text",
+    lambda: [
         (b"55 55 02 07", True),
         (b"\xef\xbb\xbf55 55 02 07", True),
         (b"\n# a comment: \xc3\xa9\n55", True),

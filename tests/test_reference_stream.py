@@ -1,12 +1,12 @@
 """The reference stream decoder: its rules, one line of bytes each, worked out by hand."""
 
-import pytest
 from framegen.language.values import Direction
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, layout_of
+from tests.in_turn import in_turn
 
 SERVO = layout_of(data_of(BUSSERVO))
 HOST = ReferenceDecoder(SERVO, [Direction("host", "controller")])
@@ -67,7 +67,7 @@ LINES: list[tuple[ReferenceDecoder, str, list[tuple[str, str]]]] = [
 ]
 
 
-@pytest.mark.parametrize(("line", "text", "expected"), LINES)
+@in_turn("line, text, expected", lambda: LINES)
 def test_a_stream_gives_its_events(
     line: ReferenceDecoder, text: str, expected: list[tuple[str, str]]
 ) -> None:
@@ -88,9 +88,9 @@ def test_a_stream_gives_its_events(
     ]
 
 
-@pytest.mark.parametrize(
-    ("line", "text", "held"),
-    [
+@in_turn(
+    "line, text, held",
+    lambda: [
         (HOST, STOP, 0),
         (HOST, "00", 0),
         (HOST, "0055", 1),

@@ -94,9 +94,9 @@ def test_messages_of_the_same_id_are_told_apart_by_lengths_of_their_own() -> Non
     assert compile_spec(Source("lamps.yaml", text)).findings == []
 
 
-@pytest.mark.parametrize(
-    ("one", "other", "are_told"),
-    [
+@in_turn(
+    "one, other, are_told",
+    lambda: [
         ("{type: u8, range: 0..99, about: X.}", "{type: u8, range: 100..200, about: X.}", True),
         ("{type: u8, range: 0..99, about: X.}", "{type: u8, range: 99..200, about: X.}", False),
         (

@@ -10,6 +10,8 @@ from framegen.reading.text import first_invisible, is_invisible
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
+
 # The core schema of YAML 1.2, section 10.3.2, as printed there.
 CORE = {
     "null": re.compile(r"null|Null|NULL|~|"),
@@ -62,9 +64,9 @@ def agreed(text: str) -> None:
         assert resolve(text) == yaml.safe_load(text)
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
+@in_turn(
+    "text, value",
+    lambda: [
         ("", None),
         ("~", None),
         ("null", None),
@@ -124,8 +126,8 @@ AMBIGUOUS = {
 }
 
 
-@pytest.mark.parametrize(
-    ("what", "text"), [(what, text) for what, texts in AMBIGUOUS.items() for text in texts]
+@in_turn(
+    "what, text", lambda: [(what, text) for what, texts in AMBIGUOUS.items() for text in texts]
 )
 def test_what_readers_disagree_on_is_refused_with_what_to_write(what: str, text: str) -> None:
     with pytest.raises(Ambiguous, match=f"^`{re.escape(text)}` without quotes is ") as refused:
@@ -134,9 +136,9 @@ def test_what_readers_disagree_on_is_refused_with_what_to_write(what: str, text:
     assert f'"{text}"' in refused.value.hint or "write it in decimal" in refused.value.hint
 
 
-@pytest.mark.parametrize(
-    ("text", "written"),
-    [
+@in_turn(
+    "text, written",
+    lambda: [
         ("010", "10"),
         ("08", "8"),
         ("00", "0"),
@@ -201,13 +203,13 @@ UNSEEN = words(
 SEEN = words("a \n ~ \xa0 é ß ° µ → 漢 \u0301 \u3000 \U0001f600 \ue000")
 
 
-@pytest.mark.parametrize("character", UNSEEN, ids=ascii)
+@in_turn("character", lambda: UNSEEN, ids=ascii)
 def test_a_character_that_nobody_sees_is_invisible(character: str) -> None:
     assert is_invisible(character)
     assert first_invisible(f"a{character}b\u200c") == character
 
 
-@pytest.mark.parametrize("character", SEEN, ids=ascii)
+@in_turn("character", lambda: SEEN, ids=ascii)
 def test_a_character_that_is_seen_is_not(character: str) -> None:
     assert not is_invisible(character)
     assert first_invisible(f"a{character}b") is None

@@ -16,6 +16,8 @@ from framegen.reading.yamltree import read_tree
 from framegen.targets.schema import _KEYWORDS, schema_text, site_schema_text
 from jsonschema import Draft202012Validator
 
+from tests.in_turn import in_turn
+
 ROOT = Path(__file__).parent.parent
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
 DEMO = ROOT / "tests" / "specs" / "demo.yaml"
@@ -159,9 +161,7 @@ SLIPS: list[tuple[str, Change, str]] = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("change", "place"), [slip[1:] for slip in SLIPS], ids=[slip[0] for slip in SLIPS]
-)
+@in_turn("change, place", lambda: [pytest.param(*row, id=name) for name, *row in SLIPS])
 def test_a_slip_is_refused_at_its_place(change: Change, place: str) -> None:
     data = copy.deepcopy(data_of(BUSSERVO))
     change(data)

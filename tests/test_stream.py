@@ -34,6 +34,7 @@ from hypothesis import strategies as st
 
 from tests import oracle
 from tests.cases import CASES, CONTROLLER, EITHER, HOST, BadFrame, Case, each_bad_frame, each_case
+from tests.in_turn import in_turn
 from tests.strategies import (
     DIRECTIONS,
     HEADS,
@@ -275,7 +276,7 @@ def bytes_held(decoder: StreamDecoder) -> int:
 
 
 @each_direction
-@pytest.mark.parametrize("length", [0, 1, 2, 5, 85, 254, 255])
+@in_turn("length", lambda: [0, 1, 2, 5, 85, 254, 255])
 def test_4_it_holds_no_more_after_any_beginning_of_a_frame(
     direction: Direction | None, length: int
 ) -> None:
@@ -405,9 +406,9 @@ def test_6_what_is_shown_has_the_exact_shape_of_an_unknown_frame(
 LONG_MOVE = ServoMove(800, [(servo, 500) for servo in range(65)]).encode()[:86].hex(" ")
 
 
-@pytest.mark.parametrize(
-    ("direction", "line", "events"),
-    [
+@in_turn(
+    "direction, line, events",
+    lambda: [
         (HOST, "", []),
         (HOST, "00", [noise("00", Reason.BAD_HEADER)]),
         # An unknown command's length is not believed.
@@ -577,8 +578,8 @@ def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused
     assert read(CONTROLLER, [b"\x13" + bytes.fromhex(line)]) == [before, *events]
 
 
-@pytest.mark.parametrize("second", range(30, 45))
-@pytest.mark.parametrize("first", [46, 50, 60])
+@in_turn("second", lambda: range(30, 45))
+@in_turn("first", lambda: [46, 50, 60])
 def test_an_unknown_frame_that_begins_in_a_run_is_seen_however_the_run_was_cut(
     first: int, second: int
 ) -> None:
@@ -790,17 +791,16 @@ def test_each_refused_header_is_a_piece_of_noise(
     assert events == [Noise(bytes.fromhex(data), reasons[why]) for data, why in expected]
 
 
-@pytest.mark.parametrize(
-    ("direction", "message"),
-    [
+@in_turn(
+    "direction, message",
+    lambda: [
         (HOST, ServoMove(1000, [(1, 800)])),
         (CONTROLLER, ActionGroupStarted(8, 1)),
         # Of this length, a request and a reply share a head.
         (None, ServoPositions([(3, 800)])),
     ],
-    ids=["host", "controller", "either"],
 )
-@pytest.mark.parametrize("size", [2, 3, 4, 5, 6])
+@in_turn("size", lambda: [2, 3, 4, 5, 6])
 def test_noise_of_any_size_costs_no_frame_that_comes_in_two(
     size: int, direction: Direction | None, message: Message
 ) -> None:
@@ -875,8 +875,8 @@ def calls(work: Callable[[], object]) -> int:
 
 
 @each_direction
-@pytest.mark.parametrize("pattern", HOSTILE)
-@pytest.mark.parametrize("cut", CUTS, ids=lambda cut: cut.__name__)
+@in_turn("pattern", lambda: HOSTILE)
+@in_turn("cut", lambda: CUTS, ids=lambda cut: cut.__name__)
 def test_hostile_input_costs_linear_time(
     pattern: str, direction: Direction | None, cut: Callable[[bytes], list[bytes]]
 ) -> None:

@@ -10,6 +10,8 @@ from framegen.reading.yamltree import Unusable, read_tree
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
+
 PARSERS = [yaml.SafeLoader, *([yaml.CSafeLoader] if hasattr(yaml, "CSafeLoader") else [])]
 QUOTED = "a text with a colon and a blank in it needs quotes"
 BEGINS = "a text without quotes cannot begin with `{}`"
@@ -115,8 +117,8 @@ SLIPS: dict[str, tuple[str, str, str, str]] = {
 }
 
 
-@pytest.mark.parametrize("parser", PARSERS, ids=lambda parser: parser.__name__)
-@pytest.mark.parametrize("slip", SLIPS)
+@in_turn("parser", lambda: PARSERS, ids=lambda parser: parser.__name__)
+@in_turn("slip", lambda: SLIPS)
 def test_a_mistake_is_reported_with_a_hint(
     slip: str, parser: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:

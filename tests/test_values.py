@@ -19,13 +19,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import in_larger_unit
+from tests.in_turn import in_turn
 
 WORDS = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
 
 
-@pytest.mark.parametrize(
-    ("parse", "text", "value"),
-    [
+@in_turn(
+    "parse, text, value",
+    lambda: [
         (Direction.parse, "host -> controller", Direction("host", "controller")),
         (Direction.parse, "a->b", Direction("a", "b")),
         (Range.parse, "0..1000", Range(0, 1000)),
@@ -62,9 +63,9 @@ def test_a_notation_is_read(parse: Callable[[str], Any], text: str, value: objec
     assert parse(text) == value
 
 
-@pytest.mark.parametrize(
-    ("parse", "text", "hint"),
-    [
+@in_turn(
+    "parse, text, hint",
+    lambda: [
         (Direction.parse, "", "write it like `host -> controller`"),
         (Direction.parse, "host", "write it like `host -> controller`"),
         (Direction.parse, "host -> ", "write it like `host -> controller`"),
@@ -162,9 +163,9 @@ def test_a_citation_reads_back(source: str, place: str) -> None:
     assert Citation.parse(str(citation)) == citation
 
 
-@pytest.mark.parametrize(
-    ("scale", "value", "said"),
-    [
+@in_turn(
+    "scale, value, said",
+    lambda: [
         ("0.001 V", 7500, "7.500 V"),
         ("0.001 V", 7881, "7.881 V"),
         ("0.001 V", 0, "0.000 V"),

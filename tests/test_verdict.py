@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, layout_of
+from tests.in_turn import in_turn
 
 SERVO = layout_of(data_of(BUSSERVO))
 HOUSE = layout_of(data_of(DEMO))
@@ -59,7 +60,7 @@ REFUSED: list[tuple[Model, Direction | None, str, str, int]] = [
 ]
 
 
-@pytest.mark.parametrize(("model", "way", "text", "reason", "offset"), REFUSED)
+@in_turn("model, way, text, reason, offset", lambda: REFUSED)
 def test_the_first_byte_that_no_frame_can_have_is_the_reason(
     model: Model, way: Direction | None, text: str, reason: str, offset: int
 ) -> None:
@@ -71,9 +72,9 @@ def test_the_first_byte_that_no_frame_can_have_is_the_reason(
     assert (refused.value.reason, refused.value.offset) == (reason, offset)
 
 
-@pytest.mark.parametrize(
-    ("text", "due"),
-    [
+@in_turn(
+    "text, due",
+    lambda: [
         ("54", "a frame begins 55 55"),
         ("55 55 02", "the shortest frame has 4 bytes"),
         ("55 55 01", "the length of a frame is 2..255, not 1"),
@@ -110,9 +111,9 @@ def test_a_frame_larger_than_there_is_room_for_is_refused_by_its_length(
     assert (verdict.reason, verdict.offset) == (reason, 4 if reason == "too short" else 2)
 
 
-@pytest.mark.parametrize(
-    ("model", "way", "text", "largest", "claim"),
-    [
+@in_turn(
+    "model, way, text, largest, claim",
+    lambda: [
         (SERVO, HOST, "55 55 04 63", None, 6),
         (SERVO, HOST, "55 55 3E 63 55 55", 64, 64),
         # A length that no frame has, a message, and one with a wrong length: nothing is unknown.

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 
 from tests.bad_specs import BASES
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, compiled_of, data_of
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,7 +45,7 @@ def test_versions_are_in_the_order_of_semantic_versions() -> None:
     assert all(Version.parse(low) < Version.parse(high) for low, high in pairwise(ORDERED))
 
 
-@pytest.mark.parametrize("text", ORDERED)
+@in_turn("text", lambda: ORDERED)
 def test_a_version_is_written_as_it_was_read(text: str) -> None:
     version = Version.parse(text)
     assert str(version) == text
@@ -52,9 +53,9 @@ def test_a_version_is_written_as_it_was_read(text: str) -> None:
     assert str(version.final) == text.partition("-")[0]
 
 
-@pytest.mark.parametrize(
-    ("text", "hint"),
-    [
+@in_turn(
+    "text, hint",
+    lambda: [
         ("1", 'write "1.0.0"'),
         ("1.2", 'write "1.2.0"'),
         ("v1.2.3", 'write "1.2.3"'),
@@ -113,9 +114,9 @@ def test_what_is_read_as_a_path_is_written_as_it_was(text: str) -> None:
     assert dotted(path).replace("[0", "[") == text.replace("[0", "[")
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
+@in_turn(
+    "text, message",
+    lambda: [
         ("", "`` is no path into a spec"),
         ("[0]", "`[0]` is no path into a spec"),
         ("messages.", "`messages.` is no path into a spec"),

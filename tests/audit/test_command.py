@@ -12,6 +12,7 @@ from framegen.recording_form import FORMS
 
 from tests.audit.line import audited
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 
 GOOD = "55 55 04 0F 4C 1D"
 BAD = f"{GOOD} 55 55 03 2A 07"
@@ -44,7 +45,7 @@ CONTENTS: list[tuple[bytes, list[str], int]] = [
 ]
 
 
-@pytest.mark.parametrize(("content", "words", "code"), CONTENTS)
+@in_turn("content, words, code", lambda: CONTENTS)
 @pytest.mark.parametrize("form", ["text", "json", "markdown"])
 def test_exit_code(
     tmp_path: Path, content: bytes, words: list[str], code: int, form: str, capsys: Capture
@@ -76,7 +77,7 @@ UNUSABLE = [
 ]
 
 
-@pytest.mark.parametrize(("content", "words", "problem", "hint"), UNUSABLE)
+@in_turn("content, words, problem, hint", lambda: UNUSABLE)
 def test_what_is_of_no_use_is_refused_with_a_way_out(
     tmp_path: Path, content: bytes, words: list[str], problem: str, hint: str, capsys: Capture
 ) -> None:

@@ -5,6 +5,7 @@ from framegen.audit.text import as_text
 
 from tests.audit.line import audited
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 from tests.protocols.specs import model_of
 
 ASK, TELL = "55 55 02 0F", "55 55 04 0F 4C 1D"
@@ -107,7 +108,7 @@ GATHERED = [
 ]
 
 
-@pytest.mark.parametrize(("lines", "counts", "seconds"), GATHERED)
+@in_turn("lines, counts, seconds", lambda: GATHERED)
 def test_a_question_to_all_is_answered_by_those_who_answer(
     lines: list[tuple[float, str, str]], counts: tuple[int, ...], seconds: list[float]
 ) -> None:

@@ -3,13 +3,13 @@
 from random import Random
 from typing import Any
 
-import pytest
 from framegen.audit.audit import Audit
 from framegen.audit.values import Values
 from framegen.model.slots import Items
 
 from tests.audit.line import Tally, audited, spoken
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
 SPECS = {**FILES, "busservo": BUSSERVO}
@@ -48,7 +48,7 @@ def lists_in(tally: Tally, found: Audit) -> dict[str, list[Any]]:
     return {path: values for path, values in said.items() if values}
 
 
-@pytest.mark.parametrize("name", SPECS)
+@in_turn("name", lambda: SPECS)
 def test_the_coverage_is_what_was_said(name: str) -> None:
     model = compiled_file(SPECS[name]).model
     tally = spoken(model, Random(3))  # noqa: S311 - the same each time

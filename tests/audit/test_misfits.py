@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 
 from tests.audit.line import audited, spoken
 from tests.factories import BUSSERVO, compiled_file, compiled_of, data_of
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.strategies import lines
 
@@ -106,7 +107,7 @@ def test_a_value_outside_what_is_documented_is_named(
         )
 
 
-@pytest.mark.parametrize("name", FILES)
+@in_turn("name", lambda: FILES)
 def test_every_frame_that_only_bounds_refuse_is_told_by_its_fields(name: str) -> None:
     model = compiled_file(FILES[name]).model
     free = without_bounds(model)
@@ -248,7 +249,7 @@ ON_PURPOSE = [
 ]
 
 
-@pytest.mark.parametrize(("title", "reason", "is_meant"), ON_PURPOSE)
+@in_turn("title, reason, is_meant", lambda: ON_PURPOSE)
 def test_what_a_run_of_conform_says_is_malformed_on_purpose_is_no_misfit(
     title: str, reason: str, *, is_meant: bool
 ) -> None:
@@ -311,7 +312,7 @@ def test_hostile_content_is_refused_or_read_whole(content: bytes) -> None:
     assert found is None or sum(each.size for each in found.misfits) <= found.size
 
 
-@pytest.mark.parametrize("name", ["busservo", *(each for each in FILES if each != "everything")])
+@in_turn("name", lambda: ["busservo", *(each for each in FILES if each != "everything")])
 def test_a_long_stretch_is_decoded_in_windows_as_at_once(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

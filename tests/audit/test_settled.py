@@ -14,6 +14,7 @@ from framegen.reading.yamltree import read_tree
 
 from tests.audit.line import audited, spoken
 from tests.factories import BUSSERVO, ROOT, compiled_file, compiled_of, data_of
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
 SPECS = {**FILES, "busservo": BUSSERVO}
@@ -28,7 +29,7 @@ def with_examples(data: dict[str, Any], name: str, yaml: str) -> None:
     data["messages"][name]["examples"] += added["examples"]
 
 
-@pytest.mark.parametrize("name", SPECS)
+@in_turn("name", lambda: SPECS)
 def test_what_is_pasted_into_the_spec_fits_and_counts(name: str) -> None:
     model = compiled_file(SPECS[name]).model
     tally = spoken(model, Random(5))  # noqa: S311 - the same each time
@@ -86,7 +87,7 @@ def asking(concerns: str) -> Model:
     return compiled_of(data).model
 
 
-@pytest.mark.parametrize(("concerns", "expected", "sender"), CONCERNS)
+@in_turn("concerns, expected, sender", lambda: CONCERNS)
 def test_what_was_seen_of_an_open_question(
     concerns: str, expected: str | None, sender: str
 ) -> None:

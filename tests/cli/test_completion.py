@@ -8,6 +8,7 @@ import subprocess
 import sys
 from contextlib import redirect_stdout
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -21,6 +22,8 @@ from busservo_simulator.faults import CHANCES
 from framegen.checks import RULES
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.targets.table import TARGETS
+
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -43,7 +46,6 @@ FIELDS = [f"{name}=" for name in ServoMove.__match_args__]
 @cache
 def script(program: str, shell: str) -> str:
     """What a program prints for a shell."""
-    pytest.importorskip("shtab")
     with redirect_stdout(io.StringIO()) as printed:
         assert PROGRAMS[program](["--print-completion", shell]) == 0
     return printed.getvalue()
@@ -94,6 +96,7 @@ GO_ON = [
 # In place of the library's own command: two ports are plugged in.
 PORTS = "/dev/ttyUSB7  1A86:7523  a\\nCOM7  -\\n"
 
+needs_shtab = pytest.mark.skipif(find_spec("shtab") is None, reason="there is no shtab here")
 needs_bash = pytest.mark.skipif(
     shutil.which("bash") is None or sys.platform == "win32",
     reason="no bash of this system",
@@ -124,13 +127,15 @@ def in_bash(line: str) -> list[str]:
     return run("bash", "--norc", "-c", program)
 
 
+@needs_shtab
 @needs_bash
-@pytest.mark.parametrize(("line", "offered"), OFFERED)
+@in_turn("line, offered", lambda: OFFERED)
 def test_bash_completes(line: str, offered: list[str]) -> None:
     found = in_bash(line)
     assert sorted(each for each in found if not each.startswith("compopt")) == offered
 
 
+@needs_shtab
 @needs_bash
 @pytest.mark.parametrize(("line", "goes_on"), GO_ON)
 def test_bash_goes_on_behind_what_ends_with_an_equals_sign(line: str, goes_on: bool) -> None:
@@ -138,14 +143,16 @@ def test_bash_goes_on_behind_what_ends_with_an_equals_sign(line: str, goes_on: b
     assert ("compopt -o nospace" in found) is goes_on
 
 
+@needs_shtab
 @needs_bash
 def test_a_port_without_a_name_is_a_file_once_a_path_is_begun() -> None:
     assert "./Makefile" in in_bash("busservo monitor --port ./Make")
     assert "Makefile" not in in_bash("busservo monitor --port Make")
 
 
+@needs_shtab
 @needs_fish
-@pytest.mark.parametrize(("line", "offered"), OFFERED)
+@in_turn("line, offered", lambda: OFFERED)
 def test_fish_completes(line: str, offered: list[str], tmp_path: Path) -> None:
     file = tmp_path / "script.fish"
     file.write_text(script(line.partition(" ")[0], "fish"), encoding="utf-8")
@@ -154,6 +161,7 @@ def test_fish_completes(line: str, offered: list[str], tmp_path: Path) -> None:
     assert {each.partition("\t")[0].rstrip("/") for each in found if each != "/"} >= {*offered}
 
 
+@needs_shtab
 @needs_zsh
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_zsh_can_read_the_script(program: str, tmp_path: Path) -> None:
@@ -162,6 +170,7 @@ def test_zsh_can_read_the_script(program: str, tmp_path: Path) -> None:
     assert run("zsh", "-f", "-n", str(file)) == []
 
 
+@needs_shtab
 @needs_zsh
 @pytest.mark.parametrize(
     ("call", "offered"),
@@ -184,10 +193,11 @@ def test_zsh_finds_fields_and_ports(call: str, offered: list[str], tmp_path: Pat
     assert [line for line in run("zsh", "-f", "-c", program) if line] == offered
 
 
-@pytest.mark.parametrize("shell", SHELLS)
-@pytest.mark.parametrize(
-    ("program", "words"),
-    [
+@needs_shtab
+@in_turn("shell", lambda: SHELLS)
+@in_turn(
+    "program, words",
+    lambda: [
         ("busservo", [*VERBS, "retries", *NAMES]),
         ("busservo-simulator", ["battery", "local-echo"]),
         ("framegen", [*framegen.cli.VERBS, "unknown-type", "python"]),

@@ -28,6 +28,7 @@ from tests.factories import (
     layout_of,
     library,
 )
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -106,7 +107,7 @@ def frames_of(data: Data) -> list[bytes]:
     return [*given, *others, given[0] + given[1], b"\x00" + given[0]]
 
 
-@pytest.mark.parametrize("frame", frames_of(data_of(BUSSERVO)), ids=lambda frame: frame[:12].hex())
+@in_turn("frame", lambda: frames_of(data_of(BUSSERVO)), ids=lambda frame: frame[:12].hex())
 def test_both_commands_explain_alike(servo: Explain, frame: bytes) -> None:
     assert servo(frame) == by_reference(SERVO, frame)
 
@@ -142,9 +143,9 @@ def test_any_library_explains_any_bytes_as_framegen_does(house: Explain, frame: 
     assert house(frame) == by_reference(HOUSE, frame)
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "words",
-    [
+    lambda: [
         "55 55 08 03 01 E8 03 01 20 03",
         "5555040F4C1D",
         "5555040F4C1D --direction controller",
@@ -223,9 +224,9 @@ def test_all_messages_are_listed_in_a_line_each(capsys: Capture) -> None:
     assert headings == [str(way) for way in SERVO.directions]
 
 
-@pytest.mark.parametrize(
-    ("words", "names"),
-    [
+@in_turn(
+    "words, names",
+    lambda: [
         ("battery", ["BatteryVoltageRead", "BatteryVoltage"]),
         ("0x0F", ["BatteryVoltageRead", "BatteryVoltage"]),
         ("15", ["BatteryVoltageRead", "BatteryVoltage"]),
@@ -271,7 +272,7 @@ def test_an_unknown_topic_is_reported_with_a_similar_one(
     )
 
 
-@pytest.mark.parametrize("name", SERVO.messages)
+@in_turn("name", lambda: SERVO.messages)
 def test_a_page_shows_all_that_is_written_of_a_message(name: str, capsys: Capture) -> None:
     page = " ".join(printed(capsys, name).split())
     layout = SERVO.messages[name]
@@ -322,7 +323,7 @@ def test_each_byte_of_an_example_is_shown(capsys: Capture) -> None:
     assert "       4  4C 1D  voltage_mv  7500 mV = 7.500 V\n" in page
 
 
-@pytest.mark.parametrize("name", SERVO.messages)
+@in_turn("name", lambda: SERVO.messages)
 def test_what_a_page_says_to_type_can_be_typed(name: str, capsys: Capture) -> None:
     (said,) = [json.loads(printed(capsys, name, "--json"))]
     program, verb, *words = said["shell"][0].split()

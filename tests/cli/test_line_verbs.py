@@ -27,6 +27,7 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from tests.client.virtual_line import VirtualLine
 from tests.documents import ROOT
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS
 
 PATIENT = ("--timeout", str(GENEROUS))
@@ -107,7 +108,7 @@ def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 # `stats` has no port: it is told the rate of a line that was recorded.
-@pytest.mark.parametrize("name", sorted({*VERBS} - {"simulate", "stats"}))
+@in_turn("name", lambda: sorted({*VERBS} - {"simulate", "stats"}))
 def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
     verb = verb_named(name)
     parser = argparse.ArgumentParser()
@@ -229,9 +230,9 @@ def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFix
     assert "no BatteryVoltage came" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
+@in_turn(
+    "words, expected",
+    lambda: [
         (["send", "--port", "no-such-port", "ActionGroupStop"], "there is no such port"),
         (["send", "--port", "gopher://x", "ActionGroupStop"], "that begins with gopher://"),
         (["send", "--port", "loop://", "ActionGroupStopped"], "is never sent from here"),
@@ -397,9 +398,9 @@ def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> No
     assert imported(words, "serial", "threading", "shtab") == []
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "words",
-    [
+    lambda: [
         ["monitor", "--help"],
         ["send", "--help"],
         ["bench-line", "--help"],
@@ -432,7 +433,7 @@ def imported(words: list[str], *names: str) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("verb", sorted(set(VERBS) - {"simulate"}))
+@in_turn("verb", lambda: sorted(set(VERBS) - {"simulate"}))
 def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
     capsys: pytest.CaptureFixture[str], verb: str
 ) -> None:
@@ -445,8 +446,9 @@ def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
     assert ("3" in ends) == ("--port" in shown)
 
 
-@pytest.mark.parametrize(
-    "line", [line for verb in EXAMPLES for line, _ in EXAMPLES[verb] if "--help" not in line]
+@in_turn(
+    "line",
+    lambda: [line for verb in EXAMPLES for line, _ in EXAMPLES[verb] if "--help" not in line],
 )
 def test_an_example_is_a_command_line(line: str) -> None:
     _, name, *words = shlex.split(line)

@@ -14,6 +14,7 @@ from framegen.comparison.report.view import View
 
 from tests.comparison.edits import edition
 from tests.comparison.houses import DATA, DOOR, LIMIT, REASON, WINDOW, house
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect
@@ -27,18 +28,15 @@ def effects(old: dict[str, Any], new: dict[str, Any]) -> list[Effect]:
 BOTH = {"messages.DoorOpened": REASON, "messages.GateOpened": "Both are doors."}
 
 
-@pytest.mark.parametrize(
-    ("type_", "outcome"), [("i8", "misread"), ("u8", "uncertain")], ids=["another", "perhaps"]
-)
-@pytest.mark.parametrize(
-    ("breaks", "left"),
-    [
+@in_turn("type_, outcome", lambda: [("i8", "misread"), ("u8", "uncertain")])
+@in_turn(
+    "breaks, left",
+    lambda: [
         ({}, {"old", "new"}),
         ({"messages.DoorOpened": REASON}, {"old", "new"}),
         ({"messages.GateOpened": "Both are doors."}, set()),
         (BOTH, set()),
     ],
-    ids=["nothing", "the old", "the new", "both"],
 )
 def test_that_a_message_is_gone_gives_its_id_to_no_other(
     breaks: dict[str, str], left: set[str], type_: str, outcome: str
@@ -143,9 +141,9 @@ def dropped(reserved: dict[str, Any], new: dict[str, Any]) -> list[str]:
     return [each.axis for each in found if each.old == AFRESH and each.new is None]
 
 
-@pytest.mark.parametrize(
-    ("reserved", "name", "axes"),
-    [
+@in_turn(
+    "reserved, name, axes",
+    lambda: [
         (LIMIT, "WindowOpened", ["wire"]),
         (WITHOUT_NAME, "WindowOpened", ["wire"]),
         (WITHOUT_NAME, "DoorOpened", ["wire"]),
@@ -181,9 +179,9 @@ def test_the_reuse_is_accepted_where_the_message_is() -> None:
     assert [each.accepted for each in found] == [REASON]
 
 
-@pytest.mark.parametrize(
-    ("reserved", "messages", "kept", "axes"),
-    [
+@in_turn(
+    "reserved, messages, kept, axes",
+    lambda: [
         (LIMIT, {}, [LIMIT], []),
         (LIMIT, {}, [], ["wire", "programs"]),
         (WITHOUT_NAME, {}, [], ["wire"]),

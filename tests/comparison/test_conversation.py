@@ -18,6 +18,7 @@ from tests.comparison.conversation_cases import BUS, CASES, HOUSE, LX, SERVO, Sa
 from tests.comparison.edits import pair_of, with_
 from tests.comparison.ends import EchoLine, differing, ends_of
 from tests.comparison.uart import understood
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect, Which
@@ -49,7 +50,7 @@ def said_of(effects: list[Effect]) -> list[Said]:
     return [*found.values()]
 
 
-@pytest.mark.parametrize("name", CASES)
+@in_turn("name", lambda: CASES)
 def test_what_is_said_of_an_exchange(name: str) -> None:
     assert said_of(effects_named(name)) == CASES[name].said
 
@@ -59,7 +60,7 @@ def test_nothing_is_said_of_an_edition_and_itself(data: Data) -> None:
     assert [*conversation_effects(pair_of(data, data))] == []
 
 
-@pytest.mark.parametrize("name", CASES)
+@in_turn("name", lambda: CASES)
 def test_each_effect_has_its_ends_its_place_and_its_frame(name: str) -> None:
     pair = pair_named(name)
     for effect in effects_named(name):

@@ -5,13 +5,14 @@ from __future__ import annotations
 from itertools import product
 from typing import TYPE_CHECKING
 
-import pytest
 from framegen.comparison.changes.change import Change
 from framegen.comparison.due import due, next_version, version_finding
 from framegen.comparison.effect import Effect
 from framegen.language.version import STAGES, Version
 from hypothesis import given
 from hypothesis import strategies as st
+
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from framegen.comparison.due import Bump
@@ -29,9 +30,9 @@ VERSION = Change("version", ("protocol", "version"), ("protocol", "version"), "1
 TOLD = Change("history", None, ("history", 0), "1.1.0 is told of")
 
 
-@pytest.mark.parametrize(
-    ("effects", "changes", "bump"),
-    [
+@in_turn(
+    "effects, changes, bump",
+    lambda: [
         ([], [], None),
         ([], [VERSION, TOLD], None),
         ([], [VERSION, WORDS], "patch"),
@@ -49,9 +50,9 @@ def test_the_worst_decides(effects: list[Effect], changes: list[Change], bump: B
     assert due(effects[::-1], changes[::-1]) == bump
 
 
-@pytest.mark.parametrize(
-    ("old", "bump", "new"),
-    [
+@in_turn(
+    "old, bump, new",
+    lambda: [
         ("1.2.3", "patch", "1.2.4"),
         ("1.2.3", "minor", "1.3.0"),
         ("1.2.3", "major", "2.0.0"),
@@ -66,9 +67,9 @@ def test_a_bump_leads_to_a_version(old: str, bump: Bump, new: str) -> None:
     assert next_version(old, bump) == new
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "bump", "finding"),
-    [
+@in_turn(
+    "old, new, bump, finding",
+    lambda: [
         ("1.0.0", "1.0.0", None, None),
         ("1.0.0", "1.0.1", None, None),
         ("1.0.0", "0.9.0", None, "the version went back from 1.0.0 to 0.9.0"),

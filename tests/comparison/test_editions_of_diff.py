@@ -15,6 +15,7 @@ from framegen.reading.yamltree import Unusable
 
 from tests.comparison.repository import ALONE, OF_A_HOOK, commit, git, start
 from tests.factories import BUSSERVO, DEMO, ROOT
+from tests.in_turn import in_turn
 
 LAMPS = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
 BLINDS = (ROOT / "tests" / "specs" / "blinds.yaml").read_text(encoding="utf-8")
@@ -78,9 +79,9 @@ BLINDS_VERSION = compile_spec(Source("blinds.yaml", BLINDS)).spec.protocol.versi
 BOTH_BLINDS = ("blinds", BLINDS_VERSION, BLINDS_VERSION)
 
 
-@pytest.mark.parametrize(
-    ("words", "found"),
-    [
+@in_turn(
+    "words, found",
+    lambda: [
         ((), [BOTH_BLINDS, ("stage_lamp", "0.3.0", "0.5.0")]),
         (("HEAD",), [BOTH_BLINDS, ("stage_lamp", "0.3.0", "0.5.0")]),
         (("v0.2.0",), [("stage_lamp", "0.2.0", "0.5.0")]),
@@ -100,7 +101,6 @@ BOTH_BLINDS = ("blinds", BLINDS_VERSION, BLINDS_VERSION)
         (("spec/lamp.yaml", "HEAD"), [("stage_lamp", "0.5.0", "0.3.0")]),
         (("lamp", "blinds"), [("blinds", "0.5.0", BLINDS_VERSION)]),
     ],
-    ids=repr,
 )
 def test_words_name_editions(
     clone: Path, words: tuple[str, ...], found: list[tuple[str, str, str]]
@@ -218,7 +218,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("words", "message", "hint"), WRONG, ids=[repr(row[0]) for row in WRONG])
+@in_turn("words, message, hint", lambda: WRONG)
 def test_what_names_no_edition_is_told_with_the_way_out(
     clone: Path, words: tuple[str, ...], message: str, hint: str
 ) -> None:

@@ -19,6 +19,7 @@ from framegen.reading.yamltree import Unusable
 from tests.comparison.edits import edition
 from tests.comparison.houses import DOOR, LIMIT, REASON, WAY, WINDOW, house
 from tests.comparison.mutations import after
+from tests.in_turn import in_turn
 from tests.second_reader import Reader
 
 if TYPE_CHECKING:
@@ -66,9 +67,9 @@ STILL = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("released", "new", "expected"),
-    [
+@in_turn(
+    "released, new, expected",
+    lambda: [
         # The id is given to another message.
         (NONE, house({"GateOpened": OTHER}), MISREAD),
         (NONE, house({"GateOpened": GATE}), PERHAPS),
@@ -204,16 +205,16 @@ def test_what_is_not_tried_again_would_show_nothing(
 DO = "If it is the same, write `was: DoorOpened` below `messages.GateOpened`; "
 
 
-@pytest.mark.parametrize(
-    ("before", "old", "remedy"),
-    [
+@in_turn(
+    "before, old, remedy",
+    lambda: [
         # Of the edition that is compared, a change says it; of one before, the effect.
         ((), WITH_DOOR, "write `was: DoorOpened` below `messages.GateOpened`"),
         ([listed(WITH_DOOR)], NONE, DO),
         ([listed(WITH_DOOR)], NONE, "give it another id, and reserve that of DoorOpened"),
     ],
 )
-@pytest.mark.parametrize("name", ["text", "markdown", "github"])
+@in_turn("name", lambda: ["text", "markdown", "github"])
 def test_the_way_out_stands_in_every_format(
     name: str, before: Sequence[Listed], old: Data, remedy: str
 ) -> None:

@@ -18,6 +18,7 @@ from framegen.comparison.surface import Argument, Entry, Surface, read_surface
 from tests.comparison.edits import EDITS, HOUSE, SPECS, edition, pair_of, with_
 from tests.comparison.mutations import after
 from tests.comparison.program_verdicts import Verdict, names_about, verdict_on
+from tests.in_turn import in_turn
 
 # ------------------------------------------------------------------ surfaces
 
@@ -81,9 +82,9 @@ def test_a_surface_has_all_that_a_program_can_name() -> None:
     }
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "fits"),
-    [
+@in_turn(
+    "old, new, fits",
+    lambda: [
         ("int", "int", True),
         ("int", "float", True),
         ("float", "int", False),

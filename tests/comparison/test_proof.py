@@ -17,6 +17,7 @@ from tests.comparison import proof
 from tests.comparison.mutations import after
 from tests.comparison.talks import Talk
 from tests.comparison.word_mutations import WORD_MUTATIONS
+from tests.in_turn import in_turn
 from tests.protocols.specs import values_for
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ def test_an_edition_is_the_same_as_itself(spec: str) -> None:
     proof.assert_no_effect(Pair(editions.old, editions.old))
 
 
-@pytest.mark.parametrize("name", WORD_MUTATIONS)
+@in_turn("name", lambda: WORD_MUTATIONS)
 def test_words_change_nothing_but_docstrings(name: str) -> None:
     editions = made("mhz19", (name,))
     proof.assert_no_effect(Pair(editions.old, editions.new))

@@ -32,6 +32,7 @@ from hypothesis import strategies as st
 from tests.comparison.edits import EDITS, SPECS, edition, pair_of, with_
 from tests.factories import renamed
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 
 HOUSE = SPECS["greenhouse"]
 NAMES = [*HOUSE["messages"]]
@@ -271,9 +272,9 @@ MISSING = "something breaks"
 EVERY = frozenset(FAILURES[:-1])
 
 
-@pytest.mark.parametrize(
-    ("found", "finding", "fail_on", "status"),
-    [
+@in_turn(
+    "found, finding, fail_on, status",
+    lambda: [
         ([], None, EVERY, 0),
         ([], MISSING, EVERY, NO_VERSION),
         ([], MISSING, USUAL_FAILURES, 0),
@@ -375,9 +376,9 @@ def test_the_end_that_breaks_while_it_is_old_is_upgraded_first(
 # ------------------------------------------------------------------ what is accepted
 
 
-@pytest.mark.parametrize(
-    ("line", "path", "covered"),
-    [
+@in_turn(
+    "line, path, covered",
+    lambda: [
         ("messages.A", ("messages", "A"), True),
         ("messages.A", ("messages", "A", "fields", "b"), True),
         ("messages.A", ("messages", "AB"), False),

@@ -8,6 +8,7 @@ from framegen.comparison.wire import try_out, wire_effects
 from framegen.language.spec import NumberField
 
 from tests.comparison.edits import SPECS, pair_of, with_
+from tests.in_turn import in_turn
 
 SAME = [
     ("ms", "millisecond"),
@@ -50,12 +51,12 @@ def field(unit: str) -> NumberField:
     return NumberField.model_validate({"type": "u16", "about": "A number.", "unit": unit})
 
 
-@pytest.mark.parametrize(("one", "other"), SAME)
+@in_turn("one, other", lambda: SAME)
 def test_one_unit_has_two_spellings(one: str, other: str) -> None:
     assert quantity(field(one)) == quantity(field(other))
 
 
-@pytest.mark.parametrize(("one", "other"), OTHER)
+@in_turn("one, other", lambda: OTHER)
 def test_two_units_are_not_one(one: str, other: str) -> None:
     assert quantity(field(one)) != quantity(field(other))
 
@@ -85,7 +86,7 @@ def test_an_offset_is_in_the_unit_of_its_step() -> None:
         assert found.raw(Fraction("294.65")) == raw
 
 
-@pytest.mark.parametrize("unit", KNOWN)
+@in_turn("unit", lambda: KNOWN)
 def test_a_unit_that_people_use_is_known(unit: str) -> None:
     found = quantity(
         NumberField.model_validate({"type": "u16", "about": "A.", "scale": f"1 {unit}"})

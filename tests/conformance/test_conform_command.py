@@ -17,6 +17,7 @@ from framegen.cli import main
 
 from tests.conformance.c_codecs import WRONG, compile_codec, needs_compiler
 from tests.factories import BUSSERVO, DEMO, ROOT, data_of, first_edition
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -281,7 +282,7 @@ UNUSABLE = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("words", "error"), UNUSABLE.values(), ids=list(UNUSABLE))
+@in_turn("words, error", lambda: [pytest.param(*row, id=name) for name, row in UNUSABLE.items()])
 def test_unusable_arguments_are_refused_with_advice(
     words: list[str], error: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

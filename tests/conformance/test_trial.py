@@ -21,6 +21,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, ROOT, data_of, first_model, layout_of
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -155,7 +156,10 @@ DIFFER = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("question", "said", "at"), DIFFER.values(), ids=list(DIFFER))
+@in_turn(
+    "question, said, at",
+    lambda: [pytest.param(*row, id=name) for name, row in DIFFER.items()],
+)
 def test_a_difference_is_found_where_it_is(question: str, said: list[str], at: int) -> None:
     found = compare(MODEL, "a title", read(question), Reply(tuple(said)))
     assert found is not None
@@ -397,7 +401,7 @@ NO_QUESTIONS = {
 }
 
 
-@pytest.mark.parametrize(("line", "error"), NO_QUESTIONS.items(), ids=repr)
+@in_turn("line, error", NO_QUESTIONS.items)
 def test_a_malformed_question_is_refused_with_the_reason(line: str, error: str) -> None:
     with pytest.raises(NotAQuestion) as caught:
         read(line)

@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.doctor.patient import LONGEST, board_with, diagnosis_of, examined
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -188,7 +189,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if not CASES[name].garbage])
+@in_turn("name", lambda: [name for name in CASES if not CASES[name].garbage])
 def test_each_fault_is_reported_by_the_checks_that_detect_it(name: str) -> None:
     check_case(CASES[name])
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
 from busservo._cli.checks.heard import PAUSE, Heard
 from busservo._codec.event_bytes import bytes_of
 from hypothesis import given
 from hypothesis import strategies as st
+
+from tests.in_turn import in_turn
 
 REPLY = "55 55 04 0F 4C 1D"
 LATER = PAUSE + 0.001
@@ -73,7 +74,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+@in_turn("name", lambda: CASES)
 def test_noise_has_no_silence_in_it_and_a_message_may(name: str) -> None:
     given_pieces, left_out, events, runs = CASES[name]
     now, pieces = 0.0, []

@@ -24,6 +24,7 @@ from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
 
 from tests.doctor.patient import board_with, diagnosis_of, examined
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -39,9 +40,9 @@ BOARD = HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")
 PLUG_IN = "USB HID devices have no serial port at all"
 
 
-@pytest.mark.parametrize(
-    ("port", "ports", "hid", "taken", "state", "seen", "advice"),
-    [
+@in_turn(
+    "port, ports, hid, taken, state, seen, advice",
+    lambda: [
         (None, [ONE, BUILT_IN], [], "/dev/ttyUSB0", PASSED, "/dev/ttyUSB0 (1A86:7523 USB S", ""),
         (None, [BUILT_IN], [], "/dev/ttyS0", UNKNOWN, "no port is plugged in by USB", PLUG_IN),
         (None, [BUILT_IN], [BOARD], "hid://", PASSED, "which has none: 0483:5750 LOBOT", ""),

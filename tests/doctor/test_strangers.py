@@ -12,6 +12,7 @@ from busservo._cli.plain_text import plain_text
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.independent.board import Board
 from tests.independent.faults import Piece, cut, dropped, followed, lost
 from tests.independent.firmware import battery_question, battery_reply
@@ -245,7 +246,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+@in_turn("name", lambda: CASES)
 def test_only_what_is_recognised_is_said_to_be_a_protocol(name: str) -> None:
     case = CASES[name]
     found = examined(case.device())
@@ -284,8 +285,8 @@ def servo_reply(servo_id: int, command: int, parameters: bytes) -> bytes:
     return b"\x55\x55" + summed + bytes([~sum(summed) & 0xFF])
 
 
-@pytest.mark.parametrize("servo_id", range(1, 12))
-@pytest.mark.parametrize("size", range(3, 10))
+@in_turn("servo_id", lambda: range(1, 12))
+@in_turn("size", lambda: range(3, 10))
 def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size: int) -> None:
     reply = servo_reply(servo_id, 2, bytes.fromhex("F4 01 E8 03"))[:size]
     found = examined(Stranger(answer=lambda _: reply), "lxservo")
@@ -341,9 +342,9 @@ def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
 # --- What is text --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("data", "text"),
-    [
+@in_turn(
+    "data, text",
+    lambda: [
         (b"OK\r\n", '"OK"'),
         (GPS, f'"{GPS[:60].decode()}..."'),
         ("\r\n21,5 °C\r\n".encode(), '"21,5 °C"'),

@@ -24,6 +24,7 @@ from lxservo_simulator import VirtualBus
 from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
 from tests.firmware.devices import VirtualLine, by_the_reference, in_reply_to, is_divided
 from tests.firmware.runs import Run, model_of, run
+from tests.in_turn import in_turn
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
 from tests.random_specs import WAYS, specs, with_examples
@@ -75,8 +76,8 @@ def test_a_device_by_the_reference_passes_with_malformed_frames(name: str) -> No
     assert [each["not_sent"] for each in done.report["steps"] if each["not_sent"]] == []
 
 
-@pytest.mark.parametrize("name", ["dynamixel1", "lxservo", "modbus", "pumps"])
-@pytest.mark.parametrize("extra", [b"", b"\0"])
+@in_turn("name", lambda: ["dynamixel1", "lxservo", "modbus", "pumps"])
+@in_turn("extra", lambda: [b"", b"\0"])
 def test_an_echo_is_left_out_and_another_is_seen(name: str, extra: bytes) -> None:
     data = data_of(SPECS[name])
     data["link"] = {**data.get("link", {}), "local_echo": True}
@@ -292,7 +293,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("mutant", "name", "kind"), CASES)
+@in_turn("mutant, name, kind", lambda: CASES)
 def test_a_mutant_is_found_and_called_by_its_name(mutant: Mutant, name: str, kind: str) -> None:
     model = model_of(SPECS[name])
     done = on(name, mutant(model, by_the_reference(model)), "--malformed")

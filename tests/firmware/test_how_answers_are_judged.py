@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from tests.firmware.devices import VirtualLine
 from tests.firmware.runs import Run, model_of, run
+from tests.in_turn import in_turn
 from tests.independent import faults, firmware
 from tests.independent.board import Board
 from tests.independent.faults import Piece
@@ -107,7 +108,7 @@ FAULTS: dict[str, tuple[Script, str, str]] = {
 }
 
 
-@pytest.mark.parametrize("name", FAULTS)
+@in_turn("name", lambda: FAULTS)
 def test_a_fault_is_found_where_it_is_and_called_by_its_name(name: str) -> None:
     script, title, kind = FAULTS[name]
     done = on_a_board(script, QUERY[title])
@@ -175,7 +176,7 @@ NOTES: dict[str, tuple[Script, str]] = {
 }
 
 
-@pytest.mark.parametrize("name", NOTES)
+@in_turn("name", lambda: NOTES)
 def test_permitted_behaviour_is_noted_and_no_fault(name: str) -> None:
     script, note = NOTES[name]
     done = on_a_board(script)

@@ -20,6 +20,7 @@ from framegen.reading.yamltree import Unusable
 
 from tests.factories import BUSSERVO
 from tests.firmware.runs import model_of
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that, undoubted
 
 MODEL = model_of()
@@ -89,7 +90,7 @@ SLIPS = [
 ]
 
 
-@pytest.mark.parametrize(("words", "problem", "hint"), SLIPS, ids=lambda each: str(each)[:30])
+@in_turn("words, problem, hint", lambda: SLIPS)
 def test_a_mistake_in_the_command_line_is_reported(
     words: list[str], problem: str, hint: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -172,7 +173,7 @@ NAMES = [
 ]
 
 
-@pytest.mark.parametrize(("name", "problem", "hint"), NAMES)
+@in_turn("name, problem, hint", lambda: NAMES)
 def test_an_invalid_port_name_is_refused(name: str, problem: str, hint: str) -> None:
     with pytest.raises(Unusable) as caught:
         open_port(name, LINK, 9600)

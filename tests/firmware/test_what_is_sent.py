@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from tests.factories import BUSSERVO, DEMO, Data, compiled_file, data_of, layout_of
 from tests.firmware.devices import Answer, VirtualLine, by_the_reference
 from tests.firmware.runs import Run, model_of, run
+from tests.in_turn import in_turn
 from tests.independent.firmware import Reader, well_formed
 from tests.protocols.specs import FILES
 
@@ -76,8 +77,8 @@ def sent_to(device: str, *options: str) -> Run:
     return run(MODEL, VirtualLine(DEVICES[device]()), *options)
 
 
-@pytest.mark.parametrize("options", OPTIONS, ids="_".join)
-@pytest.mark.parametrize("device", DEVICES)
+@in_turn("options", lambda: OPTIONS, ids="_".join)
+@in_turn("device", lambda: DEVICES)
 def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) -> None:
     allowed = allowed_by(options)
     done = sent_to(device, *options)
@@ -88,7 +89,7 @@ def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) ->
     assert set(done.report["will_not_send"]) == {*COMMANDS} - allowed
 
 
-@pytest.mark.parametrize("options", OPTIONS, ids="_".join)
+@in_turn("options", lambda: OPTIONS, ids="_".join)
 def test_all_that_is_allowed_is_sent(options: list[str]) -> None:
     done = sent_to("answers", *options)
     assert received(done.written, quiet=True) == allowed_by(options)
@@ -158,7 +159,7 @@ OBJECTIONS = [
 ]
 
 
-@pytest.mark.parametrize(("data", "why"), OBJECTIONS)
+@in_turn("data, why", lambda: OBJECTIONS)
 def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str) -> None:
     objection = permit(MODEL, []).objection(bytes.fromhex(data))
     assert objection == why

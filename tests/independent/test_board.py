@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.in_turn import in_turn
 from tests.independent import faults, firmware
 from tests.independent.board import Board
 from tests.independent.ports import PtyPort, TcpPort, VirtualPort
@@ -66,7 +67,7 @@ def test_it_shares_no_code_with_what_it_tests(part: str) -> None:
     ] == []
 
 
-@pytest.mark.parametrize("name", SPOKEN)
+@in_turn("name", lambda: SPOKEN)
 def test_it_answers_as_the_document_says(name: str) -> None:
     sent, answered = SPOKEN[name]
     board = Board()
@@ -163,7 +164,7 @@ SCRIPTS = {
 }
 
 
-@pytest.mark.parametrize("name", SCRIPTS)
+@in_turn("name", lambda: SCRIPTS)
 def test_a_fault_happens_to_the_reply_that_it_is_meant_for(name: str) -> None:
     script, soon, later = SCRIPTS[name]
     board = Board(faults={1: script}.get)

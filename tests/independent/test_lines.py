@@ -14,6 +14,7 @@ from busservo import (
     EchoError,
 )
 
+from tests.in_turn import in_turn
 from tests.independent import faults, firmware
 from tests.independent.board import BITS_PER_BYTE, Board
 from tests.independent.conversation import SIX, Conversation, wire_time
@@ -119,7 +120,7 @@ class Pausing(VirtualPort):
         return data
 
 
-@pytest.mark.parametrize("behind", range(1, 24))
+@in_turn("behind", lambda: range(1, 24))
 def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind: int) -> None:
     board = Board(baud=BAUD)
     port = Pausing(board, behind)
@@ -216,8 +217,8 @@ def test_an_undeclared_echo_harms_no_value_and_is_logged_once(
 # ------------------------------------------------------------------- a stranger's reply
 
 
-@pytest.mark.parametrize("after", [0.0, 0.001, 0.004, 0.010, 0.015])
-@pytest.mark.parametrize("requested", [None, SIX])
+@in_turn("after", lambda: [0.0, 0.001, 0.004, 0.010, 0.015])
+@in_turn("requested", lambda: [None, SIX])
 def test_a_reply_meant_for_a_program_that_was_killed_is_not_taken_for_ours(
     after: float, requested: tuple[int, ...] | None
 ) -> None:

@@ -19,6 +19,7 @@ from busservo_simulator.line_options import faults_of
 from busservo_simulator.options import PROGRAM, parser_of
 from busservo_simulator.servo_list import parse_servos
 
+from tests.in_turn import in_turn
 from tests.simulator.hosts import Host
 from tests.timeouts import GENEROUS
 
@@ -105,7 +106,7 @@ def test_every_option_has_its_help() -> None:
         assert action.help, action.option_strings
 
 
-@pytest.mark.parametrize("name", [each.name for each in fields(Faults)])
+@in_turn("name", lambda: [each.name for each in fields(Faults)])
 def test_every_field_of_the_faults_is_reached(name: str) -> None:
     value = 7 if name == "seed" else 0.125
     option = [f"--{name.replace('_', '-')}", str(value)]
@@ -150,9 +151,9 @@ def test_it_reports_a_host_at_another_rate(
     host.hang_up()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
+@in_turn(
+    "arguments, words",
+    lambda: [
         (["--fault", "gremlins=1"], "no fault is called 'gremlins'"),
         (["--fault", "noise=lots"], "--fault: 'lots' is no chance: write one from 0 to 1"),
         (["--fault", "noise=2"], "--fault: '2' is no chance: write one from 0 to 1, as noise=0.1"),

@@ -18,6 +18,7 @@ from busservo._serial.link_errors import DisconnectedError, TransportError
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.faults import CHANCES, DURATIONS
 
+from tests.in_turn import in_turn
 from tests.simulator.hosts import Host, host_of
 from tests.timeouts import await_that
 
@@ -41,8 +42,8 @@ def test_there_are_no_faults_by_default() -> None:
         assert host.bytes == VOLTAGE.encode() * 50
 
 
-@pytest.mark.parametrize("name", CHANCES)
-@pytest.mark.parametrize("chance", [-0.1, 1.1, float("nan")])
+@in_turn("name", lambda: CHANCES)
+@in_turn("chance", lambda: [-0.1, 1.1, float("nan")])
 def test_a_chance_is_from_0_to_1(name: str, chance: float) -> None:
     with pytest.raises(ValueError, match=f"{name} is"):
         Faults(**{name: chance})  # type: ignore[arg-type]

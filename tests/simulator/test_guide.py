@@ -27,6 +27,7 @@ from busservo_simulator.cli import _board
 from busservo_simulator.faults import CHANCES, TO_BOARD
 from busservo_simulator.options import PROGRAM, parser_of
 
+from tests.in_turn import in_turn
 from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
@@ -128,7 +129,7 @@ def test_the_guide_says_what_each_message_has_the_board_send() -> None:
     assert sent == REACTIONS
 
 
-@pytest.mark.parametrize("messages", RECEIVED)
+@in_turn("messages", lambda: RECEIVED)
 def test_every_message_has_led2_blink_once(messages: list[Message]) -> None:
     log = re.findall(r"LED2 +(.*?)(?::|$)", str(board_after(messages).event_log), re.MULTILINE)
     assert log == len(messages) * ["blinks"]

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from tests import oracle
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 from tests.protocols.libraries import direction_of
 from tests.strategies import DIRECTIONS, directions, oracles, pieces
 from tests.strategies import lines as servo_lines
@@ -168,8 +169,8 @@ WORKED_OUT += [
 ]
 
 
-@pytest.mark.parametrize("block", [1, 5, 600, None])
-@pytest.mark.parametrize(("line", "expected"), WORKED_OUT)
+@in_turn("block", lambda: [1, 5, 600, None])
+@in_turn("line, expected", lambda: WORKED_OUT)
 def test_they_hold_what_was_worked_out_by_hand(
     line: bytes, expected: list[tuple[str, int, int, str | None, str | None]], block: int | None
 ) -> None:
@@ -193,7 +194,7 @@ def test_a_frame_is_whole_wherever_a_block_ends() -> None:
         assert rows_in_tables(busservo, line, None, block=block) == expected
 
 
-@pytest.mark.parametrize("before", range(0, 700, 35))
+@in_turn("before", lambda: range(0, 700, 35))
 def test_a_claim_that_holds_a_frame_is_none_wherever_a_block_ends(before: int) -> None:
     claim = bytes.fromhex("55 55 C6 63") + bytes(192) + STOP
     line = bytes(before) + claim + FILLER

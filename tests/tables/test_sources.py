@@ -16,6 +16,7 @@ from busservo.recordings import Entry, RecordingError, read
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.strategies import HEADS, damaged_frames, directions, lines, unknown_frames
 from tests.tables.rows import Row, fields_of, joined, noise_row, rows_in_tables, rows_of_decoder
 
@@ -40,9 +41,9 @@ class Pieces:
         return self._held.read(min(self._size, size))
 
 
-@pytest.mark.parametrize(
-    ("source", "problem"),
-    [
+@in_turn(
+    "source, problem",
+    lambda: [
         (None, "a file name, bytes or a stream of bytes expected, not NoneType"),
         ([0x55, 0x55], "a file name, bytes or a stream of bytes expected, not list"),
         (iter([LINE]), "a file name, bytes or a stream of bytes expected, not list_iterator"),
@@ -50,7 +51,7 @@ class Pieces:
         (np.zeros((3, 4), np.uint8)[:, :2], "the array is no run of bytes as it lies in memory"),
     ],
 )
-@pytest.mark.parametrize("use", [tables.read, tables.write_parquet, tables.write_arrow])
+@in_turn("use", lambda: [tables.read, tables.write_parquet, tables.write_arrow])
 def test_what_is_no_capture_is_refused_by_its_type(
     tmp_path: Path, use: Any, source: Any, problem: str
 ) -> None:
@@ -72,10 +73,10 @@ def test_a_notebook_shows_the_tables_that_have_rows() -> None:
     assert shown.count("<tr>") == 1 + len(tables.read(LINE).filled)
 
 
-@pytest.mark.parametrize("block", [7, None])
-@pytest.mark.parametrize(
+@in_turn("block", lambda: [7, None])
+@in_turn(
     "hold",
-    [
+    lambda: [
         bytes,
         bytearray,
         memoryview,
