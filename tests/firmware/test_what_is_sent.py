@@ -77,7 +77,7 @@ def sent_to(device: str, *options: str) -> Run:
     return run(MODEL, VirtualLine(DEVICES[device]()), *options)
 
 
-@in_turn("options", lambda: OPTIONS, ids="_".join)
+@in_turn("options", lambda: OPTIONS)
 @in_turn("device", lambda: DEVICES)
 def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) -> None:
     allowed = allowed_by(options)
@@ -89,7 +89,7 @@ def test_nothing_is_sent_but_what_is_allowed(options: list[str], device: str) ->
     assert set(done.report["will_not_send"]) == {*COMMANDS} - allowed
 
 
-@in_turn("options", lambda: OPTIONS, ids="_".join)
+@in_turn("options", lambda: OPTIONS)
 def test_all_that_is_allowed_is_sent(options: list[str]) -> None:
     done = sent_to("answers", *options)
     assert received(done.written, quiet=True) == allowed_by(options)
