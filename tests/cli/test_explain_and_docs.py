@@ -191,7 +191,7 @@ def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model
     (carried,) = (
         json.loads(text) for path, text in files_of(data_of(spec)).items() if "model.json" in path
     )
-    usage = ("python", "shell", "method", "class")
+    usage = ("client", "python", "shell", "method", "class")
     carried["messages"] = {
         name: {key: value for key, value in said.items() if key not in usage}
         for name, said in carried["messages"].items()
@@ -320,7 +320,7 @@ def test_any_library_has_its_pages(other: tuple[Data, ModuleType], capsys: Captu
 
 def test_each_byte_of_an_example_is_shown(capsys: Capture) -> None:
     page = printed(capsys, "BatteryVoltage")
-    assert "       4  4C 1D  voltage_mv  7500 mV = 7.500 V\n" in page
+    assert "       4  4C 1D  voltage_mv  7500 mV = 7.500 V, low byte first\n" in page
 
 
 @in_turn("name", lambda: SERVO.messages)

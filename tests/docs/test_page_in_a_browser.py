@@ -34,7 +34,7 @@ def test_the_workbench_shows_frames_noise_and_unknown_frames(tmp_path: Path) -> 
         tab.locator("#events [role=option]").nth(1).click()
         cells = texts(tab.locator("#event .strip li"))
         assert [" ".join(cell.split()) for cell in cells][4:6] == [
-            "6 E8 03 time_ms 1000 ms",
+            "6 E8 03 time_ms 1000 ms low byte first",
             "8 01 targets[0].servo_id 1",
         ]
         # After use, nothing is cut off, covered, out of reach, or printed in vain.

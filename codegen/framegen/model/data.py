@@ -175,7 +175,7 @@ def _slot(slot: Slot) -> dict[str, Any]:
             return said | {"size": 0} | _filled(about=slot.about)
         case Constant():
             said |= {"size": slot.size, "bytes": to_hex(slot.data)} | _filled(about=slot.about)
-            return said if slot.field is None else said | {"field": True} | _evidence(slot.field)
+            return said if slot.field is None else said | _constant(slot.field)
         case Number():
             return said | _number(slot)
         case Text():
@@ -185,6 +185,12 @@ def _slot(slot: Slot) -> dict[str, Any]:
             return said | _packed(slot)
         case Items():
             return said | _items(slot)
+
+
+def _constant(field: NumberField) -> dict[str, Any]:
+    """Return what is known of constant bytes of a message: those of a number, or of several."""
+    order = _filled(byte_order=field.byte_order)
+    return {"field": True, "of_type": field.type} | order | _evidence(field)
 
 
 def _number(number: Number) -> dict[str, Any]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from .._explanation.explanation import rows_of
+from .._explanation.pattern import pattern
 from .._explanation.protocol import listed
 from .._explanation.text import to_hex
 from .._frame.pluralize import describe_range, pluralize
@@ -91,16 +92,12 @@ def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
     sheet.paragraph(said["summary"])
     if "deprecated" in said:
         sheet.paragraph(f"Deprecated: {said['deprecated']}", colour="yellow")
-    sheet.paragraphs(said.get("description", ""))
-    sheet.paragraphs(_notes(model, said))
-    receiver = message.direction.partition(" -> ")[2]
-    sheet.paragraphs(_notes(model, model.said["endpoints"][receiver]))
-    sheet.line()
-    sheet.columns([*_facts(model, message)])
     sheet.heading("Bytes")
     sheet.columns([("byte", "hex", "part", "value"), *_pattern(message)])
     sheet.heading("Fields")
     _fields(sheet, model, message)
+    sheet.heading("About it")
+    _about(sheet, model, message)
     sheet.heading("Examples")
     for number, example in enumerate(said["examples"]):
         if number:
@@ -108,11 +105,21 @@ def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
         _example(sheet, model, message, example)
     _slips(sheet, model, message)
     sheet.heading("In Python")
-    for line in said["python"]:
+    # What a program calls, where a client has it; the codec behind.
+    for line in [*said.get("client", ()), *([""] if "client" in said else []), *said["python"]]:
         sheet.line(f"  {line}".rstrip())
     sheet.heading("On the command line")
     for line in said["shell"]:
         sheet.line(f"  {line}")
+
+
+def _about(sheet: Sheet, model: Protocol, message: Message) -> None:
+    """Print what is known of a message as a whole, and of who receives it."""
+    sheet.columns([*_facts(model, message)])
+    sheet.paragraphs(message.said.get("description", ""))
+    sheet.paragraphs(_notes(model, message.said))
+    receiver = message.direction.partition(" -> ")[2]
+    sheet.paragraphs(_notes(model, model.said["endpoints"][receiver]))
 
 
 def _notes(model: Protocol, said: Any) -> str:
@@ -187,39 +194,14 @@ def _cited(model: Protocol, cite: str) -> str:
 
 
 def _pattern(message: Message) -> Iterator[tuple[str, str, str, str]]:
-    """Yield the parts of any frame of the message; a list is shown once."""
-    for slot in message.slots:
-        if slot.role != "list":
-            place = str(slot.at) if slot.at >= 0 else "end"
-            yield place, *_part(message, slot)
-            continue
-        step = "i" if slot.size == 1 else f"{slot.size}i"
-        for field in slot.fields:
-            place = f"{slot.at + field.at} + {step}"
-            data, _, what = _part(message, field)
-            yield place, data, slot.path("i", field), what
+    """Yield the parts of any frame of the message as a row each; a list is shown once."""
+    for part in pattern(message):
+        data = _dots(part.size) if part.data is None else to_hex(part.data)
+        yield part.place, data, part.path, _joined(part.text, part.order)
 
 
-def _part(message: Message, slot: Slot) -> tuple[str, str, str]:
-    if slot.role in ("constant", "reserved"):
-        return to_hex(slot.data), slot.name, slot.role if slot.role == "reserved" else ""
-    if slot.role == "id":
-        number = message.ids[message.frame.ids.index(slot)]
-        return to_hex(slot.write(number)), slot.name, str(number)
-    if slot.role == "length":
-        data = _dots(slot.size) if message.varies else to_hex(slot.write(message.lengths[0]))
-        return data, slot.name, message.formula
-    return _dots(slot.size), slot.name, _kind(slot)
-
-
-def _kind(slot: Slot) -> str:
-    """Return what a slot holds: its type, or the method of a checksum."""
-    if slot.role == "packed":
-        return f"{slot.said['count']} of {slot.said['packed']}"
-    if slot.role == "checksum":
-        return str(slot.said["method"])
-    absent = ", may be absent" if slot.said.get("optional") else ""
-    return f"{slot.said.get('type', 'text')}{absent}"
+def _joined(*words: str) -> str:
+    return ", ".join(filter(None, words))
 
 
 def _dots(size: int) -> str:
@@ -251,9 +233,9 @@ def _fields(sheet: Sheet, model: Protocol, message: Message) -> None:
 
 def _field(sheet: Sheet, model: Protocol, slot: Slot, path: str, many: str = "") -> None:
     said = slot.said
-    kind = "" if slot.role in ("constant", "reserved") else _kind(slot)
-    bounds = [kind, _values(slot), said.get("unit", ""), many]
-    sheet.line(f"  {path}  {', '.join(filter(None, bounds))}")
+    absent = "may be absent" if said.get("optional") else ""
+    words = (slot.kind, slot.order_in_words, absent, _values(slot), said.get("unit", ""), many)
+    sheet.line(f"  {path}  {_joined(*words)}")
     if "scale" in said:
         step, unit, *offset = said["scale"]
         beginning = "".join(f", and 0 is {each} {unit}".rstrip() for each in offset)
@@ -306,8 +288,11 @@ def _example(sheet: Sheet, model: Protocol, message: Message, example: Any) -> N
     sheet.paragraph(example["hex"], 4)
     slots = [*message.lay_out(message.length_of(data) or 0)]
     rows = rows_of(data, slots[:_MOST_ROWS], message)
-    cells = [(str(row.offset), to_hex(row.data), row.path, row.text) for row in rows]
-    sheet.columns([("  byte", "hex", "part", "value"), *((f"  {at:>4}", *c) for at, *c in cells)])
+    cells = [
+        (f"  {row.offset:>4}", to_hex(row.data), row.path, _joined(row.text, row.order))
+        for row in rows
+    ]
+    sheet.columns([("  byte", "hex", "part", "value"), *cells])
 
 
 def _slips(sheet: Sheet, model: Protocol, message: Message) -> None:

@@ -81,7 +81,7 @@ def _texts(said: Any) -> Iterator[str]:
         yield said
     elif isinstance(said, dict):
         for name, each in said.items():
-            if name not in ("python", "shell", "hex", "cite"):
+            if name not in ("client", "python", "shell", "hex", "cite"):
                 yield from _texts(each)
         yield from map(str, said.get("values", {}))
     elif isinstance(said, list):

@@ -47,7 +47,7 @@ class Row:
     """Some bytes of a frame that belong together: a part of the frame, or a field.
 
     `role` is that of its slot; `value` is None for constant bytes; `text` is the value as people
-    write it, `7500 mV = 7.500 V`.
+    write it, `7500 mV = 7.500 V`; `order` says which byte of a number comes first.
     """
 
     offset: int
@@ -57,6 +57,7 @@ class Row:
     value: Value | None
     text: str
     meaning: str
+    order: str
 
     @property
     def end(self) -> int:
@@ -121,10 +122,10 @@ def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
     slot, piece = placed.slot, placed.of(data)
     where = (placed.at, piece, placed.path, slot.role)
     if not slot.is_number and slot.role not in ("packed", "text"):
-        return Row(*where, None, "", slot.about)
+        return Row(*where, None, "", slot.about, slot.order_in_words)
     value = slot.value(piece)
     if slot.is_field or slot.role in ("address", "packed", "text"):
-        return Row(*where, value, *slot.in_words(value))
+        return Row(*where, value, *slot.in_words(value), slot.order_in_words)
     meaning = slot.about
     if slot.role == "length" and message is not None:
         meaning = message.formula if message.varies else f"always {message.formula}"
@@ -133,7 +134,7 @@ def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
     elif slot.role == "id":
         is_last = message is not None and slot is message.frame.id
         meaning = named(message) if message is not None and is_last else ""
-    return Row(*where, value, str(value), meaning)
+    return Row(*where, value, str(value), meaning, slot.order_in_words)
 
 
 def named(message: Message) -> str:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 # Digits for any number of 64 bits in steps of any size, none of them rounded.
 _EXACT = Context(prec=64)
+# Those of a byte.
+_BITS = 8
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,30 @@ class Slot:
     def order(self) -> str:
         """The byte order of a number, its own or that of the protocol."""
         return str(self.said.get("byte_order", self.byte_order))
+
+    @property
+    def order_in_words(self) -> str:
+        """Which byte of a number comes first: `low byte first`; "" for one byte, and for others.
+
+        Of packed numbers, it says in which bits the first one is, too.
+        """
+        first = "low" if self.order == "little" else "high"
+        if self.role == "packed":
+            whole = f"{first} byte and " if self.size > 1 else ""
+            return f"{whole}{first} bits first"
+        kind = str(self.said.get("type", self.said.get("of_type", "u8")))
+        return f"{first} byte first" if int(kind[1:]) > _BITS else ""
+
+    @property
+    def kind(self) -> str:
+        """What it holds: a type, `text`, several of a type, or the method of a checksum."""
+        if self.role == "packed":
+            return f"{self.said['count']} of {self.said['packed']}"
+        if self.role == "checksum":
+            return str(self.said["method"])
+        if self.role in ("constant", "reserved"):
+            return str(self.said.get("of_type", ""))
+        return str(self.said.get("type", "text"))
 
     @cached_property
     def low(self) -> int:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from framegen.explanation.protocol import listed
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Number
-from framegen.targets.docs.field import order_in_words
 from framegen.targets.docs.notes import NoteView, note_views
 from framegen.targets.docs.strip import Cell, parts_strip
 
@@ -67,7 +66,7 @@ class EnvelopeView:
     @property
     def cells(self) -> list[Cell]:
         """The parts as a byte strip."""
-        return parts_strip(self.envelope)
+        return parts_strip(self.model.plain.envelopes[self.name])
 
     @property
     def messages(self) -> list[str]:
@@ -104,8 +103,6 @@ class EnvelopeView:
                 yield f"The {slot.method} of {listed(slot.of)}: {about}."
             case "address":
                 yield from self._addresses(slot)
-        if slot.size > 1 and slot.order != self.model.spec.byte_order:
-            yield order_in_words(slot.order)
 
     def _addresses(self, slot: Number) -> Iterator[str]:
         if slot.narrowed:

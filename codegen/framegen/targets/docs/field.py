@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framegen.explanation.pattern import place_in_each
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import ListField, NumberField
 from framegen.model.slots import Constant, Items, Number, Packed, Text
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.notes import NoteView, note_views
-from framegen.targets.docs.strip import place_in_each
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from framegen.explanation.protocol import Slot
     from framegen.language.number_types import NumberType
     from framegen.language.spec import NamedValue, Spec
     from framegen.language.values import Citation
@@ -84,29 +85,31 @@ def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
     """Return every field in the order of the frame; those of an element follow their list."""
     maker = _Maker(model, message)
     views: list[FieldView] = []
-    for slot in message.body:
+    for slot, said in zip(message.body, model.plain.messages[message.name].fields, strict=True):
         if isinstance(slot, Items):
-            views.extend(_list_views(maker, slot))
+            views.extend(_list_views(maker, slot, said))
         else:
-            views.append(maker.single(slot, slot.name, str(slot.at), ("fields", slot.name)))
+            path = ("fields", slot.name)
+            views.append(maker.single(slot, said, slot.name, str(slot.at), path))
     return views
 
 
-def _list_views(maker: _Maker, items: Items) -> Iterator[FieldView]:
+def _list_views(maker: _Maker, items: Items, said: Slot) -> Iterator[FieldView]:
     what = "characters" if items.text else "of them"
     count = f"{items.low if items.is_fixed else f'{items.low}..{items.high}'} {what}"
     path: KeyPath = ("fields", items.name)
     if items.element is None:
         (slot,) = items.slots
         name = items.name if items.text else items.path("i", slot)
-        yield maker.single(slot, name, place_in_each(items), path, count)
+        (each,) = said.fields
+        yield maker.single(slot, each, name, place_in_each(said), path, count)
         return
     yield maker.view(
         items.field, items.name, str(items.at), path, f"list of {items.element}", count
     )
-    for slot in items.slots:
-        offset = place_in_each(items, slot.at)
-        yield maker.single(slot, items.path("i", slot), offset, (*path, "fields", slot.name))
+    for slot, each in zip(items.slots, said.fields, strict=True):
+        offset = place_in_each(said, slot.at)
+        yield maker.single(slot, each, items.path("i", slot), offset, (*path, "fields", slot.name))
 
 
 def _range(slot: Number | Text | Packed | Constant, count: str) -> str:
@@ -136,19 +139,6 @@ def _counted(message: MessageLayout, slot: object) -> str:
     return ""
 
 
-def _type(slot: Number | Text | Packed | Constant) -> str:
-    match slot:
-        case Packed():
-            return f"{slot.count} of {slot.number_type.name}"
-        case Number() if not slot.field.text:
-            name = slot.number_type.name
-            return name if slot.size == 1 else f"{name}, {_first(slot.order)} byte first"
-        case Constant():
-            return slot.field.type if slot.field is not None else ""
-        case _:
-            return "text"
-
-
 @dataclass(frozen=True, slots=True)
 class _Maker:
     model: Model
@@ -157,6 +147,7 @@ class _Maker:
     def single(
         self,
         slot: Number | Text | Packed | Constant,
+        said: Slot,
         path: str,
         offset: str,
         key: KeyPath,
@@ -167,7 +158,9 @@ class _Maker:
             raise AssertionError(f"{slot.name} is no field")
         derived = isinstance(slot, Number) and slot.counts
         bounds = _counted(self.message, slot) or _range(slot, count)
-        return self.view(slot.field, path, offset, key, _type(slot), bounds, derived=derived)
+        is_text = isinstance(slot, Number) and slot.field.text
+        type_ = "text" if is_text else ", ".join(filter(None, (said.kind, said.order_in_words)))
+        return self.view(slot.field, path, offset, key, type_, bounds, derived=derived)
 
     def view(
         self,
@@ -271,15 +264,6 @@ def _on_the_wire(field: NumberField | ListField) -> Iterator[str]:
         yield f"Reserved: written as {field.reserved}, read as anything, and never given."
     if field.optional:
         yield "May be absent, with all that is behind it."
-
-
-def order_in_words(order: str) -> str:
-    """Say which byte of a number comes first."""
-    return f"Its {_first(order)} byte comes first."
-
-
-def _first(order: str) -> str:
-    return "low" if order == "little" else "high"
 
 
 def _beside(name: str, field: NumberField | ListField) -> list[str]:

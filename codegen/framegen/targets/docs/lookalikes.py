@@ -78,7 +78,7 @@ def lookalike_views(model: Model) -> list[LookalikeEntry]:
             other.title,
             paragraphs(other.about),
             cite_view(model.spec, other.cite),
-            parts_strip(model.lookalikes[key]) if other.frame else [],
+            parts_strip(model.plain.lookalikes[key].frame) if other.frame else [],
             _checksums(model.lookalikes[key]) if other.frame else [],
             [_frame(model, model.lookalikes[key], each.title, each.hex) for each in other.examples],
             _commands(model, other),

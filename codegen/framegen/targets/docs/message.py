@@ -259,7 +259,7 @@ class MessagePage:
     @cached_property
     def cells(self) -> list[Cell]:
         """The byte strip of any frame of the message."""
-        return pattern_strip(self.layout)
+        return pattern_strip(self.model.plain.messages[self.name])
 
     @property
     def parameters(self) -> list[Cell]:

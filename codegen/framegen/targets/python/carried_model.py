@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.model.data import model_data
 from framegen.output import banner
+from framegen.targets.python.client_snippet import client_snippet
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.names import names_of
 from framegen.targets.python.snippet import codec_snippet
@@ -40,8 +41,10 @@ def _usage(model: Model, layout: MessageLayout, methods: dict[str, Method]) -> d
     example, program = layout.message.examples[0], model.spec.protocol.name
     given = MessageView(message, library).command_words(names.values(layout.name, example.values))
     words = " ".join([message.name, *given])
+    client = client_snippet(library, message)
     usage: dict[str, Any] = {
         "python": codec_snippet(model, layout, example).rstrip().split("\n"),
+        **({"client": client.rstrip().split("\n")} if client else {}),
         "shell": [f"{program} encode {words}"],
     }
     if message.name != layout.name:

@@ -28,6 +28,7 @@ SHARED = {
             "closest",
             "explanation",
             "lookalikes",
+            "pattern",
             "protocol",
             "refusals",
             "text",
