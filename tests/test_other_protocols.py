@@ -90,13 +90,19 @@ def prose(text: str) -> tuple[str, ...]:
     return tuple(lines)
 
 
+# Names of the client in the programs that a library's reference shows.
+CODE = re.compile(
+    r"\bopen_controller\b|\bas controller:|\bcontroller\.\w+\(|socket://host:port|rfc2217://host:port"
+)
+
+
 def mentions(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
     """Return where one of the words stands."""
     return [
         f"{path}: {line.strip()}"
         for path, text in files.items()
         for line in (prose(text) if path.endswith((".py", ".pyi")) else text.split("\n"))
-        if words.search(line.replace("socket://host:port", "").replace("rfc2217://host:port", ""))
+        if words.search(CODE.sub("", line))
     ]
 
 

@@ -68,9 +68,14 @@ def near(folder: Path) -> Path:
     return min(relative, folder, key=lambda path: len(str(path)))
 
 
+def docs_folder(spec: Path) -> Path:
+    """Return the folder where a project has its guides and the settings of its site, if any."""
+    return near(project_root(spec)) / GUIDES
+
+
 def guides_folder(spec: Path) -> Path | None:
     """Return the folder of the guides of a project, if it has a README that lists them."""
-    folder = near(project_root(spec)) / GUIDES
+    folder = docs_folder(spec)
     return folder if (folder / "README.md").is_file() else None
 
 

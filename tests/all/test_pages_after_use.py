@@ -82,6 +82,27 @@ def test_every_page_is_whole_at_every_width_and_on_paper(visit: Visit, group: st
     assert found == {}
 
 
+# By how much code is cut, and how many lines it takes.
+_CUT_AND_LINES = """(box) => {
+    const { paddingTop, paddingBottom, lineHeight } = getComputedStyle(box);
+    const high = box.clientHeight - parseFloat(paddingTop) - parseFloat(paddingBottom);
+    return [box.scrollWidth - box.clientWidth, Math.round(high / parseFloat(lineHeight))];
+}"""
+
+
+def test_the_code_of_the_landing_page_is_cut_at_no_width(visit: Visit) -> None:
+    tab = visit.open("index.html")
+    for width in (320, 375, 768, 1024, 1440):
+        tab.set_viewport_size({"width": width, "height": 900})
+        boxes = tab.locator(".hero-code pre")
+        assert boxes.count() == 2
+        # The lines of code stand as they were written: none is cut, none is broken.
+        lines = [text.rstrip().count("\n") + 1 for text in boxes.all_text_contents()]
+        assert [box.evaluate(_CUT_AND_LINES) for box in boxes.all()] == [
+            [0, each] for each in lines
+        ], width
+
+
 # ---------------------------------------------------------------------------- each use
 
 

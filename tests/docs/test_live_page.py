@@ -14,6 +14,13 @@ from tests.docs.serial_host import LiveTab, SerialHost, VirtualEnd
 if TYPE_CHECKING:
     from pathlib import Path
 
+# Press a button twice before anything else can happen, and return what is said of it.
+TWICE = """(send) => {
+    send.click();
+    send.click();
+    return document.querySelector("#line-reply").textContent;
+}"""
+
 
 @needs_chromium
 def test_a_page_asks_a_board_and_records_the_answer(tmp_path: Path) -> None:
@@ -28,11 +35,15 @@ def test_a_page_asks_a_board_and_records_the_answer(tmp_path: Path) -> None:
         assert "after BatteryVoltageRead was sent" in live.reply(
             "BatteryVoltage voltage_mv=7123 mV, "
         )
+        # What is pressed before the reply has come is sent behind it, and says so.
+        said = live.tab.locator("#line-send").evaluate(TWICE)
+        assert said.startswith("BatteryVoltageRead is sent once the question before it is ")
+        live.count("frames", 3)
         entries = [*recordings.read(io.BytesIO(live.recording()))]
         assert [(entry.sender, entry.event) for entry in entries] == [
             ("host", BatteryVoltageRead()),
             ("controller", BatteryVoltage(7123)),
-        ]
+        ] * 3
         live.close()
         assert host.opened == [{"baudRate": 9600, "dataBits": 8, "parity": "none", "stopBits": 1}]
         assert not host.is_open

@@ -123,6 +123,18 @@ def test_an_icon_stands_for_a_logo_and_a_logo_for_an_icon() -> None:
     assert (both.logo, both.icon) == ("images/a.svg", "images/b.svg")
 
 
+@pytest.mark.parametrize("named", [["spec/greenhouse.yaml"], []], ids=["a spec", "no spec"])
+def test_a_reference_alone_wears_it_too(project: Path, named: list[str]) -> None:
+    (project / "docs" / "site.yaml").write_text(OWN, encoding="utf-8")
+    (project / "docs" / "README.md").unlink()
+    assert main(["docs", *named, "--out", "built"]) == 0
+    page = Page("index.html", Path("built/index.html").read_text(encoding="utf-8"))
+    assert title(page) == "<b>Lamps</b> & more"
+    assert "<script>alert(1)</script> & friends" in page.words
+    assert "--accent: #b3001b;" in page.styles[0]
+    assert Path("built/images/our logo.svg").read_bytes() == SVG
+
+
 @needs_chromium
 def test_a_site_of_ones_own_fits_every_width_and_loads_nothing_from_elsewhere(
     project: Path,

@@ -363,6 +363,28 @@ def test_a_reply_of_another_size_is_no_answer(
     assert outcomes(found) == [outcome]
 
 
+def test_what_cannot_be_sent_yet_waits_in_order() -> None:
+    """A question waits for the reply to that before; what nothing answers waits behind it."""
+    program = """
+    const sent = [];
+    let isWaiting = false;
+    const hand = (each) => { sent.push(each); if (each.startsWith("ask")) isWaiting = true; };
+    const queue = makeSendQueue((each) => isWaiting && each.startsWith("ask"), hand);
+    const places = ["ask 1", "tell 2", "ask 3", "tell 4", "ask 5"].map(queue.add);
+    isWaiting = false;
+    queue.pump();
+    const many = Array.from({ length: QUEUE_BOUND }, () => queue.add("ask 6"));
+    return [places, sent, many.slice(-2), queue.clear().length, queue.clear().length];
+    """
+    assert answers(program) == [
+        [0, 0, 1, 2, 3],
+        ["ask 1", "tell 2", "ask 3", "tell 4"],
+        [16, None],
+        16,
+        0,
+    ]
+
+
 def test_half_a_frame_does_not_grow_together_with_the_next() -> None:
     gap = GAP * 1000
     found = talk([(0, "received", VOLTAGE[:4]), (gap, "tick", b""), (gap + 1, "received", VOLTAGE)])

@@ -59,7 +59,7 @@ def run(arguments: Namespace) -> int:
 
     from framegen.commands.spec_argument import compiled, print_findings, spec_file  # noqa: PLC0415
     from framegen.output import Output  # noqa: PLC0415
-    from framegen.project import all_specs, guides_folder  # noqa: PLC0415
+    from framegen.project import all_specs, docs_folder, guides_folder  # noqa: PLC0415
     from framegen.render import snippets  # noqa: PLC0415
     from framegen.site.project import read_project  # noqa: PLC0415
     from framegen.site.publication import base_address  # noqa: PLC0415
@@ -72,7 +72,8 @@ def run(arguments: Namespace) -> int:
     if print_findings([*specs.values()]):
         return 1
     docs = guides_folder(files[0])
-    site = Site(read_project(specs, None if arguments.spec else docs, base), snippets())
+    guides = None if arguments.spec else docs
+    site = Site(read_project(specs, guides, base, docs_folder(files[0])), snippets())
     pages = rendered(site)
     if _print_lost([*lost(site, pages)], strict=arguments.strict):
         return 1

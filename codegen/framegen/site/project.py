@@ -47,24 +47,30 @@ class Project:
 
 
 def read_project(
-    specs: Mapping[Path, Compiled], docs: Path | None = None, base: str = ""
+    specs: Mapping[Path, Compiled],
+    docs: Path | None = None,
+    base: str = "",
+    settings: Path | None = None,
 ) -> Project:
     """Read what was released of specs, by their files, and the guides below a folder.
 
     With the guides come others that their README lists, the pictures in them, and the files that
-    they link to, and the look of the site. Raises Unusable, with the name of the file.
+    they link to. The look of the site is that of the folder `settings`, or of the guides. Raises
+    Unusable, with the name of the file.
     """
     names = {file: compiled.spec.protocol.name for file, compiled in specs.items()}
     _refuse_twins(names)
     editions = {name: read_released(file, name) for file, name in names.items()}
+    folder = settings or docs
+    look = Look() if folder is None else read_look(folder)
     if docs is None:
-        return Project([*specs.values()], base=base, released=editions)
+        compiled = [*specs.values()]
+        return Project(compiled, {}, look.pictures, base, released=editions, look=look)
     guides = {path: _text(docs / path) for path in _guides(docs, names.values())}
     guides |= _listed(docs, Plan(guides[README]))
-    look = read_look(docs)
     files = {**pictures(docs), **linked_files(guides, docs), **look.pictures}
-    version, folder = _version(docs.parent), docs.as_posix()
-    return Project([*specs.values()], guides, files, base, version, editions, folder, look)
+    version, shown = _version(docs.parent), docs.as_posix()
+    return Project([*specs.values()], guides, files, base, version, editions, shown, look)
 
 
 def _refuse_twins(names: Mapping[Path, str]) -> None:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 LINE_SCRIPT = (
     "serial_line",
     "serial_echo",
+    "serial_queue",
     "serial_replies",
     "serial_recording",
     "serial_limits",

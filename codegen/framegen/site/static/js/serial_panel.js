@@ -61,6 +61,7 @@ function showLine(protocol, codec) {
   function end(why) {
     if (!session) return;
     session.end();
+    for (const { message } of queue.clear()) comment(`${message} was not sent`);
     session = null;
     clearTimeout(timer);
     comment(why);
@@ -89,6 +90,7 @@ function showLine(protocol, codec) {
         tick(then, then > at + QUIET_MS && !document.hidden && !isLate);
       }, Math.max(0, at - now));
     }
+    queue.pump();
     count();
   }
 
@@ -162,13 +164,16 @@ function showLine(protocol, codec) {
     comment(what);
   }
 
-  async function send() {
-    const { message, bytes } = encoded;
-    if (!session || !bytes) return;
-    if (session.waiting && data.exchanges[message].reply) {
-      reply("One question at a time: the reply to the one before is still waited for.");
-      return;
-    }
+  // One question at a time: what is sent before its reply is here waits for it.
+  const queue = makeSendQueue(({ message }) => session.waiting && data.exchanges[message].reply, hand);
+
+  function send() {
+    if (!session || !encoded.bytes) return;
+    const waiting = queue.add(encoded);
+    if (waiting !== 0) reply(wordsOfWaiting(encoded.message, waiting), waiting ? "" : "no");
+  }
+
+  async function hand({ message, bytes }) {
     let question = null;
     try {
       question = session.sent([...bytes], performance.now(), settings.limits());
@@ -189,7 +194,7 @@ function showLine(protocol, codec) {
       }
       reply(`${message} was not sent.${reasonOf(error)}`, "no");
       comment(`${message} was not sent`);
-      count();
+      tick(performance.now());
     }
   }
 

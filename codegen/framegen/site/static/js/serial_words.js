@@ -71,6 +71,13 @@ function wordsOfFault(error) {
 
 const milliseconds = (ms) => (ms < 10 ? `${ms.toFixed(1)} ms` : `${Math.round(ms)} ms`);
 
+// What becomes of a message that cannot be sent yet; `waiting` are as many, null where it is not among them.
+function wordsOfWaiting(name, waiting) {
+  if (waiting === null) return `${name} is not sent: ${QUEUE_BOUND} messages wait to be sent already.`;
+  const others = waiting > 1 ? ` ${waiting} messages wait.` : "";
+  return `${name} is sent once the question before it is answered, or given up.${others}`;
+}
+
 // What comes back for a message, before it is sent.
 function wordsOfExchange(name, kind, data) {
   if (!kind) return "";
