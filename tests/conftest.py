@@ -19,9 +19,11 @@ from collections import defaultdict
 from contextlib import suppress
 from datetime import datetime, timezone
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+import pytest
 from framegen.compile import compile_spec
 from framegen.language.load import read_source
 from framegen.reading.yamltree import Unusable
@@ -33,8 +35,6 @@ from tests.draws import draw_the_same
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import pytest
 
 # How long something takes to draw says more about the machine than about the test.
 TIMELESS = [HealthCheck.too_slow]
@@ -83,8 +83,21 @@ def pytest_configure(config: pytest.Config) -> None:
     """Choose the seed and what is run, once for all processes that share the work."""
     if config.option.seed is None:
         config.option.seed = datetime.now(timezone.utc).date().toordinal()
+    leave_out_settings(config)
     if config.args_source is not config.ArgsSource.ARGS and something_is_missing():
         config.args[:] = [f"{ROOT / 'tests' / 'test_missing.py'}::test_nothing_is_missing"]
+
+
+def leave_out_settings(config: pytest.Config) -> None:
+    """Have no command read what whoever runs the tests has set for boards of their own."""
+    here = [name for name in ("busservo.toml", "lxservo.toml") if (ROOT / name).exists()]
+    if here:
+        raise pytest.UsageError(f"the tests would read {', '.join(here)}: move that away")
+    folder = TemporaryDirectory()
+    config.add_cleanup(folder.cleanup)
+    os.environ |= {"XDG_CONFIG_HOME": folder.name, "APPDATA": folder.name}
+    for name in ("BUSSERVO_PORT", "LXSERVO_PORT"):
+        os.environ.pop(name, None)
 
 
 def something_is_missing() -> bool:

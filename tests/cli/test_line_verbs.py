@@ -162,6 +162,7 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
         (
             "busservo: error: no port is plugged in by USB; if it is one of these, name it:\n"
             "  --port COM1  not USB\n"
+            "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
         ),
     ),
     ([], "", [BUILT_IN], [BOARD], "hid://"),
@@ -175,6 +176,7 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
             "busservo: error: 2 ports are plugged in by USB; name the one that is meant:\n"
             "  --port COM3        USB Serial\n"
             "  --port /dev/cu.01  CP\\n2102\n"
+            "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
         ),
     ),
     (
@@ -184,7 +186,8 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
         [],
         (
             "busservo: error: no port is plugged in; plug in the device, or name a port: "
-            "--port PORT, or BUSSERVO_PORT=PORT; `busservo doctor` looks closer\n"
+            "--port PORT, BUSSERVO_PORT=PORT, or `port` in busservo.toml; `busservo doctor` looks "
+            "closer\n"
         ),
     ),
 ]

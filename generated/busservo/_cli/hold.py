@@ -10,7 +10,7 @@ from . import link
 from .exit_codes import DONE, NOT_ALL
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
-from .positions import find_present, hold_those_there, nobody, numbers, the_pose
+from .positions import SEVERAL, find_present, hold_those_there, nobody, numbers, the_pose
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ back. What does not answer is named; the rest is held all the same."""
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument(
-        "ids", nargs="*", type=numbers, metavar="ID", help="1, 2 or 1-6 (default: all that answer)"
+        "ids", nargs="*", type=numbers, metavar="ID", help=f"1, 2 or 1-6 (default: {SEVERAL})"
     )
     add_port(parser)
     add_limits(parser)
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Hold what answers, and say what was held."""
-    limits = limits_of(arguments)
+    limits = limits_of(arguments).allowed
     with failures_reported(), open_client(arguments, limits=limits) as controller:
         return held(controller, arguments)
 
@@ -46,11 +46,11 @@ def held(controller: Client, arguments: argparse.Namespace) -> int:
     pose = the_pose()
     asked = tuple(dict.fromkeys(number for each in arguments.ids for number in each))
     try:
-        ids = asked or find_present(controller, pose)
+        ids = asked or arguments.settings.ids or find_present(controller, pose)
         if not ids:
             print(nobody(pose), file=sys.stderr)
             return NOT_ALL
-        done = hold_those_there(controller, pose, ids, limits_of(arguments))
+        done = hold_those_there(controller, pose, ids, limits_of(arguments).allowed)
     except NoReplyError as error:
         print(error, file=sys.stderr)
         return NOT_ALL

@@ -4,17 +4,49 @@
 from __future__ import annotations
 
 import argparse
+from typing import NamedTuple
 
 from .._client.exchanges import LIMITS
+from .examples import PROGRAM
 from .numerals import whole
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .._client.limits import Bounds
+    from .._client.limits import Allowed, Bounds
     from .._frame.errors import LimitError
 
-_ANY = "none"
+ANY = "none"
+"""What stands in the place of limits where anything may be sent."""
+
+
+class Chosen(NamedTuple):
+    """The limits that were chosen, and the file that says so; empty if an option does."""
+
+    allowed: Allowed
+    source: str = ""
+
+    def refused(self, error: LimitError) -> UsageError:
+        """Return the error for a refused value, in the words of the command line."""
+        return self.outside(error.path, error.value, error.limits, error.owner)
+
+    def outside(self, place: str, value: object, bounds: Bounds, owner: str = "") -> UsageError:
+        """Return the error for a value outside its limits, with the other limits there are.
+
+        `owner` says whose limits these are, if each has its own.
+        """
+        known = {"what is usual": LIMITS.usual, **LIMITS.others}
+        others = [
+            f"--limits {_written(each)} is for {name}"
+            for name, each in known.items()
+            if each is not None and isinstance(value, int) and each[0] <= value <= each[1]
+        ]
+        whose = f" of {owner}" if owner else ""
+        # The file need not name each of them: others have the usual limits.
+        whose += f" in {self.source}" if self.source and bounds != LIMITS.usual else ""
+        ways = ", ".join([*others, f"--limits {ANY} sends anything"])
+        problem = f"{value} is outside the limits {_written(bounds)}{whose}"
+        return UsageError(f"{place}: {problem}; {ways}")
 
 
 def add_limits(parser: argparse.ArgumentParser) -> None:
@@ -25,43 +57,25 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--limits",
         type=_limits,
-        default=LIMITS.usual,
         metavar="LOW..HIGH",
-        help=f"what may be sent; {_ANY} for anything{others} "
-        f"(default: {_written(LIMITS.usual)})".replace("%", "%%"),
+        help=f"what may be sent; {ANY} for anything{others} "
+        f"(default: those of {PROGRAM}.toml, else {_written(LIMITS.usual)})".replace("%", "%%"),
     )
 
 
-def limits_of(arguments: argparse.Namespace) -> Bounds | None:
-    """Return the limits that were chosen."""
-    chosen: Bounds | None = getattr(arguments, "limits", None)
+def limits_of(arguments: argparse.Namespace) -> Chosen:
+    """Return the limits that were chosen; none for a verb without that option."""
+    chosen: Chosen = getattr(arguments, "limits", Chosen(None))
     return chosen
-
-
-def refused(error: LimitError) -> UsageError:
-    """Return the error for a refused value, in the words of the command line."""
-    return outside(error.path, error.value, error.limits)
-
-
-def outside(place: str, value: object, limits: Bounds) -> UsageError:
-    """Return the error for a value outside the limits, with the other limits there are."""
-    known = {"what is usual": LIMITS.usual, **LIMITS.others}
-    others = [
-        f"--limits {_written(each)} is for {name}"
-        for name, each in known.items()
-        if each is not None and isinstance(value, int) and each[0] <= value <= each[1]
-    ]
-    ways = ", ".join([*others, f"--limits {_ANY} sends anything"])
-    return UsageError(f"{place}: {value} is outside the limits {_written(limits)}; {ways}")
 
 
 def _written(bounds: Bounds) -> str:
     return f"{bounds[0]}..{bounds[1]}"
 
 
-def _limits(text: str) -> Bounds | None:
-    if text == _ANY:
-        return None
+def _limits(text: str) -> Chosen:
+    if text == ANY:
+        return Chosen(None)
     low, dots, high = text.partition("..")
     try:
         bounds = whole(low), whole(high)
@@ -70,6 +84,6 @@ def _limits(text: str) -> Bounds | None:
     if not dots or bounds[0] > bounds[1]:
         usual = "" if LIMITS.usual is None else f"like {_written(LIMITS.usual)}"
         raise argparse.ArgumentTypeError(
-            f"{text[:40]!r} is no LOW..HIGH: write it {usual}, or {_ANY}"
+            f"{text[:40]!r} is no LOW..HIGH: write it {usual}, or {ANY}"
         )
-    return bounds
+    return Chosen(bounds)

@@ -25,9 +25,9 @@ from .values import fields_as_text
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from .._client.client import Client
-    from .._client.limits import Bounds
     from .._client.pose import Pose
     from .._frame.message import Message
+    from .limits import Chosen
     from .posefile import Recorded
 
 ENDS = link.ENDS
@@ -68,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Play a file, or only print what it would send."""
     pose, limits = the_pose(), limits_of(arguments)
     poses = read_poses(arguments.file, pose)
-    check_limits(arguments.file, poses, limits)
+    check_limits(arguments.file, poses, pose, limits)
     if not poses:
         raise UsageError(f"{arguments.file} holds no pose")
     steps = [_Step(at, each, pose, arguments) for at, each in enumerate(poses, 1)]
@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
         total = pluralize(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
-    with failures_reported(), open_client(arguments, limits=limits) as controller:
+    with failures_reported(), open_client(arguments, limits=limits.allowed) as controller:
         return _play(controller, steps, arguments.repeat, limits)
 
 
@@ -104,7 +104,7 @@ class _Step:
         return f"{at:12.6f}  pose {self.number}  {what}"
 
 
-def _play(controller: Client, steps: list[_Step], times: int, limits: Bounds | None) -> int:
+def _play(controller: Client, steps: list[_Step], times: int, limits: Chosen) -> int:
     began = time.monotonic()
     done = 0
     try:

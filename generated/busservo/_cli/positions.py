@@ -12,17 +12,20 @@ from .._client.pose import HOLD_MS
 from .._frame.errors import LimitError
 from .._serial.link_errors import AbsentError, NoReplyError
 from .exit_codes import INTERRUPTED
-from .limits import refused
 from .numerals import ranges
+from .settings import FILE
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from .._client.client import Client
-    from .._client.limits import Bounds
+    from .._client.limits import Allowed
     from .._client.pose import Pose
+    from .limits import Chosen
 
+# Which are meant where none are named, in words.
+SEVERAL = f"those in {FILE}, else all that answer"
 # Errors of reading positions that may be over at the next attempt.
 UNREAD = (AbsentError, LimitError, NoReplyError)
 
@@ -40,14 +43,14 @@ def find_present(controller: Client, pose: Pose) -> tuple[int, ...]:
 
 
 def read_targets(
-    controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None
+    controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed
 ) -> list[tuple[int, int]]:
     """Return the current positions, as targets. Raises one of UNREAD unless all are present."""
     exchanged = [(each, controller.request(each)) for each in parts_of(pose.read, ids)]
     return pose.held(exchanged, limits)
 
 
-def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None) -> None:
+def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed) -> None:
     """Command the current positions. Raises one of UNREAD."""
     targets = read_targets(controller, pose, ids, limits)
     # As many motions as it takes: the first is sent before the next is made.
@@ -55,9 +58,7 @@ def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | No
         controller.send(pose.motion(targets[at : at + pose.room], HOLD_MS))
 
 
-def hold_those_there(
-    controller: Client, pose: Pose, ids: Sequence[int], limits: Bounds | None
-) -> bool:
+def hold_those_there(controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed) -> bool:
     """Command the current positions of those that answer, and say which; whether that is all.
 
     Of each other it says why it is not held. Raises NoReplyError if nobody answers.
@@ -74,14 +75,14 @@ def hold_those_there(
     return not holding.left
 
 
-def stopped_by_hand(controller: Client, ids: Sequence[int], limits: Bounds | None) -> int:
+def stopped_by_hand(controller: Client, ids: Sequence[int], limits: Chosen) -> int:
     """Hold what moves, because Ctrl-C was pressed, and say so; return the exit status."""
     print(file=sys.stderr)
     if POSE is None or not ids:
         print("what was sent goes on to its end", file=sys.stderr)
         return INTERRUPTED
     try:
-        hold_those_there(controller, POSE, ids, limits)
+        hold_those_there(controller, POSE, ids, limits.allowed)
     except NoReplyError as error:
         print(f"the motion under way goes on to its end: {error}", file=sys.stderr)
     return INTERRUPTED
@@ -98,9 +99,9 @@ def listed(pose: Pose, ids: Iterable[int]) -> str:
     return f"{pose.noun}{'' if len(numbers) == 1 else 's'} {', '.join(numbers)}"
 
 
-def in_options(error: Exception) -> str:
+def in_options(error: Exception, limits: Chosen) -> str:
     """Return the error, in the words of the command line."""
-    return str(refused(error) if isinstance(error, LimitError) else error)
+    return str(limits.refused(error) if isinstance(error, LimitError) else error)
 
 
 def numbers(text: str) -> tuple[int, ...]:

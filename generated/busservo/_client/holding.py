@@ -46,7 +46,8 @@ class Holding:
             try:
                 self._targets += self._pose.targets_of([each], self._limits)
             except LimitError as error:
-                self.left[number] = f"{error.value} is outside the limits"
+                low, high = error.limits
+                self.left[number] = f"{error.value} is outside the limits {low}..{high}"
 
     def commands(self) -> Iterator[Message]:
         """Yield the motions to where they are, as many as it takes; each holds once it is sent."""

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     import argparse
 
     from .._client.client import Client
-    from .._client.limits import Bounds
     from .._frame.message import Message
+    from .limits import Chosen
 
 
 class MethodVerb:
@@ -81,9 +81,10 @@ class MethodVerb:
         messages = self.messages(arguments)
         note_deprecated(self.kind)
         retries = getattr(arguments, "retries", 0)
+        limits = limits_of(arguments)
         with (
             failures_reported(),
-            open_client(arguments, retries=retries, limits=limits_of(arguments)) as controller,
+            open_client(arguments, retries=retries, limits=limits.allowed) as controller,
         ):
             messages = messages or self.without_words(controller)
             if self._exchange.reply is not None:
@@ -112,7 +113,7 @@ class MethodVerb:
     ) -> int:
         """Send what nothing answers, and wait until its effect is over if that lasts."""
         try:
-            sent = send.commanded(controller, message)
+            sent = send.commanded(controller, message, limits_of(arguments))
             if self._lasts and not arguments.no_wait:
                 left = sent.delay + sent.duration + self._exchange.seconds(message)
                 slept(time.monotonic() + left, "over")
@@ -120,7 +121,7 @@ class MethodVerb:
             return self.interrupted(controller, message, limits_of(arguments))
         return DONE
 
-    def interrupted(self, _controller: Client, message: Message, _limits: Bounds | None, /) -> int:
+    def interrupted(self, _controller: Client, message: Message, _limits: Chosen, /) -> int:
         """Say what becomes of a message whose end is not waited for; return the exit status."""
         print(f"\n{type(message).__name__} goes on to its end", file=sys.stderr)
         return INTERRUPTED

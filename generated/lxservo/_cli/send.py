@@ -15,7 +15,7 @@ from . import link
 from .encode import note_deprecated
 from .entries import EntryLines
 from .exit_codes import DONE, NOT_ALL
-from .limits import add_limits, limits_of, refused
+from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
 from .numerals import at_least
 from .progress_thread import shown_progress
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .._client.client import Client
     from .._client.request import Sent
     from .._frame.message import Message
+    from .limits import Chosen
 
 _NOT_ALL = "no reply came in time, or it reported less than was requested"
 if any(each.failures is not UNFAILING for each in EXCHANGES.values()):
@@ -70,7 +71,7 @@ def run(arguments: Namespace) -> int:
     with (
         failures_reported(),
         open_client(
-            arguments, retries=arguments.retries, limits=limits_of(arguments)
+            arguments, retries=arguments.retries, limits=limits_of(arguments).allowed
         ) as controller,
     ):
         return exchanged(controller, messages, arguments)
@@ -86,7 +87,7 @@ def exchanged(controller: Client, messages: list[Message], arguments: Namespace)
     unanswered: ProtocolError | None = None
     for message in messages:
         try:
-            replies = _answers(controller, message, arguments.timeout)
+            replies = _answers(controller, message, arguments)
         except TransportError:
             raise
         except ProtocolError as error:
@@ -106,17 +107,17 @@ def exchanged(controller: Client, messages: list[Message], arguments: Namespace)
     return NOT_ALL if unanswered is not None or any(missing.values()) else DONE
 
 
-def commanded(controller: Client, message: Message) -> Sent:
+def commanded(controller: Client, message: Message, limits: Chosen) -> Sent:
     """Send a message that nothing answers. Raises UsageError for what is not sent."""
     try:
         return controller.send(message)
     except LimitError as error:
-        raise refused(error) from None
+        raise limits.refused(error) from None
     except EncodeError as error:
         raise UsageError(str(error)) from None
 
 
-def _answers(controller: Client, message: Message, timeout: float) -> list[Message]:
+def _answers(controller: Client, message: Message, arguments: Namespace) -> list[Message]:
     """Return the reply to a request, and of one to all whatever comes in time; none to a command.
 
     Raises UsageError for what is not sent.
@@ -125,14 +126,14 @@ def _answers(controller: Client, message: Message, timeout: float) -> list[Messa
     reply = exchange.reply
     try:
         if reply is None:
-            commanded(controller, message)
+            commanded(controller, message, limits_of(arguments))
             return []
         with shown_progress(lambda waited: f"waiting for {reply.__name__}, {waited:.0f} s"):
             if exchange.address.silence(message):
-                return _gathered(controller, message, timeout)
+                return _gathered(controller, message, arguments.timeout)
             return [controller.request(message)]
     except LimitError as error:
-        raise refused(error) from None
+        raise limits_of(arguments).refused(error) from None
     except EncodeError as error:
         raise UsageError(str(error)) from None
 

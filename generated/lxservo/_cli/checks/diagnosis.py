@@ -37,7 +37,8 @@ class Diagnosis:
     `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
     at a rate, `ports` and `hid_devices` return what is plugged in, and `clock` returns seconds;
     tests replace all of them. With `local_echo`, an echo is expected of what is sent. `question` is
-    put to the device where another than the usual one is meant.
+    put to the device where another than the usual one is meant. `named_by` says what names the
+    port, where no option does.
     """
 
     def __init__(
@@ -48,6 +49,7 @@ class Diagnosis:
         reply_timeout: float = 0.25,
         local_echo: bool = LOCAL_ECHO,
         question: Message | None = None,
+        named_by: str = "",
         opener: Callable[[str, float], Transport] | None = None,
         ports: Callable[[], list[SerialPortSeen]] = serial_ports,
         hid_devices: Callable[[], list[HidDevice] | None] = hid_devices_at_hand,
@@ -58,6 +60,7 @@ class Diagnosis:
         self.reply_timeout = reply_timeout
         self.local_echo = local_echo
         self.question = question
+        self.named_by = named_by
         self.ports = ports()
         self.hid_devices = hid_devices()
         self.log: list[Entry] = []
@@ -68,6 +71,8 @@ class Diagnosis:
         # What came unsolicited, and the round trips at the rate that proved right.
         self.unsolicited = Heard([])
         self.trips: list[Trip] = []
+        # The numbers of those that are there behind the device.
+        self.present: tuple[int, ...] = ()
         # What came at other rates, with each.
         self.strange: list[tuple[float, Heard]] = []
         self._clock = clock

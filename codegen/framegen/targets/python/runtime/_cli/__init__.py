@@ -46,7 +46,10 @@ def _run_verb(name: str, words: Sequence[str]) -> int:
         return handed
     parser = _parser(name, verb)
     # Intermixed, so that an option may stand between the words that it belongs to.
-    code: int = verb.run(parser.parse_intermixed_args(words))
+    arguments = parser.parse_intermixed_args(words)
+    if hasattr(arguments, "port"):
+        import_module(".settings", __package__).fill_in(arguments)
+    code: int = verb.run(arguments)
     return code
 
 

@@ -11,6 +11,7 @@ from .._frame.errors import EncodeError
 from . import link
 from .checks.checks import CHECKS, examine
 from .checks.diagnosis import Diagnosis
+from .checks.keep import worth_keeping
 from .checks.move import STEP, move_check
 from .checks.question import address_field, harmless_question
 from .checks.report import Report
@@ -22,6 +23,7 @@ from .link import add_port, add_timeout, failures_reported, open_line
 from .numerals import at_least
 from .plain_text import plain_text
 from .progress_thread import shown_progress
+from .settings import FILE
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
     from .._serial.transport import Transport
     from .checks.check import Check
     from .checks.result import Result
+    from .settings import Settings
 
 ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
 ABOUT = f"""\
@@ -66,6 +69,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--model", default="", metavar="TEXT", help="what the device is, for the report"
     )
+    saved = "port, rate and ids" if POSE is not None else "port and rate"
+    parser.add_argument(
+        "--save", action="store_true", help=f"if no check fails, keep {saved} in {FILE}"
+    )
     parser.add_argument("--json", action="store_true", help="print each check as a line of JSON")
 
 
@@ -82,6 +89,7 @@ def run(arguments: Namespace) -> int:
         reply_timeout=arguments.timeout,
         local_echo=arguments.local_echo,
         question=_question(arguments.address) if _ADDRESS else None,
+        named_by=arguments.port_from,
         opener=_open,
     )
     findings: list[tuple[Check, Result]] = []
@@ -99,9 +107,25 @@ def run(arguments: Namespace) -> int:
     states = [result.state for _, result in findings]
     totals = ", ".join(f"{states.count(each)} {each}" for each in STATES)
     print(totals, file=sys.stderr)
+    if arguments.save:
+        _save(diagnosis, arguments.settings, failed=FAILED in states)
     if diagnosis.lost:
         return LINE_LOST
     return NOT_ALL if FAILED in states else DONE
+
+
+def _save(diagnosis: Diagnosis, before: Settings, *, failed: bool) -> None:
+    """Keep what the checks were made with, and found; or say why not."""
+    values = {} if failed else worth_keeping(diagnosis, before)
+    if not values:
+        why = "a check has failed" if failed else "nothing has answered"
+        print(f"nothing saved: {why}", file=sys.stderr)
+        return
+    # Reads TOML, which only this needs.
+    from .settings_save import save
+
+    path, lines = save(before.path, values)
+    print(f"saved in {path}: {lines}", file=sys.stderr)
 
 
 def _question(address: int | None) -> Message | None:

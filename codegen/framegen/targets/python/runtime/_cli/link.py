@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import math
-import os
 import signal
 import sys
 from argparse import BooleanOptionalAction
@@ -15,7 +14,7 @@ from .._client.client import Client
 from .._client.controller import Controller
 from .._client.exchanges import LIMITS
 from .._frame.pluralize import pluralize
-from .._frame.protocol import BAUD, LOCAL_ECHO
+from .._frame.protocol import BAUD
 from .._serial.hid_devices import hid_devices_at_hand
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from .._serial.serial_port import open_transport, serial_ports
@@ -24,6 +23,7 @@ from .examples import PROGRAM
 from .exit_codes import LINE_LOST, TERMINATED
 from .numerals import above_zero, at_least
 from .progress_thread import shown_progress
+from .settings import FILE, VARIABLE
 from .usage_error import LineLostError, UsageError
 
 TYPE_CHECKING = False
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator, Sequence
 
-    from .._client.limits import Bounds
+    from .._client.limits import Allowed
     from .._serial.hid_devices import HidDevice
     from .._serial.serial_port import SerialPortSeen
     from .._serial.transport import Transport
@@ -40,8 +40,6 @@ ENDS = {
     LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
     TERMINATED: "ended by SIGTERM, as `timeout 10 ...` does",
 }
-# The environment variable that names the port where no option does.
-VARIABLE = f"{PROGRAM.upper()}_PORT"
 # The longest wait that can be chosen, so that none is without end.
 _LONGEST = 3600.0
 
@@ -49,27 +47,27 @@ _LONGEST = 3600.0
 def add_port(parser: argparse.ArgumentParser, *, client: bool = True) -> None:
     """Declare the options that name the port and describe its line.
 
-    `client` is whether a client is opened on it; only a client handles a local echo.
+    What is not given, `settings` fills in. `client` is whether a client is opened on it; only a
+    client handles a local echo.
     """
     parser.add_argument(
         "--port",
-        default=os.environ.get(VARIABLE) or None,
         metavar="PORT",
         help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them "
-        f"(default: the environment variable {VARIABLE}, else the only port on USB)",
+        f"(default: the environment variable {VARIABLE}, else {FILE} in this folder or the user's, "
+        "else the only port on USB)",
     )
     parser.add_argument(
         "--baud",
         type=_rate,
-        default=BAUD,
         metavar="BAUD",
-        help=f"the rate of the line; inf: bytes take no time, as over TCP (default: {BAUD})",
+        help=f"the rate of the line; inf: bytes take no time, as over TCP "
+        f"(default: of {FILE}, else {BAUD})",
     )
     if client:
         parser.add_argument(
             "--local-echo",
-            action=BooleanOptionalAction if LOCAL_ECHO else "store_true",
-            default=LOCAL_ECHO,
+            action=BooleanOptionalAction,
             help="the line echoes what is sent, as adapters for half-duplex wires do",
         )
 
@@ -87,10 +85,12 @@ def port_of(arguments: argparse.Namespace) -> str:
         return only
     likely = plugged_in(ports) or ports
     if not likely:
-        advice = f"plug in the device, or name a port: --port PORT, or {VARIABLE}=PORT"
+        advice = "plug in the device, or name a port: --port PORT"
+        advice += f", {VARIABLE}=PORT, or `port` in {FILE}"
         raise UsageError(f"no port is plugged in; {advice}; `{PROGRAM} doctor` looks closer")
     width = max(len(each.name) for each in likely)
     choices = [f"--port {each.name:<{width}}  {each.product or 'not USB'}" for each in likely]
+    choices.append(f"{PROGRAM} doctor --port PORT --save  keeps one in {FILE}")
     if plugged_in(ports):
         several = pluralize(len(likely), "port")
         raise UsageError(f"{several} are plugged in by USB; name the one that is meant:", choices)
@@ -147,7 +147,7 @@ def open_client(
     arguments: argparse.Namespace,
     *,
     retries: int = 0,
-    limits: Bounds | None = LIMITS.usual,
+    limits: Allowed = LIMITS.usual,
     settle: float | None = None,
 ) -> Client:
     """Open a client as open_line does, with the times that the arguments give."""

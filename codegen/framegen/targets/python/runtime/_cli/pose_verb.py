@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from argparse import Namespace
 
     from .._client.client import Client
-    from .._client.limits import Bounds
     from .._frame.message import Message
+    from .limits import Chosen
 
 
 class PoseVerb(MethodVerb):
@@ -27,7 +27,8 @@ class PoseVerb(MethodVerb):
     def messages(self, arguments: Namespace) -> list[Message]:
         """Return what to send; nothing where all positions are read."""
         if self.may_be_empty and not getattr(arguments, f"field {the_pose().requested}"):
-            return []
+            ids = arguments.settings.ids
+            return parts_of(self.kind, ids) if ids else []
         return super().messages(arguments)
 
     def without_words(self, controller: Client, /) -> list[Message]:
@@ -38,7 +39,7 @@ class PoseVerb(MethodVerb):
             raise UsageError(nobody(pose))
         return parts_of(self.kind, ids)
 
-    def interrupted(self, controller: Client, message: Message, limits: Bounds | None, /) -> int:
+    def interrupted(self, controller: Client, message: Message, limits: Chosen, /) -> int:
         """Hold what the message moves; return the exit status."""
         pose = the_pose()
         moved = [each[0] for each in getattr(message, pose.moved)]

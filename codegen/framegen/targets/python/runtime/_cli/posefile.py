@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 
 from .._frame.errors import EncodeError
 from .examples import PROGRAM
-from .limits import outside
 from .usage_error import UsageError
+from .whole_file import write_whole
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
-    from .._client.limits import Bounds
     from .._client.pose import Pose
+    from .limits import Chosen
 
 FORMAT = f"{PROGRAM} poses"
 VERSION = 1
@@ -64,26 +63,19 @@ def write_poses(path: Path, poses: Sequence[Recorded]) -> None:
         f'{{\n  "format": {json.dumps(FORMAT)},\n  "version": {VERSION},\n  "poses": [\n'
         f"{lines}\n  ]\n}}\n"
     )
-    # A link stays a link: the file that it leads to is written.
-    whole = path.resolve()
-    beside = whole.with_name(f".{whole.name}.{os.getpid()}")
-    try:
-        beside.write_text(text, encoding="utf-8", newline="\n")
-        beside.replace(whole)
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            beside.unlink()
-        raise UsageError(f"{path} cannot be written: {error.strerror or error}") from None
+    write_whole(path, text.encode())
 
 
-def check_limits(path: Path, poses: Iterable[Recorded], limits: Bounds | None) -> None:
-    """Raise UsageError for the first position that is outside the limits."""
-    if limits is None:
-        return
-    for at, pose in enumerate(poses):
-        for number, position in pose.positions.items():
-            if not limits[0] <= position <= limits[1]:
-                raise outside(f"{path}: poses[{at}].positions.{number}", position, limits)
+def check_limits(path: Path, poses: Iterable[Recorded], pose: Pose, limits: Chosen) -> None:
+    """Raise UsageError for the first position that is outside its limits."""
+    each_its_own = isinstance(limits.allowed, Mapping)
+    for at, recorded in enumerate(poses):
+        for number, position in recorded.positions.items():
+            bounds = pose.limits.of(number, limits.allowed)
+            if bounds is not None and not bounds[0] <= position <= bounds[1]:
+                owner = f"{pose.noun} {number}" if each_its_own else ""
+                place = f"{path}: poses[{at}].positions.{number}"
+                raise limits.outside(place, position, bounds, owner)
 
 
 def _plain(pose: Recorded) -> dict[str, Any]:

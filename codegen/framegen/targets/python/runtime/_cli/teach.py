@@ -14,6 +14,7 @@ from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
 from .posefile import Recorded, read_poses, write_poses
 from .positions import (
+    SEVERAL,
     UNREAD,
     find_present,
     hold,
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
     import argparse
 
     from .._client.client import Client
-    from .._client.limits import Bounds
     from .._client.pose import Pose
+    from .limits import Chosen
 
 ENDS = link.ENDS | {
     NOT_ALL: "no reply came in time, nothing was there to switch off, or nothing was recorded"
@@ -52,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--ids",
         type=numbers,
         metavar="1-6,9",
-        help="which to switch off and to record (default: all that answer)",
+        help=f"which to switch off and to record (default: {SEVERAL})",
     )
     kept = parser.add_mutually_exclusive_group()
     kept.add_argument("--append", action="store_true", help="add to the poses of FILE")
@@ -69,9 +70,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Record as long as somebody presses Enter."""
     pose = the_pose()
     kept = _kept(arguments, pose)
-    with failures_reported(), open_client(arguments, limits=limits_of(arguments)) as controller:
+    limits = limits_of(arguments)
+    with failures_reported(), open_client(arguments, limits=limits.allowed) as controller:
         try:
-            ids = arguments.ids or find_present(controller, pose)
+            ids = arguments.ids or arguments.settings.ids or find_present(controller, pose)
         except NoReplyError as error:
             print(error, file=sys.stderr)
             return NOT_ALL
@@ -81,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
         if len(ids) > pose.room:
             problem = f"{len(ids)} {pose.noun}s are too many: one motion moves up to {pose.room}"
             raise UsageError(f"{problem}; choose some with --ids")
-        lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits_of(arguments))
+        lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits)
         if not arguments.yes and not _agreed(
             f"{listed(pose, ids)} will go limp, and what they hold up falls: support it. Go on?"
         ):
@@ -100,7 +102,7 @@ class _Lesson:
         ids: tuple[int, ...],
         path: Path,
         poses: list[Recorded],
-        limits: Bounds | None,
+        limits: Chosen,
     ) -> None:
         self._controller = controller
         self._pose = pose
@@ -144,9 +146,11 @@ class _Lesson:
                 )
                 continue
             try:
-                targets = read_targets(self._controller, self._pose, self._ids, self._limits)
+                targets = read_targets(
+                    self._controller, self._pose, self._ids, self._limits.allowed
+                )
             except UNREAD as error:
-                print(f"nothing recorded: {in_options(error)}", file=sys.stderr)
+                print(f"nothing recorded: {in_options(error, self._limits)}", file=sys.stderr)
                 continue
             pose = Recorded(dict(targets))
             write_poses(self._path, [*self._poses, pose])
@@ -157,9 +161,9 @@ class _Lesson:
 
     def _held(self) -> bool:
         try:
-            hold(self._controller, self._pose, self._ids, self._limits)
+            hold(self._controller, self._pose, self._ids, self._limits.allowed)
         except UNREAD as error:
-            print(f"not held: {in_options(error)}", file=sys.stderr)
+            print(f"not held: {in_options(error, self._limits)}", file=sys.stderr)
             return False
         return True
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..link import only_port, plugged_in
+from ..settings import FILE
 from .check import Check
 from .result import failed, passed, unknown
 
@@ -19,6 +20,13 @@ _PLUG_IN = (
 
 
 def _look(diagnosis: Diagnosis) -> Result:
+    result = _listed(diagnosis)
+    if not diagnosis.named_by:
+        return result
+    return result._replace(seen=f"{result.seen}; named by {diagnosis.named_by}")
+
+
+def _listed(diagnosis: Diagnosis) -> Result:
     found = ", ".join(str(each) for each in diagnosis.ports)
     if diagnosis.port is None:
         return _choose(diagnosis, found)
@@ -55,7 +63,8 @@ def _choose(diagnosis: Diagnosis, found: str) -> Result:
     if len(by_usb) > 1:
         return failed(
             f"{len(by_usb)} ports are plugged in: {', '.join(str(each) for each in by_usb)}",
-            "name the device's: --port NAME; it is the one that goes when you unplug the device",
+            "name the device's: --port NAME, with --save also for later, in "
+            f"{FILE}; it is the one that goes when you unplug the device",
         )
     return passed(f"the one that is plugged in is taken: {by_usb[0]}")
 

@@ -46,7 +46,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
             )
         replies.append(reply)
     frames = [reply.encode() for reply in replies]
-    there = pose.present_in(replies)
+    there = diagnosis.present = pose.present_in(replies)
     absent = sum(len(getattr(reply, pose.reported)) for reply in replies) - len(there)
     seen = f"{pose.noun}s that are there: {', '.join(map(str, there)) or 'none'}"
     seen += f"; reported absent: {absent}" if absent else ""

@@ -1,0 +1,182 @@
+"""What a file of settings may hold: TOML, of which every key is checked before any is used."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import sys
+from difflib import get_close_matches
+
+from .._client.exchanges import EXCHANGES, LIMITS, POSE
+from .limits import ANY, Chosen
+from .numerals import whole
+from .settings import Settings
+from .usage_error import UsageError
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from pathlib import Path
+    from typing import Any
+
+    from .._client.limits import Bounds
+
+# Where the reader of TOML says that an error is.
+_PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)\)$")
+# What its reasons mean to whoever has written a name of a port, or a key twice.
+_HINTS = {
+    "Invalid value": 'text stands in quotes: port = "COM7"',
+    "Cannot overwrite": "a key stands there once",
+    "\\": r"with backslashes, text stands in single quotes: port = '\\.\COM10'",
+}
+_MARK = b"\xef\xbb\xbf"  # that it is UTF-8, as some editors of Windows begin a file
+
+
+def parsed(path: Path, data: bytes) -> Settings:
+    """Return the settings in the bytes of a file. Raises UsageError that names path and key."""
+    return _Reader(path, text_of(path, data)).settings()
+
+
+def text_of(path: Path, data: bytes) -> str:
+    """Return the text in the bytes of a file, its line breaks as they are. Raises UsageError."""
+    try:
+        return data.removeprefix(_MARK).decode()
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise UsageError(f"{path}, line {line}: it is not UTF-8: save it as that") from None
+
+
+def table_of(path: Path, text: str) -> dict[str, Any]:
+    """Return the keys and values of TOML. Raises UsageError."""
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        problem, where = str(error), str(path)
+        place = _PLACE.search(problem)
+        if place is not None:
+            problem = problem[: place.start()]
+            line, column = place.groups()
+            where += f", line {line}, column {column}" if line else ", at its end"
+        hint = next((f"; {said}" for part, said in _HINTS.items() if part in problem), "")
+        raise UsageError(f"{where}: it is not TOML: {problem}{hint}") from None
+
+
+class _Reader:
+    """A reader of one file, with errors that name its path, the line and the key."""
+
+    def __init__(self, path: Path, text: str) -> None:
+        self._path = path
+        self._text = text
+        self._table = table_of(path, text)
+
+    def settings(self) -> Settings:
+        known = ["port", "baud", "local_echo", "ids", "limits"]
+        for key in self._table:
+            if key not in known:
+                near = get_close_matches(key, known, 1)
+                hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}"
+                raise self._wrong([key], f"there is no such key; {hint}")
+        return Settings(
+            self._path, self._port(), self._baud(), self._echo(), self._ids(), self._limits()
+        )
+
+    def _port(self) -> str | None:
+        port = self._table.get("port")
+        if port is None or (isinstance(port, str) and port):
+            return port
+        raise self._wrong(["port"], f'{_shown(port)} is no name of a port, such as "COM7"')
+
+    def _baud(self) -> float | None:
+        baud = self._table.get("baud")
+        if baud is None or (_is_whole(baud) and baud >= 1):
+            return baud
+        if isinstance(baud, float) and math.isinf(baud) and baud > 0:
+            return baud
+        problem = "is no rate: a whole number of baud, 1 or more, or inf"
+        raise self._wrong(["baud"], f"{_shown(baud)} {problem}")
+
+    def _echo(self) -> bool | None:
+        echo = self._table.get("local_echo")
+        if echo is None or isinstance(echo, bool):
+            return echo
+        raise self._wrong(["local_echo"], f"{_shown(echo)} is neither true nor false")
+
+    def _ids(self) -> tuple[int, ...]:
+        ids = self._table.get("ids", [])
+        if "ids" in self._table and POSE is None:
+            raise self._wrong(["ids"], "nothing that is asked here takes a list of ids; remove it")
+        if not isinstance(ids, list) or not all(map(_is_whole, ids)):
+            raise self._wrong(["ids"], f"{_shown(ids)} is no list of numbers, such as [1, 2, 3]")
+        for each in ids:
+            if POSE is not None and each not in POSE.ids:
+                bounds = f"{POSE.ids[0]}..{POSE.ids[-1]}"
+                raise self._wrong(["ids"], f"{each} is outside {bounds}, which a {POSE.noun} has")
+        return tuple(dict.fromkeys(ids))
+
+    def _limits(self) -> Chosen | None:
+        given = self._table.get("limits")
+        if given is None:
+            return None
+        if LIMITS.usual is None:
+            raise self._wrong(["limits"], "nothing that is sent here has limits; remove it")
+        if not isinstance(given, dict):
+            return Chosen(self._bounds(given, ["limits"]), str(self._path))
+        each = {self._number(key): self._bounds(given[key], ["limits", key]) for key in given}
+        addressed = any(exchange.address.field for exchange in EXCHANGES.values())
+        try:
+            allowed = LIMITS.chosen(each, addressed=addressed)
+        except ValueError:
+            problem = "nothing that has limits here has a number: write one pair for all"
+            raise self._wrong(["limits"], f"{problem}, such as {_usual()}") from None
+        return Chosen(allowed, str(self._path))
+
+    def _number(self, key: str) -> int:
+        try:
+            number = whole(key)
+        except ValueError:
+            number = -1
+        if number < 0 or str(number) != key:
+            raise self._wrong(["limits", key], f"{key[:40]!r} is not a number, such as 1")
+        if POSE is not None and not POSE.item.low <= number <= POSE.item.high:
+            bounds = f"{POSE.item.low}..{POSE.item.high}"
+            raise self._wrong(["limits", key], f"{key} is outside {bounds} of a {POSE.noun}")
+        return number
+
+    def _bounds(self, given: Any, keys: list[str]) -> Bounds | None:
+        if given == ANY:
+            return None
+        if not isinstance(given, list) or len(given) != 2 or not all(map(_is_whole, given)):
+            problem = f'no pair like {_usual()}, nor "{ANY}" for anything'
+            raise self._wrong(keys, f"{_shown(given)} is {problem}")
+        low, high = given
+        if low > high:
+            raise self._wrong(keys, f"{_shown(given)} has the higher value first")
+        return low, high
+
+    def _wrong(self, keys: list[str], what: str) -> UsageError:
+        """Return the error about a key, with its line if there is just one that begins with it."""
+        begins = re.compile(rf"[ \t]*\[?[ \t]*[\"']?{re.escape(keys[-1])}[\"']?[ \t]*[]=.]")
+        lines = enumerate(self._text.split("\n"), 1)
+        found = [at for at, line in lines if begins.match(line)]
+        where = f"{self._path}, line {found[0]}" if len(found) == 1 else str(self._path)
+        return UsageError(f"{where}: {'.'.join(keys)}: {what}")
+
+
+def _is_whole(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _usual() -> str:
+    return str([*(LIMITS.usual or ())])
+
+
+def _shown(value: object) -> str:
+    """Return a value as it is written, shortened."""
+    number = isinstance(value, float)
+    text = str(value) if number else json.dumps(value, ensure_ascii=False, default=str)
+    return text if len(text) <= 40 else f"{text[:37]}..."
