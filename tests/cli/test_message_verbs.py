@@ -142,8 +142,8 @@ def test_what_is_far_outside_the_limits_is_named_and_the_rest_is_held(
     assert main(["hold", "1-3", *words]) == 1
     assert capsys.readouterr().err.splitlines() == [
         "servo 1 held",
-        "servo 2 not held: 500 is outside the limits",
-        "servo 3 not held: 500 is outside the limits",
+        "servo 2 not held: 500 is outside the limits 600..1000",
+        "servo 3 not held: 500 is outside the limits 600..1000",
     ]
 
 

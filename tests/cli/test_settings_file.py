@@ -267,7 +267,7 @@ def test_each_servo_has_its_limits_wherever_limits_hold(
         assert error_of(capsys, [*words.split(), *FAST]) == expected
     assert busservo._cli.main(["hold", *FAST]) == 1
     assert capsys.readouterr().err == (
-        "servos 2, 3 held\nservo 1 not held: 500 is outside the limits\n"
+        "servos 2, 3 held\nservo 1 not held: 500 is outside the limits 100..400\n"
     )
     for words in ("move 2:3000", "move 1:450 --limits 0..1000"):
         assert busservo._cli.main([*words.split(), "--in", "1ms", "--no-wait", *FAST]) == 0
