@@ -213,6 +213,13 @@ def test_an_option_counts_before_the_variable_the_file_here_and_that_of_the_user
     Path(FILE).write_text("port = 'here'\nbaud = inf")
     tried()
     Path(FILE).write_text("baud = 57600")
+    assert capsys.readouterr().err == "".join(
+        f"busservo: error: {port}: it is a test; look elsewhere (the port is named by {name})\n"
+        for port, name in {
+            "user": "busservo.toml in the user's folder",
+            "here": "busservo.toml in this folder",
+        }.items()
+    )
     tried()  # the other file is not read besides: no port is named
     assert "or `port` in busservo.toml" in capsys.readouterr().err
     monkeypatch.setenv("BUSSERVO_PORT", "variable")

@@ -94,7 +94,7 @@ def run(arguments: Namespace) -> int:
         opener=_open,
     )
     findings: list[tuple[Check, Result]] = []
-    with failures_reported():
+    with failures_reported(arguments):
         try:
             found = examine(diagnosis, checks)
             while (finding := _next(found)) is not None:

@@ -174,8 +174,8 @@ class _Warnings(logging.Handler):
 
 
 @contextmanager
-def failures_reported() -> Iterator[None]:
-    """Turn errors of a port into one line that says what to do.
+def failures_reported(arguments: argparse.Namespace) -> Iterator[None]:
+    """Turn errors of a port into one line that says what to do, and what has named the port.
 
     SIGTERM ends the body as Ctrl-C does: totals are printed, the port closed, the terminal
     restored.
@@ -188,7 +188,8 @@ def failures_reported() -> Iterator[None]:
         advice = "check the cable and the power, then run this again"
         raise LineLostError(f"{error.port}: {error.happened}; {advice}") from None
     except TransportError as error:
-        raise UsageError(str(error)) from None
+        named = f" (the port is named by {arguments.port_from})" if arguments.port_from else ""
+        raise UsageError(f"{error}{named}") from None
 
 
 @contextmanager

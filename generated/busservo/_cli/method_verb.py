@@ -83,7 +83,7 @@ class MethodVerb:
         retries = getattr(arguments, "retries", 0)
         limits = limits_of(arguments)
         with (
-            failures_reported(),
+            failures_reported(arguments),
             open_client(arguments, retries=retries, limits=limits.allowed) as controller,
         ):
             messages = messages or self.without_words(controller)

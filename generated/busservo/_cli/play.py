@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
         total = pluralize(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
-    with failures_reported(), open_client(arguments, limits=limits.allowed) as controller:
+    with failures_reported(arguments), open_client(arguments, limits=limits.allowed) as controller:
         return _play(controller, steps, arguments.repeat, limits)
 
 

@@ -98,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.dry_run:
             _show(timed, arguments.baud)
             return DONE
-        with failures_reported(), closing(open_line(port, arguments.baud)) as line:
+        with failures_reported(arguments), closing(open_line(port, arguments.baud)) as line:
             try:
                 Playback(sys.stdout).play(line, timed, count)
             except KeyboardInterrupt:

@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
     pose = the_pose()
     kept = _kept(arguments, pose)
     limits = limits_of(arguments)
-    with failures_reported(), open_client(arguments, limits=limits.allowed) as controller:
+    with failures_reported(arguments), open_client(arguments, limits=limits.allowed) as controller:
         try:
             ids = arguments.ids or arguments.settings.ids or find_present(controller, pose)
         except NoReplyError as error:

@@ -60,7 +60,7 @@ def run(arguments: Namespace) -> int:
     question = _question(arguments)
     arguments.port = port_of(arguments)
     trips = Trips(question, arguments.port, arguments.baud)
-    with failures_reported(), open_client(arguments, settle=0) as client:
+    with failures_reported(arguments), open_client(arguments, settle=0) as client:
         try:
             trips.make(client, arguments.n)
         except KeyboardInterrupt:

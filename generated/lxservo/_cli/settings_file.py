@@ -33,7 +33,7 @@ _PLACE = re.compile(r" \((?:at line (\d+), column (\d+)|at end of document)\)$")
 _HINTS = {
     "Invalid value": 'text stands in quotes: port = "COM7"',
     "Cannot overwrite": "a key stands there once",
-    "\\": r"with backslashes, text stands in single quotes: port = '\\.\COM10'",
+    "Unescaped": r"with backslashes, text stands in single quotes: port = '\\.\COM10'",
 }
 _MARK = b"\xef\xbb\xbf"  # that it is UTF-8, as some editors of Windows begin a file
 

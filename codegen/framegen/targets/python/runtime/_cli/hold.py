@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Hold what answers, and say what was held."""
     limits = limits_of(arguments).allowed
-    with failures_reported(), open_client(arguments, limits=limits) as controller:
+    with failures_reported(arguments), open_client(arguments, limits=limits) as controller:
         return held(controller, arguments)
 
 

@@ -102,7 +102,7 @@ def run(arguments: Namespace) -> int:
     monitor = Monitor(arguments, sys.stdout)
     port = port_of(arguments)
     with (
-        failures_reported(),
+        failures_reported(arguments),
         closing(open_line(port, arguments.baud)) as line,
         Recorder(arguments.log) as recorder,
     ):

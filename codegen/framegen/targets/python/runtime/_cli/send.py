@@ -68,7 +68,7 @@ def run(arguments: Namespace) -> int:
     messages = in_parts(arguments.message, arguments.fields)
     note_deprecated(type(messages[0]))
     with (
-        failures_reported(),
+        failures_reported(arguments),
         open_client(
             arguments, retries=arguments.retries, limits=limits_of(arguments).allowed
         ) as controller,

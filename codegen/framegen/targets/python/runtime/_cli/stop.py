@@ -22,7 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Stop, hold what answers, and say what was held."""
     messages = in_parts(STOP_MESSAGE, []) if STOP_MESSAGE else []
     limits = limits_of(arguments)
-    with failures_reported(), open_client(arguments, limits=limits.allowed) as controller:
+    with failures_reported(arguments), open_client(arguments, limits=limits.allowed) as controller:
         for message in messages:
             commanded(controller, message, limits)
         return hold.held(controller, arguments)
