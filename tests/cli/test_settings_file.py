@@ -286,7 +286,7 @@ def test_the_ids_of_the_file_are_meant_where_none_are_named(
     board: VirtualController, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Path(FILE).write_text(f"port = '{board.port}'\nids = [1, 3, 9, 3]")
-    held = ["servos 1, 3 held", "servo 9 not held: does not answer"]
+    held = ["servos 1, 3 held", "servo 9 not held: no answer"]
     for verb in ("hold", "stop"):
         assert busservo._cli.main([verb, *FAST]) == 1
         assert capsys.readouterr().err.splitlines() == held
