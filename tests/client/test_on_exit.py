@@ -404,6 +404,15 @@ def test_closing_by_hand_holds_as_well_and_lets_an_exception_go_on() -> None:
         closed(under_way=True)
 
 
+def test_a_client_for_asyncio_holds_what_it_is_told_to_without_having_done_anything() -> None:
+    async def work() -> None:
+        await client(line, on_exit="hold", ids=(2,), settle=0).close()
+
+    line = LoopLine(where)
+    run(work(), line)
+    assert line.received == held((2, 612))
+
+
 def test_closing_in_another_thread_holds_while_a_motion_is_waited_for() -> None:
     line = LiveLine(where)
     with ThreadPoolExecutor() as pool:
