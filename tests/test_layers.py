@@ -175,7 +175,7 @@ def test_parts_of_one_layer_do_not_import_each_other() -> None:
 # From the bottom up.
 TABLES_LAYERS = [
     {"extra"},
-    {"layout", "events"},
+    {"events"},
     {"places", "by_entry"},
     {"schema", "search"},
     {"columns", "source"},

@@ -13,6 +13,7 @@ import os
 from collections.abc import Iterator
 
 from ._frame.direction import Direction
+from ._recording.layout import NOISE
 from ._tables.archive.cuts import safe_cuts
 from ._tables.archive.dataset import Report, archive
 from ._tables.archive.pieces import PIECE, Piece, scan
@@ -20,7 +21,7 @@ from ._tables.files.arrow_file import arrow_written, names_in, refuse_target
 from ._tables.files.parquet import parquet_written
 from ._tables.files.rereading import rereadable
 from ._tables.reader import BLOCK, Batches, batches
-from ._tables.schema import NOISE, schemas
+from ._tables.schema import schemas
 from ._tables.source import Source
 from ._tables.tables import Tables, gathered
 

@@ -159,6 +159,15 @@ def test_a_capture_of_nothing_makes_no_table(capsys: Capture, tmp_path: Path) ->
         (["--parquet", "55550207"], "argument --parquet: '55550207' reads as bytes in hex: give"),
         (["--arrow", "0x55,0x55"], "argument --arrow: '0x55,0x55' reads as bytes in hex: give "),
         (["--parquet", "-"], "argument --parquet: tables cannot be written to standard output"),
+        (["--csv", "--csv-tables", "t"], "argument --csv-tables: not allowed with argument --csv"),
+        (["--csv-tables", "taken"], "taken cannot be written: it holds 'notes.txt', which is no"),
+        (
+            ["--csv-tables", "taken/notes.txt"],
+            "takes a folder, as in `--csv-tables DIR taken/notes.txt`\n",
+        ),
+        (["--csv-tables", "55550207"], "argument --csv-tables: '55550207' reads as bytes in hex:"),
+        (["--csv-tables", "-"], "argument --csv-tables: tables cannot be written to standard outp"),
+        (["--csv", "t"], "--csv prints rows, and 't' is no input: --csv-tables t writes a folder"),
         (["--arrow", "-"], "argument --arrow: tables cannot be written to standard output: name"),
         (["--arrow", "taken"], "taken cannot be written: it is a folder: name a file in it"),
         (["--arrow", "absent/line.arrow"], "absent/line.arrow cannot be written: there is no fold"),
@@ -178,12 +187,13 @@ def test_a_target_that_cannot_be_used_is_reported_in_a_line(
     assert main(["decode", str(CUT_OFF), *words]) == 2
     output, errors = capsys.readouterr()
     assert output == ""
-    assert f"busservo: error: {expected}" in errors
+    assert "busservo: error: " in errors
+    assert expected in errors
     assert [*tmp_path.rglob("*")] == [tmp_path / "taken", tmp_path / "taken" / "notes.txt"]
     assert (tmp_path / "taken" / "notes.txt").read_text() == "mine"
 
 
-@pytest.mark.parametrize("option", ["--parquet", "--arrow"])
+@pytest.mark.parametrize("option", ["--parquet", "--arrow", "--csv-tables"])
 def test_a_name_that_is_hex_is_written_with_its_folder(
     capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: str
 ) -> None:
@@ -202,7 +212,7 @@ def test_the_capture_itself_is_never_overwritten(capsys: Capture, tmp_path: Path
     assert line.read_text() == CUT_OFF.read_text()
 
 
-@pytest.mark.parametrize("option", ["--parquet", "--arrow"])
+@pytest.mark.parametrize("option", ["--parquet", "--arrow", "--csv-tables"])
 def test_the_protocol_of_another_robot_is_recognised(
     capsys: Capture, tmp_path: Path, option: str
 ) -> None:
@@ -217,7 +227,7 @@ def test_the_protocol_of_another_robot_is_recognised(
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("option", ["--parquet", "--arrow"])
+@pytest.mark.parametrize("option", ["--parquet", "--arrow", "--csv-tables"])
 def test_a_broken_recording_names_its_line_and_leaves_nothing(
     capsys: Capture, tmp_path: Path, option: str
 ) -> None:
@@ -231,7 +241,7 @@ def test_a_broken_recording_names_its_line_and_leaves_nothing(
     assert [*tmp_path.iterdir()] == [log]
 
 
-@pytest.mark.parametrize("option", ["--parquet", "--arrow"])
+@pytest.mark.parametrize("option", ["--parquet", "--arrow", "--csv-tables"])
 def test_ctrl_c_leaves_what_was_there(
     capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: str
 ) -> None:
@@ -273,7 +283,7 @@ def test_without_the_extra_the_error_says_how_to_get_it(
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     # As it is where nothing has imported them yet.
     names = [name for name in sys.modules if name.startswith("busservo._tables")]
-    for name in (*names, "busservo._cli.table_files"):
+    for name in (*names, "busservo._cli.arrow_tables"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     assert main(["decode", "55", "--parquet", str(tmp_path / "tables")]) == 2
     output, errors = capsys.readouterr()

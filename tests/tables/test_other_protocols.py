@@ -113,7 +113,7 @@ def filler(name: str) -> bytes:
 
 def is_vectorised(made: ModuleType, direction: Any) -> bool:
     """Tell whether a library searches at many places at once."""
-    layout: Any = import_module(f"{made.__name__}._tables.layout")
+    layout: Any = import_module(f"{made.__name__}._recording.layout")
     searchable: Any = import_module(f"{made.__name__}._tables.search.searchable")
     return bool(searchable.is_searchable(layout.messages_on(direction)))
 

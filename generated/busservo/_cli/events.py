@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 
 from .._codec.codec import table_for, twins
+from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
 from .._frame.free_name import freely_named
@@ -16,11 +17,13 @@ from .values import fields_as_text, fields_in_json
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
     from typing import Any
 
     from .._codec.counters import Counters
     from .._frame.direction import Direction
     from .._frame.message import Message
+    from ..recordings import Entry
 
 # Noise that has the shape of a frame.
 UNKNOWN = "unknown"
@@ -82,6 +85,20 @@ def in_json(event: Message | Noise, direction: Direction | None) -> str:
     return (
         f'{{"from": {json.dumps(sender)}, {what}, "hex": "{format_hex(event.encode())}"{either}}}'
     )
+
+
+def counted(entries: Iterable[Entry], seen: Counters) -> Iterator[Entry]:
+    """Yield the entries of a recording, and count them."""
+    for entry in entries:
+        event = entry.event
+        size = len(bytes_of(event))
+        seen.fed += size
+        if isinstance(event, Noise):
+            seen.noise += size
+            seen.unknown_frames += isinstance(event, UnknownFrame)
+        else:
+            seen.messages += 1
+        yield entry
 
 
 def totals(seen: Counters) -> str:

@@ -130,6 +130,7 @@ EXAMPLES = {
         ("busservo decode --json line.bin", "a line of JSON for each message and noise"),
         ("busservo decode -t absolute line.hex", "a recording, with the time of day"),
         ("busservo decode --csv line.hex", "a row for each, for a spreadsheet"),
+        ("busservo decode line.bin --csv-tables tables", "a folder of CSV files, one a message"),
         (
             "busservo decode line.bin --parquet tables",
             "a folder of tables, for pandas, Polars or DuckDB",

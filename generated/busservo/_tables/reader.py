@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
+from .._recording.layout import NOISE, layouts
 from ..recordings import read
 from .by_entry import events_by_entry
 from .columns import batch_of
-from .layout import layouts
 from .noise_rows import NoiseRows
-from .schema import NOISE
 from .search.searchable import frames_on
 from .search.window import search
 from .source import opened

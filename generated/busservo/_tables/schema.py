@@ -9,19 +9,22 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pyarrow as pa
 
-from .._frame.free_name import free_name
-from .layout import DIRECTIONS, EVENT_COLUMNS, REASONS, described, layouts
+from .._recording.layout import (
+    DIRECTIONS,
+    NOISE,
+    PARAMETERS,
+    REASON_COLUMN,
+    REASONS,
+    UNKNOWN_COLUMN,
+    described,
+    layouts,
+    unknown_columns,
+)
 from .places import dtype_of
 
 if TYPE_CHECKING:
     from .._explanation.protocol import Slot
-    from .layout import Column, Layout
-
-NOISE = "noise"
-"""The name of the table of what is no message."""
-# Its columns behind those of every event.
-_REASON, _UNKNOWN = "reason", "unknown"
-PARAMETERS = "parameters"
+    from .._recording.layout import Column, Layout
 
 
 class _Names:
@@ -80,8 +83,10 @@ def noise_schema() -> pa.Schema:
     return pa.schema(
         [
             *_event_fields(),
-            _field(_REASON, REASON.type, {"about": "Why it is no message."}),
-            _field(_UNKNOWN, pa.bool_(), {"about": "Whether it is a frame that is not known."}),
+            _field(REASON_COLUMN, REASON.type, {"about": "Why it is no message."}),
+            _field(
+                UNKNOWN_COLUMN, pa.bool_(), {"about": "Whether it is a frame that is not known."}
+            ),
             *numbers,
             _field(PARAMETERS, pa.binary(), {"about": "The fields of an unknown frame."}),
         ],
@@ -92,15 +97,11 @@ def noise_schema() -> pa.Schema:
 @cache
 def unknown_numbers() -> dict[str, tuple[str, pa.DataType]]:
     """Return columns and types of the numbers that tell unknown frames apart, by their names."""
-    sizes: dict[str, int] = {}
-    for envelope in described().envelopes.values():
-        for slot in envelope.slots:
-            if slot.role in ("address", "id"):
-                sizes[slot.name] = max(slot.size, sizes.get(slot.name, 0))
-    taken = (*EVENT_COLUMNS, _REASON, _UNKNOWN, PARAMETERS)
     # None is negative, and one of eight bytes needs all of its bits.
-    types = {name: pa.uint64() if size == 8 else pa.int64() for name, size in sizes.items()}
-    return {name: (free_name(name, taken), kind) for name, kind in types.items()}
+    return {
+        name: (column, pa.uint64() if size == 8 else pa.int64())
+        for name, (column, size) in unknown_columns().items()
+    }
 
 
 def arrow_type(layout: Layout, column: Column) -> Any:

@@ -128,6 +128,7 @@ EXAMPLES = {
         ("lxservo decode --json line.bin", "a line of JSON for each message and noise"),
         ("lxservo decode -t absolute line.hex", "a recording, with the time of day"),
         ("lxservo decode --csv line.hex", "a row for each, for a spreadsheet"),
+        ("lxservo decode line.bin --csv-tables tables", "a folder of CSV files, one a message"),
         (
             "lxservo decode line.bin --parquet tables",
             "a folder of tables, for pandas, Polars or DuckDB",

@@ -201,6 +201,7 @@ def _decode_lines(model: Model) -> list[_Line]:
         ("--json line.bin", "a line of JSON for each message and noise"),
         ("-t absolute line.hex", "a recording, with the time of day"),
         ("--csv line.hex", "a row for each, for a spreadsheet"),
+        ("line.bin --csv-tables tables", "a folder of CSV files, one a message"),
         ("line.bin --parquet tables", "a folder of tables, for pandas, Polars or DuckDB"),
         ("line.bin --arrow line.arrow", "all events in one table"),
     ]

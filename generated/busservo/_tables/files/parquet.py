@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import errno
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ..schema import schemas
+from ..._recording.table_folder import UNFINISHED, TableFolder
 from .write_error import naming
 
 if TYPE_CHECKING:
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 # A row group is written when its table holds so much, and the largest when all do together.
 _ROW_GROUP = 1 << 24
 _ALL_HELD = 1 << 26
-_UNFINISHED = ".part"
 
 
 class ParquetFiles:
@@ -102,38 +100,15 @@ def parquet_written(batches: Iterable[Batches], folder: str | os.PathLike[str]) 
     The folder is made, or holds nothing but such files, which are replaced. Raises FileExistsError
     if it holds something else. Whatever goes wrong, no file is half-written.
     """
-    target = Path(folder)
-    is_new = not target.exists()
-    _refuse_others(target)
-    target.mkdir(parents=True, exist_ok=True)
-    files = ParquetFiles(target, f".parquet{_UNFINISHED}")
-    try:
-        for made in batches:
-            files.add(made)
-        files.end()
-    except BaseException:
-        files.discard()
-        if is_new:
-            with suppress(OSError, pa.ArrowException):
-                target.rmdir()
-        raise
-    for name in schemas():
-        path = target / f"{name}.parquet"
-        unfinished = path.with_name(f"{path.name}{_UNFINISHED}")
-        if name in files.rows:
-            unfinished.replace(path)
-        else:
-            path.unlink(missing_ok=True)
-            unfinished.unlink(missing_ok=True)
+    target = TableFolder(Path(folder), ".parquet")
+    files = ParquetFiles(Path(folder), f".parquet{UNFINISHED}")
+    with target.replaced() as written:
+        try:
+            for made in batches:
+                files.add(made)
+            files.end()
+        except BaseException:
+            files.discard()
+            raise
+        written.update(files.rows)
     return files.rows
-
-
-def _refuse_others(folder: Path) -> None:
-    """Raise FileExistsError if a folder holds what was not written here."""
-    if not folder.exists():
-        return
-    ours = {f"{name}.parquet{end}" for name in schemas() for end in ("", _UNFINISHED)}
-    others = sorted({each.name for each in folder.iterdir()} - ours)
-    if others:
-        problem = f"it holds {others[0]!r}, which is no table of a capture: name another folder"
-        raise FileExistsError(errno.EEXIST, problem, str(folder))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..layout import REASON_NUMBERS
+from ..._recording.layout import REASON_NUMBERS
 from ..places import read_blocks, read_numbers
 from .heads import FINE
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..layout import REASONS
+from ..._recording.layout import REASONS
 
 if TYPE_CHECKING:
     from ..._frame.errors import Reason

@@ -11,7 +11,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..layout import described
+from ..._recording.layout import described
 from .panels import more_of, page_of
 from .trace import alone
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..layout import REASON_NUMBERS
+from ..._recording.layout import REASON_NUMBERS
 from ..places import read_blocks, read_numbers
 
 if TYPE_CHECKING:

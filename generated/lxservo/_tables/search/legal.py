@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..layout import REASON_NUMBERS
+from ..._recording.layout import REASON_NUMBERS
 from .checksums import Checksums
 from .fields import NO_KIND, judge_fields
 from .heads import Heads
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..._recording.layout import Layout
     from ..events import Bytes, Numbers
-    from ..layout import Layout
 
 UNKNOWN_KIND = -2
 """Stands for the class of a frame that is not known, and surely is one."""

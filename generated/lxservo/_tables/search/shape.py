@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..._explanation.protocol import Slot
-    from ..layout import Layout
+    from ..._recording.layout import Layout
     from .trial import Trial
 
 

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..._recording.layout import DIRECTIONS, REASON_NUMBERS, layouts
 from ...recordings import read
 from ..by_entry import events_by_entry
 from ..events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
-from ..layout import DIRECTIONS, REASON_NUMBERS, layouts
 from ..places import find_all
 from .chain import Chain, chained, no_chain
 from .fields import NO_KIND

@@ -56,7 +56,7 @@ def opened_capture(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
     file: Path | None = arguments.file
     if file is not None and words:
         raise UsageError("give either --file or bytes, not both")
-    if file is None and len(words) == 1 and words[0] != "-" and _is_file(words[0]):
+    if file is None and len(words) == 1 and words[0] != "-" and is_file(words[0]):
         file = Path(words[0])
     if file is None and words and words != ["-"]:
         text = " ".join(words)
@@ -79,7 +79,7 @@ def _refuse_files(words: list[str]) -> None:
     """Raise UsageError for a folder, and for more files than one."""
     if len(words) == 1 and _is_folder(words[0]):
         raise UsageError(f"{words[0]} is a folder: name a file in it")
-    if all(map(_is_file, words)):
+    if all(map(is_file, words)):
         raise UsageError(f"these are {len(words)} files: give one at a time")
 
 
@@ -90,7 +90,7 @@ def _is_folder(word: str) -> bool:
         return False
 
 
-def _is_file(word: str) -> bool:
+def is_file(word: str) -> bool:
     """Return whether a word names a file, rather than bytes."""
     try:
         return not is_hex(word) and Path(word).is_file()

@@ -9,10 +9,9 @@ from pathlib import Path
 from .._codec.counters import Counters
 from .._codec.event_bytes import bytes_of
 from .._codec.hextext import is_hex
-from .._codec.noise import Noise, UnknownFrame
-from .capture import add_capture, direction_in, opened_capture
+from .capture import add_capture, direction_in, is_file, opened_capture
 from .entries import EntryLines
-from .events import totals
+from .events import counted, totals
 from .exit_codes import DONE, NOT_ALL
 from .extra import imported
 from .lines import TIMES
@@ -23,12 +22,11 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from .._frame.message import Message
-
 ENDS = {NOT_ALL: "there was noise, and --strict was given"}
 ABOUT = """\
 FILE is what `monitor --log` or the `trace` of a client recorded, or hex, or raw bytes. A recording
 says who has sent what, and when: each of its lines is decoded as its sender's.
+--csv prints all events as one table, --csv-tables writes a table for each message.
 --parquet and --arrow take the extra `tables`."""
 
 
@@ -48,6 +46,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--csv", action="store_true", help="print each event as a row of CSV, the fields as JSON"
     )
     form.add_argument(
+        "--csv-tables",
+        type=_target,
+        metavar="DIR",
+        help="write a table for each message and one of noise into a folder, as CSV files",
+    )
+    form.add_argument(
         "--parquet",
         type=_target,
         metavar="DIR",
@@ -65,11 +69,13 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print every message and all noise, or write tables; and the totals on the error stream."""
     seen = Counters(0, 0, 0, 0)
-    if arguments.parquet is not None or arguments.arrow is not None:
+    targets = arguments.csv_tables, arguments.parquet, arguments.arrow
+    if any(target is not None for target in targets):
         if arguments.time is not None:
             raise UsageError("-t is for what is printed; tables hold every time")
         begun = imported("table_files").write_tables(arguments, seen)
     else:
+        _refuse_folder(arguments)
         begun = _print(arguments, seen)
     print(totals(seen), file=sys.stderr)
     if 2 * seen.noise > seen.fed:
@@ -91,29 +97,29 @@ def _target(word: str) -> Path:
     return Path(word)
 
 
+def _refuse_folder(arguments: Namespace) -> None:
+    """Refuse a folder behind --csv, which prints: the word would be taken for bytes."""
+    files = [word for word in arguments.input if is_file(word)]
+    others = [word for word in arguments.input if word not in files and not is_hex(word)]
+    if arguments.csv and files and others:
+        raise UsageError(
+            f"--csv prints rows, and {others[0]!r} is no input: "
+            f"--csv-tables {others[0]} writes a folder of CSV files"
+        )
+
+
 def _print(arguments: Namespace, seen: Counters) -> bytes:
     """Print every event, and count it; return how the bytes begin."""
     form = "json" if arguments.json else "csv" if arguments.csv else "text"
     lines = EntryLines(sys.stdout, form, arguments.time)
     begun = b""
     with opened_capture(arguments) as (recording, holds):
-        for entry in recording.entries(holds, direction_in(arguments)):
+        for entry in counted(recording.entries(holds, direction_in(arguments)), seen):
             lines.show(entry)
-            data = bytes_of(entry.event)
-            _count(seen, entry.event, len(data))
             if len(begun) < ENOUGH:
-                begun += data
+                begun += bytes_of(entry.event)
     sys.stdout.flush()
     if arguments.time is not None:
         for problem in lines.problems(recording.name):
             print(problem, file=sys.stderr)
     return begun
-
-
-def _count(seen: Counters, event: Message | Noise, size: int) -> None:
-    seen.fed += size
-    if isinstance(event, Noise):
-        seen.noise += size
-        seen.unknown_frames += isinstance(event, UnknownFrame)
-    else:
-        seen.messages += 1

@@ -1,30 +1,29 @@
-"""A capture written as tables: Parquet files in a folder, or one file of Arrow's."""
+"""A capture written as tables: CSV or Parquet files in a folder, or one file of Arrow's."""
 
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
 
 from .._frame.pluralize import pluralize
-from .._tables.files.arrow_file import arrow_written, names_in, refuse_target
-from .._tables.files.parquet import parquet_written
-from .._tables.reader import batches
-from .._tables.schema import NOISE
 from .capture import direction_in, opened_capture
+from .csv_tables import csv_written
+from .events import counted
+from .extra import imported
 from .look_alike import beginning
-from .rereading import rereadable
 from .sheet import Sheet
 from .usage_error import UsageError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import Namespace
-    from collections.abc import Iterator
+    from collections.abc import Callable
     from pathlib import Path
 
     from .._codec.counters import Counters
     from .._frame.direction import Direction
-    from .._tables.reader import Batches
     from .recording import Recording
+
+    _Write = Callable[[Recording, str, Direction | None, Path, Counters], dict[str, int]]
 
 
 def write_tables(arguments: Namespace, seen: Counters) -> bytes:
@@ -34,19 +33,12 @@ def write_tables(arguments: Namespace, seen: Counters) -> bytes:
     """
     direction = direction_in(arguments)
     # Before standard input is waited for.
-    if arguments.parquet is not None and arguments.parquet.is_file():
-        raise UsageError(
-            f"{arguments.parquet} cannot be written: it is a file, and --parquet takes a folder"
-        )
+    target, write = _chosen(arguments)
     with opened_capture(arguments) as (recording, form):
         recording.is_quiet = True
         try:
-            if arguments.parquet is not None:
-                rows = _parquet(recording, form, direction, arguments.parquet, seen)
-            else:
-                rows = _arrow(recording, form, direction, arguments.arrow, seen)
+            rows = write(recording, form, direction, target, seen)
         except OSError as error:
-            target = arguments.parquet or arguments.arrow
             raise UsageError(f"{target} cannot be written: {error.strerror or error}") from None
         begun = beginning(recording, form, direction) if 2 * seen.noise > seen.fed else b""
     Sheet(sys.stdout).columns([(name, pluralize(count, "row")) for name, count in rows.items()])
@@ -54,36 +46,25 @@ def write_tables(arguments: Namespace, seen: Counters) -> bytes:
     return begun
 
 
-def _parquet(
+def _chosen(arguments: Namespace) -> tuple[Path, _Write]:
+    """Return what is written to, and what does it. Raises UsageError."""
+    if arguments.arrow is not None:
+        return arguments.arrow, imported("arrow_tables").write_arrow
+    if arguments.parquet is not None:
+        folder, option = arguments.parquet, "--parquet"
+        write = imported("arrow_tables").write_parquet
+    else:
+        folder, option, write = arguments.csv_tables, "--csv-tables", _write_csv
+    if folder.is_file():
+        raise UsageError(
+            f"{folder} cannot be written: it is a file, and {option} takes a folder, "
+            f"as in `{option} DIR {folder}`"
+        )
+    return folder, write
+
+
+def _write_csv(
     recording: Recording, form: str, direction: Direction | None, folder: Path, seen: Counters
 ) -> dict[str, int]:
-    with recording.from_the_beginning():
-        rows = parquet_written(_counted(batches(recording, form, direction), seen), folder)
-    return {str(folder / f"{name}.parquet"): count for name, count in rows.items()}
-
-
-def _arrow(
-    recording: Recording, form: str, direction: Direction | None, file: Path, seen: Counters
-) -> dict[str, int]:
-    refuse_target(file)
-    # Which columns there are is known only when all of it has been read.
-    with rereadable(recording) as twice:
-        twice.is_quiet = True
-        with twice.from_the_beginning():
-            names = names_in(twice, form, direction)
-        with twice.from_the_beginning():
-            return arrow_written(_counted(batches(twice, form, direction), seen), file, names)
-
-
-def _counted(made: Iterator[Batches], seen: Counters) -> Iterator[Batches]:
-    """Yield the same batches, and count what they hold."""
-    for each in made:
-        for name, batch in each.items():
-            size = int(batch.column("size").to_numpy().sum())
-            seen.fed += size
-            if name == NOISE:
-                seen.noise += size
-                seen.unknown_frames += batch.column("unknown").true_count
-            else:
-                seen.messages += batch.num_rows
-        yield each
+    rows = csv_written(counted(recording.entries(form, direction), seen), folder)
+    return {str(folder / f"{name}.csv"): count for name, count in rows.items()}

@@ -9,9 +9,9 @@ import numpy as np
 
 from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
+from .._recording.layout import DIRECTIONS, REASON_NUMBERS
 from ..messages import MESSAGES
 from .events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
-from .layout import DIRECTIONS, REASON_NUMBERS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

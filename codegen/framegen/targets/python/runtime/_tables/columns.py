@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .._explanation.protocol import Slot
+    from .._recording.layout import Column, Layout
     from .events import Frames, NoiseRuns, Numbers, Seconds
-    from .layout import Column, Layout
 
 
 def batch_of(layout: Layout, frames: Frames) -> pa.RecordBatch:

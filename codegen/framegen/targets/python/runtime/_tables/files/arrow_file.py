@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyarrow as pa
 
-from ..layout import EVENT_COLUMNS, layouts
+from ..._recording.layout import EVENT_COLUMNS, NOISE, PARAMETERS, layouts
 from ..reader import BLOCK, events
-from ..schema import NOISE, PARAMETERS, REASON, schemas, unknown_numbers
+from ..schema import REASON, schemas, unknown_numbers
 from ..source import opened
 from .write_error import naming
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ..layout import messages_on
+from ..._recording.layout import messages_on
 from .checksums import is_summed
 from .legal import LegalFrames
 from .shape import is_testable
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from ..._explanation.protocol import Envelope
     from ..._frame.direction import Direction
-    from ..layout import Layout
+    from ..._recording.layout import Layout
 
 _IN_FRONT = ("constant", "length", "id", "address", "counter")
 _COMPARED = ("length", "id", "address", "checksum")

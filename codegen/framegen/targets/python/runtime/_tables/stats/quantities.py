@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..._explanation.protocol import Slot
+    from ..._recording.layout import Column, Layout
     from ..events import Frames, Numbers
-    from ..layout import Column, Layout
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._codec.noise import UnknownFrame
 from ..._frame.errors import Reason
-from ..layout import DIRECTIONS, layouts
+from ..._recording.layout import DIRECTIONS, layouts
 from ..reader import BLOCK, events
 from ..source import opened
 from .excerpted import Excerpted
