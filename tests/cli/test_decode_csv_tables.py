@@ -124,7 +124,7 @@ def test_what_is_read_back_is_what_json_says(
     for words, run in rows[:3]:
         same_as_json(capsys, tmp_path, words, run)
     for words, run in rows[3:]:
-        same_as_json(capsys, tmp_path / "of the bus", words, run)
+        same_as_json(capsys, tmp_path / "bus", words, run)
 
 
 def test_a_file_is_the_same_bytes_everywhere(capsys: Capture, tmp_path: Path) -> None:
