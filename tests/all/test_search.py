@@ -193,6 +193,17 @@ def test_a_slip_is_corrected(visit: Visit) -> None:
     assert not tab.locator("#search-advice").is_visible()
 
 
+def test_words_that_no_page_has_are_named(visit: Visit) -> None:
+    tab = visit.open("search.html?q=battery xyzzy")
+    assert re.fullmatch(r"No page has “xyzzy”\. [0-9]+ found without it\.", said(tab))
+    assert titles(tab)[0] == "BatteryVoltageRead"
+    box(tab).fill("servo xyzzy")
+    assert said(tab) == "Nothing found for “servo xyzzy”. No page has “xyzzy”."
+    assert tab.locator("#search-advice").is_visible()
+    box(tab).fill("falls down when torque is off")
+    assert re.fullmatch(r"[0-9]+ found for “falls down when torque is off”\.", said(tab))
+
+
 def test_no_hit_gives_advice(visit: Visit) -> None:
     tab = visit.open("search.html?q=xyzzy")
     assert said(tab) == "Nothing found for “xyzzy”."

@@ -19,6 +19,9 @@ from tests.docs.reference import NODE, ROOT
 from tests.docs.scripts import run_script
 from tests.factories import compiled_file
 
+# What a page of the search runs, without what touches the page.
+RANKING = ["matching", "ranking", "snippet"]
+
 needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
 
@@ -50,7 +53,7 @@ def found(queries: list[str], filters: list[dict[str, str]] | None = None) -> li
     });
     """
     asked = {"index": index(), "queries": queries, "filters": filters or []}
-    answers: list[dict[str, Any]] = run_script(["ranking"], program, asked)
+    answers: list[dict[str, Any]] = run_script(RANKING, program, asked)
     return answers
 
 
@@ -82,7 +85,10 @@ SEARCHES: dict[str, set[str]] = {
     # The words of users, which no page of the reference has.
     "limp": {"ServoUnload"},
     "torque off": {"ServoUnload"},
-    "beep": {"What the board shows", "Troubleshooting"},
+    "beep": {"What the board shows", "The board beeps at a frame of mine"},
+    "power supply": {"Servos and supply"},
+    "baudrate": {"Hiwonder bus servo controller"},
+    "comport": {"Troubleshooting"},
     "LED2": {"What the board shows", "Troubleshooting"},
     "permission denied": {"Troubleshooting"},
     "echo": {"Servos without the controller"},
@@ -111,7 +117,7 @@ def test_every_entry_is_found_by_its_title_and_by_each_of_its_names() -> None:
     const numbers = (query) => search.find(query).hits.map(({ number }) => number);
     const answers = asked.queries.map(numbers);
     """
-    answers = run_script(["ranking"], program, {"index": index(), "queries": queries})
+    answers = run_script(RANKING, program, {"index": index(), "queries": queries})
     hits = dict(zip(queries, map(set, answers), strict=True))
     for number, entry in enumerate(entries):
         for name in (entry["title"], *entry.get("names", [])):
@@ -119,14 +125,72 @@ def test_every_entry_is_found_by_its_title_and_by_each_of_its_names() -> None:
 
 
 @needs_node
-def test_every_word_must_match_or_else_it_is_said() -> None:
-    both, neither, some = found(["battery erratum", "xyzzy", "battery xyzzy"])
+def test_words_that_stand_nowhere_are_said() -> None:
+    queries = ["battery erratum", "xyzzy", "battery xyzzy", "servo xyzzy", "which baudrate"]
+    both, neither, some, little, named = found(queries)
+    assert [answer["absent"] for answer in (both, named)] == [[], []]
+    for answer in (neither, some, little):
+        assert answer["absent"] == ["xyzzy"]
     assert both["titles"]
     assert all("Erratum" in where for where in both["wheres"][:2])
     assert not neither["titles"]
     assert not neither["loose"]
     assert some["loose"]
     assert "BatteryVoltageRead" in some["titles"]
+    # "servo" stands nearly everywhere, and tells nothing.
+    assert not little["titles"]
+    assert named["titles"][0] == "Hiwonder bus servo controller"
+
+
+# Whether a key is a form of a word that is whole, and of one that is still being typed.
+FORMS = {
+    ("no", "no"): (True, True),
+    ("note", "no"): (False, True),
+    ("bits", "bit"): (True, True),
+    ("led2", "led"): (True, True),
+    ("100", "1"): (False, True),
+    ("moving", "move"): (True, True),
+    ("nodding", "node"): (False, False),
+    ("voltages", "volt"): (True, True),
+    ("position", "positions"): (True, True),
+}
+
+
+@needs_node
+def test_what_is_short_begins_no_longer_word_unless_it_is_the_last() -> None:
+    program = """
+    const answers = asked.map(([key, word]) => [isForm(key, word), isForm(key, word, true)]);
+    """
+    answers = run_script(["matching"], program, [*FORMS])
+    assert dict(zip(FORMS, map(tuple, answers), strict=True)) == FORMS
+    typed, done, begun = found(["no", "no battery", "bat volt"])
+    assert len(typed["titles"]) > len(done["titles"]) > 0
+    assert (typed["open"], done["open"]) == (["no"], ["battery"])
+    # One that stands nowhere alone is a beginning after all.
+    assert begun["titles"][0] == "BatteryVoltageRead"
+
+
+@needs_node
+def test_what_is_not_for_users_comes_behind_unless_its_headings_are_meant() -> None:
+    guides = {each["path"].partition("#")[0] for each in index()["entries"] if each.get("aside")}
+    assert {"testing.html", "project/benchmarks.html", "what-changes-break.html"} <= guides
+    assert not guides & {"getting-started.html", "troubleshooting.html", "command.html"}
+    entries = [
+        {"kind": "guide", "path": "a.html", "where": "Guide", "aside": True, **each}
+        for each in (
+            {"title": "Peers", "text": "the buzzer"},
+            {"title": "Board", "text": "the buzzer", "aside": False},
+            *({"title": f"Other {number}"} for number in range(9)),
+        )
+    ]
+    data = {"entries": entries, "kinds": KINDS, "protocols": []}
+    program = """
+    const search = makeSearch(asked);
+    const answers = ["buzzer", "peers and the buzzer"].map((query) => search.find(query).hits
+      .map(({ entry }) => entry.title));
+    """
+    answers = run_script(RANKING, program, data)
+    assert answers == [["Board", "Peers"], ["Peers", "Board"]]
 
 
 @needs_node
@@ -192,6 +256,7 @@ MARKED = {
     ("<b>servo</b>", "servo"): "<b>«servo»</b>",
     ("nothing", "servo"): "nothing",
     ("", "servo"): "",
+    ("no note, none", "no"): "«no» note, none",
 }
 
 
@@ -201,14 +266,14 @@ def test_words_that_match_are_marked() -> None:
     const answers = asked.map(([text, word]) => piecesOf(text, [word])
       .map((piece) => (piece.hit ? `«${piece.text}»` : piece.text)).join(""));
     """
-    assert run_script(["ranking"], program, [*MARKED]) == [*MARKED.values()]
+    assert run_script(RANKING, program, [*MARKED]) == [*MARKED.values()]
 
 
 @needs_node
 def test_a_snippet_shows_the_words_and_is_part_of_the_text() -> None:
     program = "const answers = asked.map(([text, words]) => snippetOf(text, words));"
     texts = [(each["text"], ["reply"]) for each in index()["entries"] if "text" in each]
-    for (text, _), snippet in zip(texts, run_script(["ranking"], program, texts), strict=True):
+    for (text, _), snippet in zip(texts, run_script(RANKING, program, texts), strict=True):
         assert len(snippet) <= 210
         assert snippet.removeprefix("… ").removesuffix(" …").strip() in text
         if "reply" in text.lower():
@@ -227,7 +292,7 @@ def bytes_found(queries: list[str]) -> list[dict[str, Any]]:
       return { read: { ...read, bytes: Array.from(read.bytes) }, ...bytesSearch.find(read.bytes) };
     });
     """
-    scripts = [*codec_scripts(project().specs[1].model), "ranking", "bytes_found"]
+    scripts = [*codec_scripts(project().specs[1].model), *RANKING, "bytes_found"]
     answers: list[dict[str, Any]] = run_script(
         scripts, program, {"index": index(), "queries": queries}
     )
@@ -375,7 +440,8 @@ def test_words_of_users_lead_to_the_first_entry_at_an_address() -> None:
     entries = index()["entries"]
     led = {word: each["path"] for each in entries for word in each.get("also", [])}
     assert led["limp"] == "reference/busservo/messages/ServoUnload.html"
-    assert led["beep"] == "troubleshooting.html"
+    assert led["blink"] == "troubleshooting.html"
+    assert led["beep"] == "troubleshooting.html#the-board-beeps-at-a-frame-of-mine"
     assert led["dialout"] == "troubleshooting.html"
     rows = re.findall(
         r"^\| (.+?) \|", (ROOT / "docs" / "words.md").read_text("utf-8"), re.MULTILINE
@@ -390,7 +456,7 @@ def test_words_that_lead_where_no_entry_is_make_one() -> None:
     made = list(
         with_words([Entry("guide", "Troubleshooting", "troubleshooting.html", "Guide")], guide)
     )
-    assert "beep" in made[0].also
+    assert "blink" in made[0].also
     (move,) = [each for each in made if each.path.endswith("/ServoMove.html")]
     assert (move.kind, move.title) == ("page", "ServoMove")
 

@@ -81,7 +81,7 @@ def test_every_documented_frame_is_found_by_its_bytes(name: str) -> None:
     const bytesSearch = makeBytesSearch(asked.index);
     const answers = asked.frames.map(([, , bytes]) => bytesSearch.find(bytes).judged);
     """
-    scripts = [*codec_scripts(model), "ranking", "bytes_found"]
+    scripts = [*codec_scripts(model), "bytes_found"]
     asked = {"index": index_of(site_of(name)), "frames": frames}
     for (message, way, data), judged in zip(
         frames, run_script(scripts, program, asked), strict=True

@@ -238,7 +238,11 @@ class Site:
         about = f"Search {self.title}: names, ids, words and bytes, without a network."
         models = [each.reference.model for each in self.references]
         codec = max(map(codec_scripts, models), key=len, default=("hex",))
-        scripts = (codec, ("elements", "ranking", "bytes_found"), ("search",))
+        scripts = (
+            codec,
+            ("elements", "matching", "ranking", "snippet", "bytes_found"),
+            ("search",),
+        )
         context = {"data": script_json(self.search.data)}
         return Page("search.html", "search", "Search", "Search", about, "", scripts, context)
 
@@ -246,7 +250,7 @@ class Site:
     def search(self) -> SearchIndex:
         """All that can be found."""
         abouts = {link: entry.about for link, entry in self._entries.items()}
-        return SearchIndex(self.references, self.guides, abouts)
+        return SearchIndex(self.references, self.guides, abouts, self._for_users)
 
     @property
     def _about(self) -> str:

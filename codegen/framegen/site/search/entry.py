@@ -24,7 +24,8 @@ class Entry:
     """A place of the site, by its path below the root, with an anchor where there is one.
 
     `where` says what it is, `names` are other names that lead to it at once, `also` what people
-    call it, and `hex` the bytes of a documented frame.
+    look for it by, and `hex` the bytes of a documented frame. `aside` is what is not for users:
+    it comes behind what is, unless its headings tell that it is meant.
     """
 
     kind: str
@@ -36,6 +37,7 @@ class Entry:
     names: tuple[str, ...] = ()
     also: tuple[str, ...] = ()
     hex: str = ""
+    aside: bool = False
 
     def called(self, words: tuple[str, ...]) -> Entry:
         """Return the entry with more words that lead to it."""
@@ -54,6 +56,7 @@ class Entry:
             "names": list(dict.fromkeys(self.names)),
             "also": list(self.also),
             "hex": self.hex,
+            "aside": self.aside,
         }
         return {name: value for name, value in found.items() if value}
 

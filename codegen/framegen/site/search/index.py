@@ -34,11 +34,15 @@ class Letter:
 
 @dataclass(frozen=True)
 class SearchIndex:
-    """All that can be found in references, in guides, and of what the plan says of these."""
+    """All that can be found in references, in guides, and of what the plan says of these.
+
+    `for_users` are the guides that are not aside.
+    """
 
     references: Sequence[ReferencePages]
     guides: Sequence[Guide]
     abouts: Mapping[str, str]
+    for_users: Sequence[Guide]
 
     @cached_property
     def entries(self) -> list[Entry]:
@@ -50,7 +54,7 @@ class SearchIndex:
         for each in self.references:
             yield from reference_entries(each.reference, each.folder)
         for guide in self.guides:
-            yield from guide_entries(guide, self.abouts)
+            yield from guide_entries(guide, self.abouts, aside=guide not in self.for_users)
 
     @property
     def data(self) -> dict[str, Any]:

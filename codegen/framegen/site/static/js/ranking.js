@@ -1,18 +1,18 @@
 // Finds the entries of an index by words, the best first. It touches no page.
 "use strict";
 
-// Letters and digits, by ranges: browsers are ten times slower with the names of such classes.
-const WORD = /[A-Za-z0-9\u00c0-\u1fff\u3040-\uffee]+(?:[-_.][A-Za-z0-9\u00c0-\u1fff\u3040-\uffee]+)*/g;
-const BETWEEN = /[^a-z0-9\u00c0-\u1fff\u3040-\uffee]+/g;
 // How much it is worth where a word stands, and how much less it is worth in a long text of that kind.
 const PLACES = { title: [8, 0.3], names: [8, 0], also: [7, 0], path: [4, 0], where: [3, 0.3],
   sort: [3, 0], text: [2, 0.6] };
 // What people call an entry of a kind.
 const SORTS = { message: "command packet layout format bytes", method: "function call Python" };
 // How soon more of the same word adds nothing, and what a name within a question is worth.
-const SATURATION = 3, NAME_WITHIN = 0.8, MOST_NAME_WORDS = 5;
-// Hits have this much of what the best one has of the words, rare ones counting more.
-const LEAST_SHARE = 0.3;
+const SATURATION = 3, NAMED = 0.7, NAME_WITHIN = 0.8, MOST_NAME_WORDS = 5;
+// Hits have this much of what the best one has of the words, rare ones counting more; and so much of what
+// a query tells must stand somewhere.
+const LEAST_SHARE = 0.3, LEAST_KNOWN = 0.2;
+// How much less a hit is worth that is not for users, as far as its headings do not tell.
+const ASIDE = 0.25;
 // What questions are made of. It says nothing about the place, and is too rare in reference text for
 // its frequency there to tell so.
 const QUESTION_WORDS = new Set(`a about am an and any are as at be can could did do does for from get
@@ -20,49 +20,7 @@ const QUESTION_WORDS = new Set(`a about am an and any are as at be can could did
   there these they this to too use used using want was we what when where which while who why will
   with would you your`.split(/\s+/));
 const EXACT_TITLE = 100, EXACT_NAME = 90, EXACT_HEADING = 60, TITLE_BEGINS = 2, KIND = 0.4, LATER = 0.8;
-const LEAST_TO_CORRECT = 4, LEAST_STEM = 3, MOST_SUGGESTIONS = 3, MOST_WORDS = 16;
-
-// A name as it is compared: "LX-16A", "lx_16a" and "lx16a" are one.
-const glued = (text) => text.toLowerCase().replace(BETWEEN, "");
-
-// What a word is found by: itself, each of its parts, and what it has from there on. So
-// "BatteryVoltageRead" is found by "voltage" and "voltageread", too.
-const keysOfWords = new Map();
-function keysOf(word) {
-  if (!keysOfWords.has(word)) {
-    const parts = word.replace(/([a-z0-9])([A-Z])/g, "$1 $2").toLowerCase().split(/[-_. ]/);
-    const keys = [...parts, ...parts.map((_, from) => parts.slice(from).join(""))];
-    keysOfWords.set(word, [...new Set(keys)]);
-  }
-  return keysOfWords.get(word);
-}
-
-// Words and “phrases” of a query. What is between quotes must stand there as it is.
-function readQuery(query) {
-  const phrases = [];
-  const open = query.replace(/["“”]([^"“”]+)["“”]/g, (_, phrase) => {
-    phrases.push(phrase.trim().toLowerCase().replace(/\s+/g, " "));
-    return ` ${phrase} `;
-  });
-  return { words: (open.match(WORD) ?? []).slice(0, MOST_WORDS), phrases: phrases.filter(Boolean) };
-}
-
-// A word without the ends that English gives to it, or "" where too little is left.
-function stemOf(word) {
-  const stem = word.replace(/ies$/, "y").replace(/(?:ing|ed|es|s|e)$/, "");
-  return stem !== word && stem.length >= LEAST_STEM ? stem : "";
-}
-
-// Whether one slip lies between two words: a letter too many, too few, another, or two changed round.
-function isOneSlip(one, other) {
-  if (one.length > other.length) return isOneSlip(other, one);
-  let at = 0;
-  while (at < one.length && one[at] === other[at]) at++;
-  const rest = (text, from) => text.slice(from);
-  if (one.length < other.length) return rest(one, at) === rest(other, at + 1);
-  return rest(one, at + 1) === rest(other, at + 1)
-    || (one[at] === other[at + 1] && one[at + 1] === other[at] && rest(one, at + 2) === rest(other, at + 2));
-}
+const LEAST_TO_CORRECT = 4, MOST_SUGGESTIONS = 3;
 
 function makeSearch(index) {
   const { entries } = index, ranks = Object.keys(index.kinds);
@@ -70,6 +28,8 @@ function makeSearch(index) {
   const whole = entries.map((entry) => [entry.title, ...(entry.names ?? []), ...(entry.also ?? []),
     entry.where, entry.text ?? ""].join("\n").toLowerCase());
   const titles = entries.map(({ title }) => glued(title));
+  const headings = entries.map(({ title, where, also = [] }) => (
+    [...new Set([title, where, ...also].join("\n").match(WORD)?.flatMap(keysOf))]));
   // What is called so, which entries have a word and how well, in turn,
   // and how names of several parts are written.
   const exact = new Map(), vocabulary = new Map(), written = new Map();
@@ -119,17 +79,19 @@ function makeSearch(index) {
 
   // As one types, only the last word is another one.
   const known = new Map();
-  function worths(word) {
+  function worths(word, open) {
+    const name = `${word} ${open}`;
     if (known.size > MOST_WORDS) known.delete(known.keys().next().value);
-    if (!known.has(word)) known.set(word, worthsAnew(word));
-    return known.get(word);
+    if (!known.has(name)) known.set(name, worthsAnew(word, open));
+    return known.get(name);
   }
 
-  // How well each entry has a word, or one that begins with it.
-  function worthsAnew(word) {
+  // How well each entry has a word, in one of its forms.
+  function worthsAnew(word, open) {
     const found = new Float32Array(entries.length);
     const take = (start, factor) => {
       for (let at = firstFrom(start); at < keys.length && keys[at].startsWith(start); at++) {
+        if (!isForm(keys[at], word, open)) continue;
         const like = keys[at] === word ? 1 : factor * (1 + start.length / keys[at].length) / 2;
         const having = vocabulary.get(keys[at]);
         for (let next = 0; next < having.length; next += 2) {
@@ -140,6 +102,8 @@ function makeSearch(index) {
     };
     take(word, 0.8);
     if (stemOf(word)) take(stemOf(word), 0.6);
+    // "baudrate" is "baud rate".
+    for (const number of exact.get(word)?.keys() ?? []) found[number] ||= NAMED;
     return found;
   }
 
@@ -151,12 +115,17 @@ function makeSearch(index) {
     return like.sort((one, other) => uses(other) - uses(one)).slice(0, MOST_SUGGESTIONS);
   }
 
-  // Words as they are found: one that stands nowhere as a whole is taken in its parts.
-  function taken(words) {
-    return words.flatMap((word) => {
-      const found = worths(glued(word)), parts = word.split(/[-_.]/);
-      if (found.some(Boolean) || parts.length === 1) return [{ word: glued(word), found }];
-      return taken(parts);
+  // Words as they are found: one that stands nowhere as a whole is a beginning, or taken in its parts.
+  // The last one is still being typed.
+  function taken(words, typed = true) {
+    return words.flatMap((text, at) => {
+      const word = glued(text), parts = text.split(/[-_.]/);
+      for (const open of typed && at === words.length - 1 ? [true] : [false, true]) {
+        const found = worths(word, open);
+        if (found.some(Boolean)) return [{ text, word, open, found }];
+      }
+      if (parts.length > 1) return taken(parts, false);
+      return [{ text, word, open: false, found: new Float32Array(entries.length) }];
     });
   }
 
@@ -167,6 +136,8 @@ function makeSearch(index) {
     for (const each of found) if (each) many++;
     return Math.log(1 + (entries.length - many + 0.5) / (many + 0.5));
   }
+
+  const tellsOf = (sought) => sought.reduce((sum, { weight }) => sum + weight, 0);
 
   // What each entry gains by names that stand within a question.
   function namedWithin(sought) {
@@ -184,13 +155,19 @@ function makeSearch(index) {
     return gained;
   }
 
+  // How much of what is sought the headings of an entry have.
+  function inHeadings(number, sought) {
+    const has = ({ word, open }) => headings[number].some((key) => isForm(key, word, open));
+    return sought.reduce((sum, each) => sum + (has(each) ? each.weight : 0), 0) / tellsOf(sought);
+  }
+
   // The entries with all phrases and with most of what the words tell. If none has all words, `loose`
-  // says so; if a word stands nowhere, hits are those of one like it, and
-  // `suggestions` are queries that have all words with it.
+  // says so, and `absent` are the words that stand nowhere, unless hits are those of words like them:
+  // then `suggestions` are queries that have all words with these.
   function find(query, { kind = "", protocol = "" } = {}) {
     const { words, phrases } = readQuery(query), key = glued(query);
     const sought = taken(words).map((each) => ({ ...each, weight: weightOf(each) }));
-    const wrong = sought.filter(({ found }) => !found.some(Boolean));
+    const wrong = sought.filter(({ found, weight }) => weight && !found.some(Boolean));
     const better = exact.has(key) ? [] : corrected(query, wrong.map(({ word }) => word));
     const answers = better.map((text) => find(text, { kind, protocol }));
     if (answers.some(({ hits }) => hits.length)) {
@@ -199,8 +176,10 @@ function makeSearch(index) {
     }
     // Where nothing but a question is asked, its words are all there is.
     if (!sought.some(({ weight }) => weight)) sought.forEach((each) => { each.weight = 1; });
-    const within = namedWithin(sought), hits = [], counts = {};
+    const within = namedWithin(sought), hits = [], counts = {}, tells = tellsOf(sought);
+    const isKnown = exact.has(key) || tells - tellsOf(wrong) >= LEAST_KNOWN * tells;
     entries.forEach((entry, number) => {
+      if (!isKnown) return;
       if (!phrases.every((phrase) => whole[number].includes(phrase))) return;
       if (protocol && entry.protocol !== protocol) return;
       let share = 0, score = within.get(number) ?? 0, missing = 0;
@@ -211,6 +190,8 @@ function makeSearch(index) {
       }
       const named = exact.get(key)?.get(number) ?? 0;
       if (!share && !named) return;
+      if (named) missing = 0;
+      if (entry.aside && !named) score *= 1 - ASIDE * (1 - inHeadings(number, sought));
       const begins = titles[number].startsWith(key) ? TITLE_BEGINS * key.length / titles[number].length : 0;
       const behind = LATER * Math.max(0, protocols.indexOf(entry.protocol))
         + KIND * (ranks.indexOf(entry.kind) + number / entries.length);
@@ -227,7 +208,9 @@ function makeSearch(index) {
       counts,
       loose: enough.length > 0 && enough.every(({ missing }) => missing),
       suggestions: [],
+      absent: exact.has(key) ? [] : wrong.map(({ text }) => text),
       words: sought.filter(({ weight }) => weight).map(({ word }) => word),
+      open: sought.filter(({ open }) => open).map(({ word }) => word),
     };
   }
 
@@ -243,52 +226,4 @@ function makeSearch(index) {
   }
 
   return { find };
-}
-
-// Text in pieces, of which some are matched by the words of a search.
-function piecesOf(text, words) {
-  const stems = words.flatMap((word) => [word, stemOf(word)]).filter(Boolean), pieces = [];
-  let end = 0;
-  for (const { 0: word, index } of text.matchAll(WORD)) {
-    if (!keysOf(word).some((key) => stems.some((stem) => key.startsWith(stem)))) continue;
-    pieces.push({ text: text.slice(end, index), hit: false }, { text: word, hit: true });
-    end = index + word.length;
-  }
-  return [...pieces, { text: text.slice(end), hit: false }].filter((piece) => piece.text);
-}
-
-// Where the words of a search stand in a text, whatever joins their parts there.
-function placesOf(text, words) {
-  return words.flatMap((word) => {
-    const pattern = new RegExp([...(stemOf(word) || word)].join("[-_.]?"), "giu");
-    return Array.from(text.matchAll(pattern), ({ index }) => ({ index, word }));
-  });
-}
-
-// The first of the places behind which the most different words stand within `reach`.
-function densestOf(places, reach) {
-  const sorted = [...places].sort((one, other) => one.index - other.index), many = new Map();
-  const counts = new Map();
-  let end = 0;
-  sorted.forEach(({ index, word }, at) => {
-    for (; end < sorted.length && sorted[end].index < index + reach; end++) {
-      counts.set(sorted[end].word, (counts.get(sorted[end].word) ?? 0) + 1);
-    }
-    if (!many.has(index)) many.set(index, counts.size);
-    if (counts.get(word) === 1) counts.delete(word);
-    else counts.set(word, counts.get(word) - 1);
-  });
-  return places.reduce((so, place) => (many.get(place.index) > many.get(so.index) ? place : so), places[0]);
-}
-
-// The part of a text with the most of the words in it, at whole words.
-function snippetOf(text, words, size = 200) {
-  if (text.length <= size) return text;
-  const places = placesOf(text, words);
-  const best = words.length > 1 ? densestOf(places, 0.7 * size) : places[0];
-  let from = Math.max(0, (best?.index ?? 0) - 50);
-  if (from) from = text.indexOf(" ", from) + 1;
-  let to = Math.min(text.length, from + size);
-  if (to < text.length) to = Math.max(text.lastIndexOf(" ", to), from + 1);
-  return `${from ? "… " : ""}${text.slice(from, to)}${to < text.length ? " …" : ""}`;
 }

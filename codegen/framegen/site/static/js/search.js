@@ -9,7 +9,7 @@
   const A_PAGE = 30, UNTIL_KEPT = 300;
   let shown = A_PAGE, keeping = 0;
 
-  const marked = (text, sought) => piecesOf(text, sought).map(
+  const marked = (text, { words, open }) => piecesOf(text, words, open).map(
     (piece) => (piece.hit ? make("mark", {}, piece.text) : piece.text));
 
   // ---- What is asked
@@ -57,7 +57,7 @@
     const framed = [...judged, ...known].filter((entry) => !protocol || entry.protocol === protocol);
     const hits = framed.filter(mayTake).map((entry) => ({ entry }));
     const counts = { frame: framed.length };
-    return { hits, counts, loose: false, suggestions: [], words: [], whole, ...read };
+    return { hits, counts, loose: false, suggestions: [], absent: [], words: [], whole, ...read };
   }
 
   function bytesShown({ hex, at, size }) {
@@ -68,15 +68,16 @@
 
   function itemOf({ entry }, sought) {
     const where = [entry.where, entry.decoder ? "" : titles.get(entry.protocol)].filter(Boolean).join(" · ");
-    const also = (entry.also ?? []).filter((each) => piecesOf(each, sought).some(({ hit }) => hit));
+    const isHit = (each) => piecesOf(each, sought.words, sought.open).some(({ hit }) => hit);
+    const also = (entry.also ?? []).filter(isHit);
     const item = make("li", { class: entry.decoder ? "found bytes-found" : "found" },
       make("p", { class: "found-title" },
         make("a", { href: entry.path }, ...marked(entry.title, sought)), " ",
         make("span", { class: "small quiet" }, ...marked(where, sought))));
     const add = (kind, ...children) => item.append(make("p", { class: kind }, ...children));
     if (entry.hex) add("small", make("code", { class: "bytes" }, ...bytesShown(entry)));
-    if (also.length) add("small", "Also called: ", ...marked(also.join(", "), sought));
-    if (entry.text) add("snippet", ...marked(snippetOf(entry.text, sought), sought));
+    if (also.length) add("small", "Found for: ", ...marked(also.join(", "), sought));
+    if (entry.text) add("snippet", ...marked(snippetOf(entry.text, sought.words, sought.open), sought));
     if (entry.decoder) add("small", make("a", { href: entry.decoder }, "Decode it in the workbench"));
     return item;
   }
@@ -85,18 +86,28 @@
 
   const counted = (many, what) => `${many} ${many === 1 ? what : `${what}s`}`;
 
-  function summary({ query, kind }, { hits, loose, bytes, left, problem, suggestions, whole }, instead) {
+  // The words that stand on no page, where others do.
+  function missed({ absent, words }) {
+    if (!absent.length || absent.length === words.length) return "";
+    const quoted = absent.map((word) => `“${word}”`), last = quoted.pop();
+    return `No page has ${quoted.length ? `${quoted.join(", ")} or ${last}` : last}.`;
+  }
+
+  function summary({ query, kind }, answer, instead) {
+    const { hits, bytes, left, problem, suggestions, whole, absent } = answer;
     if (!query) return `${index.entries.length} places to find.`;
     const half = left ? ` The last digit, ${left}, is half a byte.` : "";
     const what = bytes ? counted(bytes.length, "byte") : `“${query}”`;
     const of = kind ? ` in ${index.kinds[kind].toLowerCase()}` : "";
     if (problem) return `${problem}.`;
     if (suggestions.length) return `Nothing has “${query}”. ${instead.hits.length} found instead for`;
-    if (loose) return `Nothing has all of these words. With some of them: ${hits.length}.`;
+    if (hits.length && absent.length) {
+      return `${missed(answer)} ${hits.length} found without ${absent.length > 1 ? "them" : "it"}${of}.`;
+    }
     // What holds them is documented; what else is shown says why they are no frame.
     const isKnown = whole || hits.some(({ entry }) => !entry.decoder);
     if (bytes && hits.length && !isKnown) return `${what}, and no whole frame.${half}`;
-    return `${hits.length || "Nothing"} found for ${what}${of}.${half}`;
+    return `${hits.length || "Nothing"} found for ${what}${of}.${half} ${missed(answer)}`.trim();
   }
 
   function suggested(suggestions) {
@@ -119,7 +130,7 @@
     const { hits, counts, suggestions } = answer;
     const instead = suggestions.length ? found({ ...request, query: suggestions[0] }) : answer;
     const visible = request.query ? instead.hits.slice(0, shown) : [];
-    results.replaceChildren(...visible.map((hit) => itemOf(hit, instead.words)));
+    results.replaceChildren(...visible.map((hit) => itemOf(hit, instead)));
     results.hidden = !visible.length;
     byId("search-count").replaceChildren(summary(request, answer, instead), ...suggested(suggestions));
     byId("search-more").hidden = !request.query || instead.hits.length <= shown;
