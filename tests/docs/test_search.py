@@ -151,6 +151,8 @@ FORMS = {
     ("100", "1"): (False, True),
     ("moving", "move"): (True, True),
     ("nodding", "node"): (False, False),
+    ("nod", "node"): (False, False),
+    ("node", "nodes"): (True, True),
     ("voltages", "volt"): (True, True),
     ("position", "positions"): (True, True),
 }

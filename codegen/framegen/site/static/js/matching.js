@@ -8,6 +8,8 @@ const MOST_WORDS = 16, LEAST_STEM = 3, LEAST_BEGINNING = 4;
 // What a short word may end with besides, from its last letter on, and a short stem: "bits" and "LED2",
 // but neither "note" for "not" nor "100" for "1".
 const WORD_ENDS = /^.(?:e?s|e?d|ing)?$|^\D\d+$/, STEM_ENDS = /^.(?:e|e?s|e?d|y|ies|ing)?$/;
+// "node" has no form "nod".
+const ENDS_OF_E = /^.(?:e|e[sd]|ing)$/;
 
 // A name as it is compared: "LX-16A", "lx_16a" and "lx16a" are one.
 const glued = (text) => text.toLowerCase().replace(BETWEEN, "");
@@ -46,7 +48,7 @@ function isForm(key, word, open = false) {
   const begins = (start, ends) => key.startsWith(start)
     && (start.length >= LEAST_BEGINNING || ends.test(key.slice(start.length - 1)));
   if (open ? key.startsWith(word) : begins(word, WORD_ENDS)) return true;
-  return stemOf(word) !== "" && begins(stemOf(word), STEM_ENDS);
+  return stemOf(word) !== "" && begins(stemOf(word), word.endsWith("e") ? ENDS_OF_E : STEM_ENDS);
 }
 
 // Whether one slip lies between two words: a letter too many, too few, another, or two changed round.
