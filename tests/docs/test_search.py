@@ -177,13 +177,11 @@ def test_what_is_not_for_users_comes_behind_unless_its_headings_are_meant() -> N
     guides = {each["path"].partition("#")[0] for each in index()["entries"] if each.get("aside")}
     assert {"testing.html", "project/benchmarks.html", "what-changes-break.html"} <= guides
     assert not guides & {"getting-started.html", "troubleshooting.html", "command.html"}
+    said: dict[str, Any] = {"kind": "guide", "path": "a.html", "where": "Guide"}
     entries = [
-        {"kind": "guide", "path": "a.html", "where": "Guide", "aside": True, **each}
-        for each in (
-            {"title": "Peers", "text": "the buzzer"},
-            {"title": "Board", "text": "the buzzer", "aside": False},
-            *({"title": f"Other {number}"} for number in range(9)),
-        )
+        {**said, "title": "Peers", "text": "the buzzer", "aside": True},
+        {**said, "title": "Board", "text": "the buzzer"},
+        *({**said, "title": f"Other {number}"} for number in range(9)),
     ]
     data = {"entries": entries, "kinds": KINDS, "protocols": []}
     program = """
