@@ -1,8 +1,8 @@
 """What holds for every test: how long Hypothesis searches, and which tests are slow.
 
-A slow test lies in tests/all, or is marked `slow`. `pytest` leaves it out, unless it is called for:
-`--all` runs the slow tests beside the others, `--sample N` runs N of each file and nothing else,
-and what is named is run: a file of tests/all, or any test with `::`.
+What is slow, or needs the world outside this process, lies in tests/world. `pytest` leaves it out
+(norecursedirs); `pytest tests/world` runs it, and with `--sample N` so many of each file.
+A row marked `slow` is run by `--all`, or where it is named with `::`.
 
 The profiles of Hypothesis are `ci`, the same examples in every run; `quick`, fewer of them; `all`,
 many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_PROFILE or
@@ -66,16 +66,13 @@ _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 ROOT = Path(__file__).parent.parent
 # Protocols of which each kind of frame is one of another protocol as well.
 ALIKE = {"crsf", "ibus", "learm", "mavlink1", "mhz19", "msp", "tfmini"}
-SLOW_TESTS = Path(__file__).parent / "all"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add what chooses slow tests."""
     group = parser.getgroup("slow tests")
-    group.addoption("--all", action="store_true", help="run the slow tests as well")
-    group.addoption(
-        "--sample", type=int, metavar="N", help="run N slow tests of each file, and nothing else"
-    )
+    group.addoption("--all", action="store_true", help="run the slow rows as well")
+    group.addoption("--sample", type=int, metavar="N", help="run N tests of each file")
     group.addoption("--seed", type=int, help="which of them (default: others on each day)")
 
 
@@ -116,13 +113,7 @@ def something_is_missing() -> bool:
 def pytest_report_header(config: pytest.Config) -> list[str]:
     """Print what a sample can be repeated with."""
     many = config.option.sample
-    return [] if many is None else [f"slow tests: {many} of each file, --seed {config.option.seed}"]
-
-
-def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Do not even import the slow tests, unless some of them are run."""
-    wanted = config.option.all or config.option.sample is not None
-    return True if collection_path == SLOW_TESTS and not wanted else None
+    return [] if many is None else [f"{many} tests of each file, --seed {config.option.seed}"]
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
@@ -167,13 +158,12 @@ def is_slow(item: pytest.Item) -> bool:
 
 
 def sample(items: Sequence[pytest.Item], many: int, seed: int) -> set[pytest.Item]:
-    """Return so many slow tests of each file; the same for the same seed."""
+    """Return so many tests of each file; the same for the same seed."""
     by_file: defaultdict[str, list[pytest.Item]] = defaultdict(list)
     for item in items:
-        if SLOW_TESTS in item.path.parents or is_slow(item):
-            by_file[item.nodeid.partition("::")[0]].append(item)
+        by_file[item.nodeid.partition("::")[0]].append(item)
     return {
         item
-        for file, slow in by_file.items()
-        for item in random.Random(f"{seed} {file}").sample(slow, min(many, len(slow)))  # noqa: S311
+        for file, those in by_file.items()
+        for item in random.Random(f"{seed} {file}").sample(those, min(many, len(those)))  # noqa: S311
     }

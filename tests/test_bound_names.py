@@ -11,7 +11,7 @@ from tests.factories import compiled_of, rules_broken
 from tests.names_at_work import at_work
 
 # Classes meet what modules import, which depends on the kind of frames, so that these have both.
-# tests/all has every kind of name in frames of both kinds.
+# tests/world has every kind of name in frames of both kinds.
 KINDS = [("fields", True), ("halves", False), ("ends", True), ("parts", False)]
 KINDS += [(kind, plain) for kind in ("messages", "elements") for plain in (True, False)]
 

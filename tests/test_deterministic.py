@@ -1,7 +1,7 @@
 """What follows from a spec depends on nothing else, and its text is clean.
 
-tests/all/test_deterministic.py holds that other folders, locales, hash orders and Pythons give the
-same bytes.
+tests/world/test_deterministic.py holds that other folders, locales, hash orders and Pythons give
+the same bytes.
 """
 
 import os

@@ -345,7 +345,7 @@ def test_paths_lead_into_both_editions() -> None:
 
 # ------------------------------------------------------------------ what is seen
 
-# A few of each kind; tests/all has the others.
+# A few of each kind; tests/world has the others.
 SAMPLE = [
     ("weather", "u16 became u8"),
     ("lamp", "a byte added in end"),

@@ -1,6 +1,6 @@
 """What a comparison says of the wire is how the two generated libraries really talk: a sample.
 
-All mutations of all specs are in tests/all/test_comparison.py.
+All mutations of all specs are in tests/world/test_comparison.py.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from tests.documents import ROOT
 from tests.screenshots import IMAGES, LARGEST, SCREENSHOTS, Screenshot
 
 DRAWINGS = sorted((ROOT / "docs" / "images").glob("wiring-*.svg"))
-# Drawn by the commands of guides, which tests/all/test_guides.py runs.
+# Drawn by the commands of guides, which tests/world/test_guides.py runs.
 PLOTS = {"plot-arm.svg"}
 GUIDES = "\n".join(file.read_text("utf-8") for file in (ROOT / "docs").glob("*.md"))
 SVG = "{http://www.w3.org/2000/svg}"

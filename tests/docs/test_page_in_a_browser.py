@@ -1,4 +1,4 @@
-"""One page in a real browser; tests/all/test_browser.py has them all."""
+"""One page in a real browser; tests/world/test_browser.py has them all."""
 
 from __future__ import annotations
 

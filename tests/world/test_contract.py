@@ -80,7 +80,7 @@ def shown(failures: dict[str, list[str]]) -> str:
     lines = [f"seed {SEED}"]
     for mutant, found in list(failures.items())[:20]:
         lines += [mutant, *(f"    {each}" for each in found[:5])]
-        lines.append(f"    CONTRACT_ONLY={mutant!r} python -m pytest tests/all/test_contract.py")
+        lines.append(f"    CONTRACT_ONLY={mutant!r} python -m pytest tests/world/test_contract.py")
     return "\n".join(lines)
 
 
