@@ -50,7 +50,7 @@ unexport PYTHONDONTWRITEBYTECODE
 .DEFAULT_GOAL := all
 # Two that add to one environment at once would spoil it.
 .NOTPARALLEL:
-.PHONY: all test quick test-all sample coverage lint style types current diff format fuzz soak mutants bench docs docs-tools wheel packages release newcomer pins venv clean help
+.PHONY: all test quick library test-all sample coverage lint style types current diff format fuzz soak mutants bench docs docs-tools wheel packages release newcomer pins venv clean help
 
 all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy line (plain `make`)
 	$(IN)/framegen check
@@ -62,6 +62,9 @@ test: $(TO_TEST)  ## Run the tests
 	$(IN)/python -m pytest -n $(WORKERS)
 
 quick: $(TO_TEST)  ## Run the tests with fewer examples
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
+
+library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples: make library TESTS=tests/client
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
 
 test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
