@@ -28,7 +28,6 @@ from tests.strategies import joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from pathlib import Path
 
 RECEIVED = Direction.CONTROLLER_TO_HOST
 REPORT = ActionGroupCompleted(8, 1)
@@ -241,14 +240,12 @@ messages:
         pytest.param({"is": "constant", "bytes": "06"}, id="what ends as a single byte begins"),
     ],
 )
-def test_an_acknowledgement_makes_no_other_frame_doubtful(
-    end: dict[str, object], tmp_path: Path
-) -> None:
+def test_an_acknowledgement_makes_no_other_frame_doubtful(end: dict[str, object]) -> None:
     data = yaml.safe_load(ACKNOWLEDGED)
     data["frames"]["normal"]["check"] = end
     compiled = compiled_of(data)
     assert compiled.findings == []
-    with library(library_files(compiled), tmp_path) as made:
+    with library(library_files(compiled)) as made:
         module = import_module(f"{made.__name__}._codec.careful_decoder")
         for value in range(256):
             decoder = module.CarefulDecoder(made.Direction.METER_TO_HOST)

@@ -48,15 +48,10 @@ SPEC = data_of(DEMO)
 LAYOUT = layout_of(SPEC)
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("greenhouse")
-
-
 @pytest.fixture(scope="module", autouse=True)
-def greenhouse(folder: Path) -> Iterator[ModuleType]:
+def greenhouse() -> Iterator[ModuleType]:
     """Return the library, imported under its own name."""
-    with library(files_of(SPEC), folder) as made:
+    with library(files_of(SPEC)) as made:
         yield made
 
 
@@ -551,11 +546,11 @@ def places(frame: bytes) -> list[int]:
     return [*range(len(frame))[:40], *range(len(frame))[40:][-20:]]
 
 
-def holds(data: Data, folder: Path) -> None:
+def holds(data: Data) -> None:
     """Check that a library agrees with the reference codec on each message, ends included."""
     compiled = compiled_of(data)
     layout = compiled.model
-    with library(without_command(compiled), folder) as made:
+    with library(without_command(compiled)) as made:
         library_: Any = made
         for valid in valid_frames(layout):
             frame, direction = valid.data, valid.message.direction.key
@@ -754,14 +749,14 @@ SHAPES: dict[str, tuple[Data, str | int]] = {
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_a_message_of_any_shape_works(shape: str, tmp_path: Path) -> None:
+def test_a_message_of_any_shape_works(shape: str) -> None:
     message, length = SHAPES[shape]
-    holds(spec_with("Made", message, length, **FRAME), tmp_path)
+    holds(spec_with("Made", message, length, **FRAME))
 
 
-def test_derived_values_are_there_on_messages_and_elements(tmp_path: Path) -> None:
+def test_derived_values_are_there_on_messages_and_elements() -> None:
     message, length = SHAPES["numbers read as signed, and absent ones"]
-    with library(files_of(spec_with("Made", message, length, **FRAME)), tmp_path) as made:
+    with library(files_of(spec_with("Made", message, length, **FRAME))) as made:
         kind: Any = made.Made
         there = kind(depth=2**32 - 5, level=8, steps=[(65533,), (65534,), (65535,)])
         assert (there.depth, there.signed_depth, there.absent) == (2**32 - 5, -5, False)
@@ -771,9 +766,9 @@ def test_derived_values_are_there_on_messages_and_elements(tmp_path: Path) -> No
         assert kind(depth=5, level=9, steps=[]).signed_depth == 5
 
 
-def test_limits_hold_for_a_number_and_for_numbers_in_a_list(tmp_path: Path) -> None:
+def test_limits_hold_for_a_number_and_for_numbers_in_a_list() -> None:
     message, length = SHAPES["limits of a number and of numbers in a list"]
-    with library(files_of(spec_with("Made", message, length, **FRAME)), tmp_path) as made:
+    with library(files_of(spec_with("Made", message, length, **FRAME))) as made:
         limits = importlib.import_module(f"{made.__name__}._client.exchanges").LIMITS
         limits.check(made.Made(9, [1, 9]), limits.usual)
         for level, numbers, place in [(10, [1], "level: 10"), (1, [1, 0], "numbers[1]: 0")]:
@@ -802,7 +797,7 @@ FRAMES = list(
     ("order", "parts", "size", "kind", "counts"), [(order, *rest) for order, rest in FRAMES]
 )
 def test_a_frame_of_any_layout_works(
-    tmp_path: Path, order: str, parts: list[str], size: str, kind: str, counts: list[str]
+    order: str, parts: list[str], size: str, kind: str, counts: list[str]
 ) -> None:
     widths = {"size": NUMBER_TYPES[size].size, "kind": NUMBER_TYPES[kind].size, "body": 3}
     length = sum(widths[part] for part in counts)
@@ -824,7 +819,7 @@ def test_a_frame_of_any_layout_works(
     data["byte_order"] = order
     compiled = compiled_of(data)
     layout = compiled.model
-    with library(without_command(compiled), tmp_path) as made:
+    with library(without_command(compiled)) as made:
         any_made: Any = made
         frame = b"\xaa" + head + bytes.fromhex(body)
         assert any_made.Made([7]).encode() == frame
@@ -834,7 +829,7 @@ def test_a_frame_of_any_layout_works(
         assert [e for e in events if isinstance(e, any_made.Message)] == [any_made.Made([7])] * 3
 
 
-def test_the_widest_numbers_keep_every_value(tmp_path: Path) -> None:
+def test_the_widest_numbers_keep_every_value() -> None:
     message = message_of(
         1,
         {
@@ -850,9 +845,9 @@ def test_the_widest_numbers_keep_every_value(tmp_path: Path) -> None:
     )
     data = spec_with("Made", message, "8 * n + 9", **FRAME)
     assert rules_broken(data) == []
-    holds(data, tmp_path / "wide")
+    holds(data)
     data["messages"]["Made"]["fields"]["stamp"]["range"] = f"1..{2**64 - 2}"
-    holds(data, tmp_path / "narrow")
+    holds(data)
 
 
 # ------------------------------------------------------------------ the tools of the trade
@@ -894,10 +889,8 @@ def _rename_element(message: Data, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["greenhouse", "kiln", "shapes", "bare"])
-def test_every_verb_of_a_library_has_help(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
-) -> None:
-    with library(many()[name], tmp_path):
+def test_every_verb_of_a_library_has_help(capsys: pytest.CaptureFixture[str], name: str) -> None:
+    with library(many()[name]):
         main = importlib.import_module(f"{name}._cli").main
         verbs = {*importlib.import_module(f"{name}._cli.examples").VERBS} - {"simulate"}
         assert len(verbs) > 5
@@ -908,9 +901,9 @@ def test_every_verb_of_a_library_has_help(
 
 @pytest.mark.parametrize("name", ["kiln", "bare", "weather"])
 def test_the_doctor_of_a_library_finds_its_way_without_a_board(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    with library(many()[name], tmp_path):
+    with library(many()[name]):
         main = importlib.import_module(f"{name}._cli").main
         # There is nobody to be waited for.
         monkeypatch.setattr(f"{name}._cli.checks.rate.EXTRA_TIME", 0.0)
@@ -973,9 +966,9 @@ def test_the_libraries_are_clean(
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_no_check_is_switched_off_in_the_generated_part(folder: Path) -> None:
+def test_no_check_is_switched_off_in_the_generated_part() -> None:
     """In what templates made; the runtime is code like any other, and gives its reasons."""
-    package = folder / "generated" / "greenhouse"
+    files = many()["greenhouse"]
     for name in (
         "__init__.py",
         "messages.py",
@@ -983,5 +976,5 @@ def test_no_check_is_switched_off_in_the_generated_part(folder: Path) -> None:
         "_frame/direction.py",
         "strategies.py",
     ):
-        text = (package / name).read_text(encoding="utf-8")
+        text = files[f"generated/greenhouse/{name}"]
         assert re.findall(r"#\s*(?:noqa|type:|pyright:|mypy:|fmt:|pragma)", text) == [], name

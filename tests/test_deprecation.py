@@ -20,11 +20,11 @@ SAID = f"VentsOpen is deprecated: {TEXT}"
 
 
 @pytest.fixture(scope="module")
-def old(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+def old() -> Iterator[ModuleType]:
     """A library with a deprecated command that its client sends, and one that others send."""
     data = data_of(DEMO)
     data["messages"]["VentsOpen"]["deprecated"] = TEXT
-    with library(files_of(data), tmp_path_factory.mktemp("deprecated")) as made:
+    with library(files_of(data)) as made:
         yield made
 
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
 from tests.device_line import DeviceLine
 from tests.factories import Data, files_of, kiln, layout_of, library
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def long_question(*, echoed: bool) -> Data:
@@ -37,8 +34,8 @@ def test_only_a_query_whose_reply_repeats_its_list_is_split(
 
 
 @pytest.mark.parametrize("echoed", [True, False])
-def test_a_reply_need_not_repeat_the_request(echoed: bool, tmp_path: Path) -> None:
-    with library(files_of(long_question(echoed=echoed)), tmp_path) as kiln_library:
+def test_a_reply_need_not_repeat_the_request(echoed: bool) -> None:
+    with library(files_of(long_question(echoed=echoed))) as kiln_library:
         made: Any = kiln_library
 
         device: Any = importlib.import_module(f"{made.__name__}.device")

@@ -1,7 +1,6 @@
 """The library names the protocols that are easily taken for it: by their frames, in any company."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -85,9 +84,9 @@ def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
     assert found.lookalike.title == lookalikes.recognise(data) == title
 
 
-def test_another_protocol_has_look_alikes_of_its_own(tmp_path: Path) -> None:
+def test_another_protocol_has_look_alikes_of_its_own() -> None:
     layout = layout_of(data_of(DEMO))
-    with library(files_of(data_of(DEMO)), tmp_path) as made:
+    with library(files_of(data_of(DEMO))) as made:
         found = __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
         for data, title in examples(layout):
             assert found.recognise(data) == title
@@ -159,10 +158,9 @@ def with_proven_look_alikes() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def proven(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+def proven() -> Iterator[ModuleType]:
     """Return the module that recognises them, of a library of its own."""
-    folder = tmp_path_factory.mktemp("proven")
-    with library(files_of(with_proven_look_alikes()), folder) as made:
+    with library(files_of(with_proven_look_alikes())) as made:
         yield __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
 
 

@@ -21,12 +21,11 @@ MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
 
 
 @pytest.fixture(scope="module", autouse=True)
-def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def libraries() -> Iterator[None]:
     """Return both libraries, imported under their own names."""
-    folder = tmp_path_factory.mktemp("one_way")
     with (
-        library(files_of(WEATHER), folder / "weather"),
-        library(files_of(LAMP), folder / "lamp"),
+        library(files_of(WEATHER)),
+        library(files_of(LAMP)),
     ):
         yield
 

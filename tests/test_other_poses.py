@@ -13,9 +13,9 @@ from tests.factories import DEMO, data_of, files_of, library
 
 
 @pytest.fixture(scope="module")
-def blinds(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+def blinds() -> Iterator[ModuleType]:
     files = files_of(data_of(DEMO.with_name("blinds.yaml")))
-    with library(files, tmp_path_factory.mktemp("blinds")) as made:
+    with library(files) as made:
         yield made
 
 

@@ -39,13 +39,12 @@ SPECS = {name: SPECS[name] for name in MODELS}
 
 
 @pytest.fixture(scope="module", autouse=True)
-def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def libraries() -> Iterator[None]:
     """Return all of them, imported under their own names."""
     with ExitStack() as stack:
         for name, data in SPECS.items():
             if name != "busservo":
-                folder = tmp_path_factory.mktemp(name)
-                stack.enter_context(library(files_of(data), folder))
+                stack.enter_context(library(files_of(data)))
         yield
 
 

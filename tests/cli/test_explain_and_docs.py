@@ -76,18 +76,16 @@ OTHERS |= {name: data_of(DEMO.with_name(f"{name}.yaml")) for name in ("blinds", 
 
 
 @pytest.fixture(scope="module", params=OTHERS)
-def other(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[tuple[Data, ModuleType]]:
+def other(request: pytest.FixtureRequest) -> Iterator[tuple[Data, ModuleType]]:
     """Yield a spec, and its library."""
     data = OTHERS[request.param]
-    with library(files_of(data), tmp_path_factory.mktemp(request.param)) as made:
+    with library(files_of(data)) as made:
         yield data, made
 
 
 @pytest.fixture(scope="module")
-def house(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Explain]:
-    with library(files_of(data_of(DEMO)), tmp_path_factory.mktemp("house")) as made:
+def house() -> Iterator[Explain]:
+    with library(files_of(data_of(DEMO))) as made:
         yield carried_by(made.__name__)
 
 

@@ -20,13 +20,11 @@ if TYPE_CHECKING:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def libraries() -> Iterator[None]:
     """Return the libraries, imported under their own names."""
     with ExitStack() as stack:
         for name in ("mavlink1", "modbus"):
-            stack.enter_context(
-                library(files_of(data_of(FILES[name])), tmp_path_factory.mktemp(name))
-            )
+            stack.enter_context(library(files_of(data_of(FILES[name]))))
         yield
 
 

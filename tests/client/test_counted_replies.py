@@ -24,10 +24,10 @@ REPLY_TIMEOUT = 0.25
 
 
 @pytest.fixture(scope="module")
-def memory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+def memory() -> Iterator[ModuleType]:
     """Return the library of a memory."""
     files = library_files(compiled_file(BASES / "memory.yaml"))
-    with library(files, tmp_path_factory.mktemp("memory")) as made:
+    with library(files) as made:
         importlib.import_module("memory.device")
         yield made
 

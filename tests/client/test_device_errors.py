@@ -17,19 +17,16 @@ from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
 NAMES = ("dynamixel1", "modbus")
 
 
 @pytest.fixture(scope="module", autouse=True)
-def libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def libraries() -> Iterator[None]:
     """Return the libraries, imported under their own names."""
     with ExitStack() as stack:
         for name in NAMES:
-            stack.enter_context(
-                library(files_of(data_of(FILES[name])), tmp_path_factory.mktemp(name))
-            )
+            stack.enter_context(library(files_of(data_of(FILES[name]))))
         yield
 
 
@@ -169,14 +166,14 @@ def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
 
 @pytest.mark.parametrize(("status", "good", "fails"), [(1, 1, False), (0, 1, True), (2, 1, True)])
 def test_a_status_with_another_good_value_fails_with_all_others(
-    status: int, good: int, fails: bool, tmp_path: Path
+    status: int, good: int, fails: bool
 ) -> None:
     """A sensor whose status is 1 after a success raised on every success."""
     spec = data_of(FILES["dynamixel1"])
     spec["protocol"]["name"] = "well"
     spec["messages"]["Status"]["failure"] = f"error unless {good}"
     answer = frame("dynamixel1", "Status", servo_id=1, error=status, data=[])
-    with library(files_of(spec), tmp_path) as well:
+    with library(files_of(spec)) as well:
         line = ScriptedLine(lambda _: answer)
         with well.Controller(line, background=False, clock=line.clock, settle=0) as bus:
             if fails:

@@ -39,7 +39,6 @@ from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from pathlib import Path
 
     from busservo import Message
 
@@ -499,8 +498,8 @@ def test_what_is_nothing_to_do_on_exit_is_refused() -> None:
             other(VirtualLine(), on_exit="hold")
 
 
-def test_other_protocols_hold_and_release_in_words_of_their_own(tmp_path: Path) -> None:
-    with library(files_of(data_of(DEMO.with_name("blinds.yaml"))), tmp_path) as blinds:
+def test_other_protocols_hold_and_release_in_words_of_their_own() -> None:
+    with library(files_of(data_of(DEMO.with_name("blinds.yaml")))) as blinds:
         rolled: list[Any] = []
 
         class Motor(blinds.Device):  # type: ignore[misc, name-defined]

@@ -14,7 +14,6 @@ from tests.factories import compiled_file, library, library_files
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
-    from pathlib import Path
     from types import ModuleType
 
     from framegen.compile import Compiled
@@ -23,11 +22,9 @@ if TYPE_CHECKING:
 # The library of one is installed.
 @pytest.mark.each_protocol
 @pytest.mark.parametrize("name", [name for name in FILES if name != "lxservo"])
-def test_each_method_is_answered_by_the_device_of_the_same_library(
-    name: str, tmp_path: Path
-) -> None:
+def test_each_method_is_answered_by_the_device_of_the_same_library(name: str) -> None:
     compiled = compiled_file(FILES[name])
-    with library(library_files(compiled), tmp_path) as made:
+    with library(library_files(compiled)) as made:
         answered(made, compiled)
 
 

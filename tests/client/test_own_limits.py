@@ -3,7 +3,6 @@
 import asyncio
 import math
 import pickle
-from pathlib import Path
 from typing import Any
 
 import lxservo
@@ -104,8 +103,8 @@ def test_a_protocol_without_a_pose_takes_no_ids_and_no_limits() -> None:
 NO_IDS = r"ids: give them here, or to open_controller\(ids=…\)"
 
 
-def test_positions_are_read_of_the_ids_of_the_client(tmp_path: Path) -> None:
-    with library(files_of(data_of(DEMO.with_name("blinds.yaml"))), tmp_path) as blinds:
+def test_positions_are_read_of_the_ids_of_the_client() -> None:
+    with library(files_of(data_of(DEMO.with_name("blinds.yaml")))) as blinds:
         asked: list[tuple[int, ...]] = []
 
         class Motor(blinds.Device):  # type: ignore[misc, name-defined]

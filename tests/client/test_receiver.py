@@ -25,9 +25,9 @@ def data() -> Data:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def receiver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def receiver() -> Iterator[None]:
     """Return the library of a protocol whose length counts to 65535, under its own name."""
-    with library(files_of(data()), tmp_path_factory.mktemp("receiver")):
+    with library(files_of(data())):
         yield
 
 

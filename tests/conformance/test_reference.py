@@ -75,14 +75,12 @@ OTHERS = ["demo", "blinds", "lamp", "weather"]
 
 
 @pytest.fixture(scope="module")
-def answers(
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Iterator[Answers]:
+def answers() -> Iterator[Answers]:
     found: Answers = {"busservo": import_module("busservo._cli.answer").answer}
     with ExitStack() as libraries:
         for name in OTHERS:
             files = files_of(data_of(DEMO.with_name(f"{name}.yaml")))
-            module = libraries.enter_context(library(files, tmp_path_factory.mktemp(name)))
+            module = libraries.enter_context(library(files))
             found[name] = import_module(f"{module.__name__}._cli.answer").answer
         yield found
 

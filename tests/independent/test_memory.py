@@ -23,10 +23,10 @@ BOUND = 5 * (REPLY_TIMEOUT + 75 * BYTE)
 
 
 @pytest.fixture(scope="module")
-def memory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ModuleType]:
+def memory() -> Iterator[ModuleType]:
     """Return the library of a memory."""
     files = library_files(compiled_file(BASES / "memory.yaml"))
-    with library(files, tmp_path_factory.mktemp("memory")) as made:
+    with library(files) as made:
         yield made
 
 

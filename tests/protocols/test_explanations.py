@@ -22,7 +22,6 @@ from tests.protocols.specs import FILES, messages_of, model_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
     from framegen.explanation.explanation import Row
 
@@ -110,9 +109,9 @@ def rows_begin(rows: tuple[Row, ...], data: bytes) -> bool:
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
-def test_a_library_explains_as_the_reference_does(name: str, tmp_path: Path) -> None:
+def test_a_library_explains_as_the_reference_does(name: str) -> None:
     model = model_of(name)
-    with library(library_files(compiled_file(FILES[name])), tmp_path) as made:
+    with library(library_files(compiled_file(FILES[name]))) as made:
         explained = import_module(f"{made.__name__}._cli.explain").explained
         carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
         examples = (each.message.examples for each in messages_of(name).values())
@@ -306,14 +305,14 @@ messages:
     ],
 )
 def test_what_nothing_tells_apart_is_explained_as_each_of_them(
-    data: str, reason: str, due: str, tmp_path: Path
+    data: str, reason: str, due: str
 ) -> None:
     compiled = compiled_of(yaml.safe_load(LIKE_EACH_OTHER))
     assert compiled.findings == []
     frame = bytes.fromhex(data)
     here = explain(compiled.model, frame, compiled.model.directions)
     assert [(each.reason, each.expected) for each in here.refusals] == [(reason, due)]
-    with library(library_files(compiled), tmp_path) as made:
+    with library(library_files(compiled)) as made:
         explained = import_module(f"{made.__name__}._cli.explain").explained
         carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
         assert repr(explained(carried, frame)) == repr(here)
