@@ -1,10 +1,15 @@
 """Our pages are true: their commands work, their output is right, their links lead somewhere."""
 
+import doctest
 import os
 import re
 from pathlib import Path
 
 import pytest
+from busservo._cli.examples import VERBS as BUSSERVO
+from framegen.cli import VERBS as FRAMEGEN
+from framegen.site.guides.markdown import slugs
+from lxservo._cli.examples import VERBS as LXSERVO
 
 from tests.documents import PAGES, ROOT, copy_project, played, refresh
 from tests.in_turn import in_turn
@@ -13,11 +18,46 @@ MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 TARGETS = set(re.findall(r"^([a-z-]+):.*## ", MAKEFILE, flags=re.MULTILINE))
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+# Played in tests/world: with git, with processes, or with boards in real time.
+TAKE_TIME = {
+    *("README.md", "docs/README.md", "docs/captures.md", "docs/changing-the-protocol.md"),
+    *("docs/command.md", "docs/getting-started.md", "docs/lx16a.md", "docs/talk-to-the-board.md"),
+    "docs/troubleshooting.md",
+}
+QUICK = [page for page in PAGES if page.relative_to(ROOT).as_posix() not in TAKE_TIME]
+
+
+@pytest.mark.parametrize("page", QUICK, ids=lambda page: page.stem)
 def test_examples_print_what_the_page_says(page: Path, tmp_path: Path) -> None:
     text = page.read_text(encoding="utf-8")
     truth = played(text, copy_project(tmp_path, text))
     assert truth == text, "if this was meant to change: python -m tests.documents"
+
+
+@in_turn("page", lambda: PAGES)
+def test_programs_can_be_read_and_commands_are_known(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for program in re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        compile(program, page.name, "exec")
+    for session in re.findall(r"^```pycon\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        for example in doctest.DocTestParser().get_examples(session):
+            compile(example.source, page.name, "single")
+    verbs = {"busservo": BUSSERVO, "lxservo": LXSERVO, "framegen": FRAMEGEN}
+    commands = r"^\$ (busservo|framegen|lxservo) ([a-z][a-z-]+)"
+    for name, verb in re.findall(commands, text, re.MULTILINE):
+        assert verb in verbs[name], f"{name} {verb}"
+
+
+@in_turn("page", lambda: PAGES)
+def test_links_to_a_heading_lead_to_one(page: Path) -> None:
+    lost = []
+    text = page.read_text(encoding="utf-8")
+    for link, anchor in re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", text):
+        other = page.parent / link if link else page
+        headings = re.findall(r"^#+ (.+)$", other.read_text(encoding="utf-8"), re.MULTILINE)
+        if anchor not in {*slugs(headings)}:
+            lost.append(f"{link}#{anchor}")
+    assert lost == []
 
 
 @in_turn("page", lambda: PAGES)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
-import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -25,9 +23,6 @@ from framegen.language.command_verbs import VERBS
 from framegen.targets.python import command_lines
 
 from tests.timeouts import GENEROUS, await_that
-
-if sys.platform != "win32":
-    from tests.cli.terminal import OnTerminal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -190,15 +185,3 @@ def test_a_method_has_its_long_verb_as_well(
 
 def test_every_own_verb_says_what_it_is_for() -> None:
     assert {*command_lines._ABOUT} == {*VERBS}
-
-
-if sys.platform != "win32":
-
-    def test_ctrl_c_holds_what_a_move_moves(board: VirtualController) -> None:
-        words = ("1:1000", "2:0", "--in", "60s", "--port", board.port, *FAST)
-        with OnTerminal("move", *words) as move:
-            await_that(lambda: board.servos[1].travelling)
-            move.type(b"\x03")
-            assert move.end() == 130
-        assert re.search("servos 1, 2 held", move.shown)
-        assert not board.servos[1].travelling or board.servos[1].target < 600

@@ -10,11 +10,11 @@ from framegen.render import snippets
 from framegen.site.project import read_project
 from framegen.site.site import render_site
 
-from tests.docs.reference import ROOT, reference
+from tests.docs.reference import ROOT, SPECS, reference
 
 # The first edition, so that it stays what it is.
 SPEC_FILE = ROOT / "spec" / "released" / "busservo-1.0.0.yaml"
-SPEC = str(ROOT / "spec" / "busservo.yaml")
+SPEC = str(SPECS["greenhouse"])
 
 
 def written(folder: Path) -> set[str]:
@@ -27,7 +27,7 @@ def test_it_writes_the_pages_and_the_way_to_them(
     folder = tmp_path / "site"
     assert main(["docs", SPEC, "--out", str(folder)]) == 0
     assert capsys.readouterr().out.strip() == str(folder / "index.html")
-    project = read_project({Path(SPEC): reference("busservo").compiled})
+    project = read_project({Path(SPEC): reference("greenhouse").compiled})
     site = render_site(project, snippets())
     assert written(folder) == {"site.manifest", *site}
     for path, text in site.items():

@@ -19,9 +19,7 @@ from framegen.site.site import render_site
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.docs.browser import Visit, launched, needs_chromium
 from tests.docs.lamps import BASE, GUIDES, greenhouse, metas, title
-from tests.docs.looks import faults_at_widths
 from tests.docs.reference import SPECS, Page
 
 if TYPE_CHECKING:
@@ -133,27 +131,6 @@ def test_a_reference_alone_wears_it_too(project: Path, named: list[str]) -> None
     assert "<script>alert(1)</script> & friends" in page.words
     assert "--accent: #b3001b;" in page.styles[0]
     assert Path("built/images/our logo.svg").read_bytes() == SVG
-
-
-@needs_chromium
-def test_a_site_of_ones_own_fits_every_width_and_loads_nothing_from_elsewhere(
-    project: Path,
-) -> None:
-    (project / "docs" / "site.yaml").write_text(OWN, encoding="utf-8")
-    assert main(["docs", "--out", "site"]) == 0
-    pages = {
-        file.relative_to("site").as_posix(): Page(file.name, file.read_text("utf-8"))
-        for file in Path("site").rglob("*.html")
-    }
-    assert not [load for page in pages.values() for load in page.loads if "://" in load]
-    with launched() as browser:
-        visit = Visit(browser.new_context(), project / "site")
-        for path in ("index.html", "first.html"):
-            assert faults_at_widths(visit.open(path)) == []
-        shown = visit.tab.locator("header img").evaluate("each => each.naturalWidth")
-        assert shown > 0
-        assert visit.troubles == []
-        assert all(each.startswith("file:") for each in visit.requests)
 
 
 # ------------------------------------------------------------------ what is refused

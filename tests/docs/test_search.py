@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from functools import cache
 from typing import Any
@@ -13,8 +12,9 @@ from framegen.site.project import Project, read_project
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.search.entry import KINDS, Entry, spellings
 from framegen.site.search.words import with_words
-from framegen.site.site import Site, render_site
+from framegen.site.site import Site
 
+from tests.docs.lamps import lamps
 from tests.docs.reference import NODE, ROOT
 from tests.docs.scripts import run_script
 from tests.factories import compiled_file
@@ -29,11 +29,6 @@ needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 def project() -> Project:
     files = [ROOT / "spec" / f"{name}.yaml" for name in ("busservo", "lxservo")]
     return read_project({file: compiled_file(file) for file in files}, ROOT / "docs")
-
-
-@cache
-def rendered() -> dict[str, str]:
-    return render_site(project(), snippets())
 
 
 @cache
@@ -106,22 +101,6 @@ def test_searches_find_first() -> None:
     for (query, names), answer in zip(SEARCHES.items(), found([*SEARCHES]), strict=True):
         assert set(answer["titles"][: len(names)]) == names, query
         assert not answer["loose"]
-
-
-@needs_node
-def test_every_entry_is_found_by_its_title_and_by_each_of_its_names() -> None:
-    entries = index()["entries"]
-    queries = sorted({name for each in entries for name in (each["title"], *each.get("names", []))})
-    program = """
-    const search = makeSearch(asked.index);
-    const numbers = (query) => search.find(query).hits.map(({ number }) => number);
-    const answers = asked.queries.map(numbers);
-    """
-    answers = run_script(RANKING, program, {"index": index(), "queries": queries})
-    hits = dict(zip(queries, map(set, answers), strict=True))
-    for number, entry in enumerate(entries):
-        for name in (entry["title"], *entry.get("names", [])):
-            assert number in hits[name], (name, entry["where"])
 
 
 @needs_node
@@ -467,20 +446,9 @@ def test_numbers_are_found_as_people_write_them() -> None:
     assert spellings(-1) == ("-1",)
 
 
-def test_the_search_alone_has_the_index_and_keeps_within_its_bounds() -> None:
-    pages = rendered()
-    assert len(pages["search.html"].encode()) < 1_500_000
-    holding = [path for path, text in pages.items() if 'id="search-index"' in text]
-    assert holding == ["search.html"]
-    for path, text in pages.items():
-        if path.endswith(".html") and path != "search.html":
-            assert f'data-address="{"../" * path.count("/")}search.html"' in text, path
-
-
-def test_what_the_page_lists_is_what_can_be_found() -> None:
-    text = rendered()["search.html"]
-    data = json.loads(re.findall(r'id="search-index">(.*?)</script>', text, re.DOTALL)[0])
-    listed = text.partition('id="search-letters"')[2]
-    for entry in data["entries"]:
-        if entry["kind"] != "frame":
-            assert f'href="{entry["path"]}"' in listed, entry["title"]
+def test_the_search_alone_has_the_index() -> None:
+    """As in the whole site: tests/world/test_search_of_the_site.py."""
+    for path, page in lamps().items():
+        assert ('id="search-index"' in page.text) == (path == "search.html"), path
+        above = "../" * path.count("/")
+        assert path == "search.html" or f'data-address="{above}search.html"' in page.text, path

@@ -1,4 +1,4 @@
-"""What guides show that takes long to run, such as a cluster, prints what they say."""
+"""Guides, followed: with boards in real time, git, processes, and what takes long, as a cluster."""
 
 from __future__ import annotations
 
@@ -9,12 +9,20 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.documents import PAGES, ROOT, copy_project, played
+from tests.test_readme import TAKE_TIME
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 LONG = [page for page in PAGES if "\n```python slow\n" in page.read_text(encoding="utf-8")]
 CONSTRAINTS = (ROOT / "constraints.txt").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", sorted(TAKE_TIME))
+def test_examples_print_what_the_page_says(name: str, tmp_path: Path) -> None:
+    text = (ROOT / name).read_text(encoding="utf-8")
+    truth = played(text, copy_project(tmp_path, text))
+    assert truth == text, "if this was meant to change: python -m tests.documents"
 
 
 def test_one_of_the_pages_takes_long() -> None:

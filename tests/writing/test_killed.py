@@ -1,12 +1,12 @@
-"""A run that is killed, or that the disk fails, at any step: the next one finishes."""
+"""A run that the disk fails, or somebody ends, at a step: the next one finishes.
+
+tests/world/test_killed.py has every step, and runs that are killed.
+"""
 
 from __future__ import annotations
 
-import os
 import shutil
-import subprocess
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -21,20 +21,11 @@ from tests.writing.trees import LIBRARY, Snapshot, put, snapshot, without_worksh
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from framegen.output import Output
 
 SPOILT = f"{LIBRARY}/changed.py"
-# An edit that is kept takes the steps of the next edition, and one more; the other slow ones differ
-# from it in what is removed, not in how.
-SLOW_SCENES = {"a fresh folder", "the next edition", "another name", "a lost manifest"}
-SCENES = {
-    "a fresh folder": ("", "first", False),
-    "the next edition": ("first", "next", False),
-    "another name": ("first", "renamed", False),
-    "an edit that is kept": ("edited", "next", True),
-    "a lost manifest": ("lost", "next", False),
-}
 
 
 def prepared(root: Path, state: str) -> Path:
@@ -54,47 +45,10 @@ def wholly(found: Snapshot, *whole: Snapshot) -> bool:
     return all(data in allowed for path, data in found.items() if not path.endswith(".manifest"))
 
 
-@pytest.fixture(
-    params=[
-        pytest.param(name, marks=pytest.mark.slow if name in SLOW_SCENES else []) for name in SCENES
-    ]
-)
-def scene(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[Path, str, bool]:
-    state, edition, force = SCENES[request.param]
-    return prepared(tmp_path / "tree", state), edition, force
-
-
 def finished(root: Path, edition: list[Output], *, force: bool) -> Snapshot:
     write(root, edition, all_of="spec", force=force)
     assert changes(root, edition) == []
     return snapshot(root)
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="kills copies of its own process")
-def test_a_run_that_is_killed_at_any_step_is_finished_by_the_next(
-    scene: tuple[Path, str, bool], tmp_path: Path
-) -> None:
-    tree, edition, force = scene
-    before = snapshot(tree)
-    words = [str(tree), str(tmp_path), edition, *(["force"] if force else [])]
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.writing.killed", *words],
-        cwd=ROOT,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    copies = [Path(line) for line in done.stdout.splitlines()]
-    after = finished(tree, EDITIONS[edition], force=force)
-    assert len(copies) > 3 * len(EDITIONS[edition][0].files)
-    for copy in copies:
-        found = without_workshop(snapshot(copy))
-        assert wholly(found, before, after), copy.name
-        # What somebody wrote is there at every moment, and never in the way of the next run.
-        assert not force or b"mine\n" in found.values(), copy.name
-        assert finished(copy, EDITIONS[edition], force=force) == after, copy.name
-        shutil.rmtree(copy)
 
 
 def _full() -> None:
@@ -105,20 +59,26 @@ def _interrupted() -> None:
     raise KeyboardInterrupt
 
 
-@pytest.mark.parametrize("fail", [_full, _interrupted])
-def test_a_disk_that_fails_at_any_step_loses_nothing(
-    scene: tuple[Path, str, bool], tmp_path: Path, fail: Callable[[], None]
+def failure(root: Path, edition: list[Output], *, force: bool) -> BaseException | None:
+    try:
+        write(root, edition, all_of="spec", force=force)
+    except (Unusable, KeyboardInterrupt) as error:
+        return error
+    return None
+
+
+def assert_nothing_is_lost(
+    tree: Path, copy: Path, edition: str, *, force: bool, fail: Callable[[], None], each: int = 1
 ) -> None:
-    tree, edition, force = scene
+    """Let a run fail in a copy of a tree, at every so many moments, and run it again."""
     before = snapshot(tree)
-    copy = tmp_path / "copy"
     taken = steps(tree, copy, edition, force=force)
     assert len(taken) > 10
     shutil.copytree(tree, copy)
     after = finished(copy, EDITIONS[edition], force=force)
     shutil.rmtree(copy)
     hints = set()
-    for number, when in moments(taken):
+    for number, when in [*moments(taken)][::each]:
         shutil.copytree(tree, copy)
         with patched(number, when, fail):
             error = failure(copy, EDITIONS[edition], force=force)
@@ -134,12 +94,12 @@ def test_a_disk_that_fails_at_any_step_loses_nothing(
     assert fail is _interrupted or hints == {"nothing was changed", ""}
 
 
-def failure(root: Path, edition: list[Output], *, force: bool) -> BaseException | None:
-    try:
-        write(root, edition, all_of="spec", force=force)
-    except (Unusable, KeyboardInterrupt) as error:
-        return error
-    return None
+@pytest.mark.parametrize("fail", [_full, _interrupted])
+def test_a_disk_that_fails_at_a_step_loses_nothing(
+    tmp_path: Path, fail: Callable[[], None]
+) -> None:
+    tree = prepared(tmp_path / "tree", "edited")
+    assert_nothing_is_lost(tree, tmp_path / "copy", "next", force=True, fail=fail, each=9)
 
 
 def test_an_edit_after_a_run_was_killed_is_an_edit(tmp_path: Path) -> None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,8 +11,7 @@ from framegen.reading.yamltree import Unusable
 from framegen.writing import changes, survey, write
 from framegen.writing.workshop import NAME, workshop
 
-from tests.documents import ROOT
-from tests.writing.trees import AFTER, BEFORE, LIBRARY, RENAMED, put, schema, snapshot
+from tests.writing.trees import AFTER, BEFORE, LIBRARY, put, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -214,37 +211,6 @@ def test_a_survey_does_not_wait_for_the_lock(root: Path) -> None:
         before = snapshot(root)
         assert survey(root, [AFTER]).changes != []
         assert snapshot(root) == before
-
-
-RUN = """
-import sys
-from pathlib import Path
-from framegen.writing import write
-from tests.writing.killed import EDITIONS
-
-for _ in range(10):
-    for name in sys.argv[2:]:
-        write(Path(sys.argv[1]), EDITIONS[name], all_of="spec", timeout=600)
-"""
-
-
-def test_runs_at_once_take_turns(root: Path) -> None:
-    """Whatever each of them wants: the last one has it, and nobody blames anybody."""
-    orders = [("first", "next", "renamed"), ("next", "renamed", "first"), ("renamed", "renamed")]
-    running = [
-        subprocess.Popen(
-            [sys.executable, "-c", RUN, str(root), *order],
-            cwd=ROOT,
-            stderr=subprocess.PIPE,
-            encoding="utf-8",
-        )
-        for order in orders
-    ]
-    assert [process.communicate()[1] for process in running] == ["", "", ""]
-    assert [process.returncode for process in running] == [0, 0, 0]
-    assert not (root / NAME).exists()
-    states = [[AFTER, schema()], [BEFORE, schema()], [RENAMED, schema()]]
-    assert [changes(root, state) for state in states].count([]) == 1
 
 
 def test_a_stale_lock_keeps_nobody_out(root: Path) -> None:

@@ -1,4 +1,4 @@
-"""A board on the line of a page, in a real browser; tests/world/test_line.py has all else."""
+"""A board on the line of a page, in a real browser: asked, answered, and recorded."""
 
 from __future__ import annotations
 

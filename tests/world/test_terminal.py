@@ -14,12 +14,15 @@ from busservo_simulator import VirtualController
 if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
+from tests.boards import no_board_refuses_anything
 from tests.cli.terminal import OnTerminal, run, start
 from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+__all__ = ["no_board_refuses_anything"]
 
 CTRL_C = b"\x03"
 BATTERY = "BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D"

@@ -1,4 +1,4 @@
-"""One page in a real browser; tests/world/test_browser.py has them all."""
+"""The workbench in a real browser: what it shows of bytes, and what its encoder offers."""
 
 from __future__ import annotations
 

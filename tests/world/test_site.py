@@ -7,8 +7,7 @@ import pytest
 
 from tests.docs.browser import project_on_disk
 from tests.docs.reference import ROOT, Page, broken_links
-from tests.docs.test_validity import complaints
-from tests.docs.test_validity import pytestmark as needs_validator
+from tests.docs.validity import complaints, needs_validator
 from tests.factories import compiled_file
 
 

@@ -1,0 +1,41 @@
+"""The pytest fixtures for other people's robots: there if imported, and not loaded otherwise."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+TESTS = """
+import busservo
+from busservo_simulator import VirtualController
+
+pytest_plugins = ["busservo_simulator.fixtures"]
+
+def test_memory(virtual_controller):
+    virtual_controller.transport.write(busservo.BatteryVoltageRead().encode())
+    assert virtual_controller.transport.read(5) == busservo.BatteryVoltage(7500).encode()
+
+def test_time_by_hand(patient_controller):
+    patient_controller.transport.write(busservo.ServoMove(1000, [(1, 900)]).encode())
+    patient_controller.advance(0.5)
+    assert patient_controller.servos[1].position == 700
+
+def test_tcp(virtual_tcp_controller):
+    assert virtual_tcp_controller.port.startswith("socket://127.0.0.1:")
+"""
+
+
+def test_they_work_in_a_project_that_names_them(tmp_path: Path) -> None:
+    (tmp_path / "test_robot.py").write_text(TESTS)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-m", "pytest", "-q", "-W", "error", "-p", "no:cacheprovider"]
+    done = subprocess.run(
+        command, cwd=tmp_path, env=environment, check=False, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout
+    assert "3 passed" in done.stdout

@@ -1,0 +1,79 @@
+"""A run that is killed, or that the disk fails, at every step: the next one finishes."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.documents import ROOT
+from tests.writing.conftest import no_power_fails
+from tests.writing.killed import EDITIONS
+from tests.writing.test_killed import (
+    _full,
+    _interrupted,
+    assert_nothing_is_lost,
+    finished,
+    prepared,
+    wholly,
+)
+from tests.writing.trees import snapshot, without_workshop
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["no_power_fails"]
+
+SCENES = {
+    "a fresh folder": ("", "first", False),
+    "the next edition": ("first", "next", False),
+    "another name": ("first", "renamed", False),
+    "an edit that is kept": ("edited", "next", True),
+    "a lost manifest": ("lost", "next", False),
+}
+
+
+@pytest.fixture(params=SCENES)
+def scene(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[Path, str, bool]:
+    state, edition, force = SCENES[request.param]
+    return prepared(tmp_path / "tree", state), edition, force
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="kills copies of its own process")
+def test_a_run_that_is_killed_at_any_step_is_finished_by_the_next(
+    scene: tuple[Path, str, bool], tmp_path: Path
+) -> None:
+    tree, edition, force = scene
+    before = snapshot(tree)
+    words = [str(tree), str(tmp_path), edition, *(["force"] if force else [])]
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.writing.killed", *words],
+        cwd=ROOT,
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    copies = [Path(line) for line in done.stdout.splitlines()]
+    after = finished(tree, EDITIONS[edition], force=force)
+    assert len(copies) > 3 * len(EDITIONS[edition][0].files)
+    for copy in copies:
+        found = without_workshop(snapshot(copy))
+        assert wholly(found, before, after), copy.name
+        # What somebody wrote is there at every moment, and never in the way of the next run.
+        assert not force or b"mine\n" in found.values(), copy.name
+        assert finished(copy, EDITIONS[edition], force=force) == after, copy.name
+        shutil.rmtree(copy)
+
+
+@pytest.mark.parametrize("fail", [_full, _interrupted])
+def test_a_disk_that_fails_at_any_step_loses_nothing(
+    scene: tuple[Path, str, bool], tmp_path: Path, fail: Callable[[], None]
+) -> None:
+    tree, edition, force = scene
+    assert_nothing_is_lost(tree, tmp_path / "copy", edition, force=force, fail=fail)

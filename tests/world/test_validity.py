@@ -1,0 +1,24 @@
+"""Every page is valid HTML, according to html-validate."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.docs.reference import SPECS, reference
+from tests.docs.test_hostile_pages import PAYLOADS, hostile
+from tests.docs.validity import complaints, needs_validator
+
+pytestmark = needs_validator
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_every_page_is_valid(name: str, tmp_path: Path) -> None:
+    pages = {path: page.text for path, page in reference(name).pages.items()}
+    assert complaints(tmp_path, pages) == []
+
+
+def test_every_page_of_a_hostile_spec_is_valid(tmp_path: Path) -> None:
+    site = hostile(" ".join(PAYLOADS.values()))
+    pages = {path: page.text for path, page in site.pages.items() if "ServoMove" in path}
+    pages |= {path: site.pages[path].text for path in ("index.html", "errata.html", "decoder.html")}
+    assert complaints(tmp_path, pages) == []
