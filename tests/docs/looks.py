@@ -14,8 +14,11 @@ WIDTHS = (320, 380, 768, 1440)
 PAPER = 700
 
 _LOOKS = Path(__file__).with_suffix(".js").read_text("utf-8")
-# A page hears that it was made wider or narrower when its next frame is drawn.
-_DRAWN = "await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+# A page hears that it was made wider or narrower when its next frame is drawn. One whose scripts
+# are switched off hears nothing, and would never call back.
+_DRAWN = """if (matchMedia("(scripting: enabled)").matches) {
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+}"""
 
 
 def faults(tab: Tab) -> list[str]:
