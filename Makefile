@@ -68,7 +68,7 @@ library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
 
 test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
-	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest --all -n $(WORKERS)
+	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS)
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS) tests/world
 
 sample: $(TO_TEST) $(TO_LINT)  ## Run some of the slow tests: make sample SAMPLE=5 SEED=7

@@ -2,7 +2,7 @@
 
 What is slow, or needs the world outside this process, lies in tests/world. `pytest` leaves it out
 (norecursedirs); `pytest tests/world` runs it, and with `--sample N` so many of each file.
-A row marked `slow` is run by `--all`, or where it is named with `::`.
+tests/world has the rows of tables that are left out here, too: tests/rows.py.
 
 The profiles of Hypothesis are `ci`, the same examples in every run; `quick`, fewer of them; `all`,
 many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_PROFILE or
@@ -32,6 +32,7 @@ from hypothesis import HealthCheck, settings
 from serial.urlhandler import protocol_socket
 
 from tests.draws import draw_the_same
+from tests.rows import is_left_out
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,14 +65,11 @@ _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 
 
 ROOT = Path(__file__).parent.parent
-# Protocols of which each kind of frame is one of another protocol as well.
-ALIKE = {"crsf", "ibus", "learm", "mavlink1", "mhz19", "msp", "tfmini"}
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add what chooses slow tests."""
-    group = parser.getgroup("slow tests")
-    group.addoption("--all", action="store_true", help="run the slow rows as well")
+    """Add what chooses a sample."""
+    group = parser.getgroup("sample")
     group.addoption("--sample", type=int, metavar="N", help="run N tests of each file")
     group.addoption("--seed", type=int, help="which of them (default: others on each day)")
 
@@ -136,25 +134,19 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the slow tests, or all but a sample of them."""
-    if config.option.sample is not None:
-        kept = sample(items, config.option.sample, config.option.seed)
-    elif config.option.all or any("::" in argument for argument in config.args):
-        return
-    else:
-        kept = {item for item in items if not is_slow(item)}
+    """Leave out rows that tests/world has, and all but a sample of the rest if one is asked for."""
+    many = config.option.sample
+    kept = {item for item in items if not left_out(item)}
+    if many is not None:
+        kept = sample([item for item in items if item in kept], many, config.option.seed)
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])
     items[:] = [item for item in items if item in kept]
 
 
-def is_slow(item: pytest.Item) -> bool:
-    """Tell whether a test is left out of most runs."""
-    if item.get_closest_marker("each_protocol") is not None:
-        parameters = getattr(item, "callspec", SimpleNamespace(params={})).params.values()
-        names = {each.stem if isinstance(each, Path) else each for each in parameters}
-        if not ALIKE.isdisjoint(str(name) for name in names):
-            return True
-    return item.get_closest_marker("slow") is not None
+def left_out(item: pytest.Item) -> bool:
+    """Tell whether a test is a row that tests/world has."""
+    values = item.callspec.params if hasattr(item, "callspec") else {}
+    return is_left_out({mark.name for mark in item.iter_markers()}, values)
 
 
 def sample(items: Sequence[pytest.Item], many: int, seed: int) -> set[pytest.Item]:

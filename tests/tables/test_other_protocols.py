@@ -76,6 +76,9 @@ VECTORISED: dict[tuple[str, str], str | None] = {
     ("everything", "asker"): UNSENT,
     ("everything", "teller"): None,
     ("everything", "any"): SEVERAL,
+    ("gauges", "panel"): NO_LENGTH,
+    ("gauges", "gauge"): NO_ID,
+    ("gauges", "any"): SEVERAL,
 }
 
 

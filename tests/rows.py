@@ -1,0 +1,77 @@
+"""Rows that `make test` leaves out of its tables: those marked `slow`, and protocols like others.
+
+tests/world/test_rows.py has all of these.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+    from types import ModuleType
+
+# Protocols of which each kind of frame is one of another protocol as well.
+ALIKE = {"crsf", "ibus", "learm", "mavlink1", "mhz19", "msp", "tfmini"}
+# What makes a row; other marks say what goes for it.
+_OURS = {"parametrize", "slow", "each_protocol"}
+
+
+class Row(NamedTuple):
+    """A test, and the values of some of its parameters."""
+
+    test: Any
+    values: dict[str, Any]
+
+
+def is_left_out(marks: Collection[str], values: Mapping[str, Any]) -> bool:
+    """Tell whether a test with these marks and parameters is left out of `make test`."""
+    names = {
+        getattr(each, "stem", each) for each in values.values() if isinstance(each, str | Path)
+    }
+    return "slow" in marks or ("each_protocol" in marks and not ALIKE.isdisjoint(names))
+
+
+def left_out_of(module: ModuleType) -> Iterator[Any]:
+    """Yield the rows of a module that are left out, as parameters of one test."""
+    stem = module.__name__.rpartition(".")[2]
+    for name, test in vars(module).items():
+        if name.startswith("test_") and getattr(test, "__module__", "") == module.__name__:
+            marks = [mark for each in (module, test) for mark in _marks(each.__dict__)]
+            for parts in product(*(_table(each) for each in marks if each.name == "parametrize")):
+                values = {key: value for part, _ in parts for key, value in part.items()}
+                whole = [*marks, *(mark for _, own in parts for mark in own)]
+                if is_left_out({each.name for each in whole}, values):
+                    others = [each for each in whole if each.name not in _OURS]
+                    yield pytest.param(
+                        Row(test, values),
+                        marks=[getattr(pytest.mark, m.name)(*m.args, **m.kwargs) for m in others],
+                        id=f"{stem}-{name}",
+                    )
+
+
+def _marks(names: Mapping[str, Any]) -> list[pytest.Mark]:
+    """Return the marks of a module or a test: one of them, or a list."""
+    found = names.get("pytestmark", [])
+    several: list[Any] = found if isinstance(found, list) else [found]
+    return [getattr(each, "mark", each) for each in several]
+
+
+def _table(mark: pytest.Mark) -> list[tuple[dict[str, Any], list[pytest.Mark]]]:
+    """Return the rows of a table, each with the marks of its own."""
+    names, rows = mark.args
+    keys = [each.strip() for each in names.split(",")] if isinstance(names, str) else [*names]
+    params = (
+        row
+        if isinstance(row, type(pytest.param()))
+        else pytest.param(*(row if keys[1:] else [row]))
+        for row in rows
+    )
+    return [
+        (dict(zip(keys, each.values, strict=True)), _marks({"pytestmark": [*each.marks]}))
+        for each in params
+    ]

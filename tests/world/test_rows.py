@@ -1,0 +1,42 @@
+"""The rows that `make test` leaves out of its tables, such as protocols that are like others."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.boards import no_board_refuses_anything
+from tests.protocols.conftest import libraries
+from tests.rows import left_out_of
+from tests.tables.test_dataset import captures
+from tests.test_crossed import scripts
+from tests.test_demo_library import side_by_side
+from tests.test_names import on_disk
+
+if TYPE_CHECKING:
+    from tests.rows import Row
+
+__all__ = ["captures", "libraries", "no_board_refuses_anything", "on_disk", "scripts"]
+__all__ += ["side_by_side"]
+
+ROOT = Path(__file__).parent.parent.parent
+HAS_SOME = re.compile(
+    r"\bmark\.slow\b|\bmark\.each_protocol\b|^from tests\.tables\.shown ", re.MULTILINE
+)
+MODULES = [
+    ".".join(file.relative_to(ROOT).with_suffix("").parts)
+    for file in sorted((ROOT / "tests").rglob("test_*.py"))
+    if file.parent != Path(__file__).parent and HAS_SOME.search(file.read_text(encoding="utf-8"))
+]
+ROWS = [row for name in MODULES for row in left_out_of(import_module(name))]
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_it_holds_for_the_other_rows(row: Row, request: pytest.FixtureRequest) -> None:
+    asked = set(inspect.signature(row.test).parameters) - set(row.values)
+    row.test(**{name: request.getfixturevalue(name) for name in asked}, **row.values)
