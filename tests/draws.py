@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import hashlib
 from contextlib import contextmanager
+from functools import lru_cache
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import pytest
-from hypothesis import settings
+from hypothesis import core, settings
 from hypothesis.internal.conjecture import data as conjecture
 from hypothesis.internal.conjecture import engine
 
@@ -35,6 +36,7 @@ def draw_the_same() -> None:
     """
     if find_spec("hypothesis.internal.constants_ast") is not None:
         _without_constants_of_modules()
+    _digested_once()
     if settings().derandomize:
         engine.MAX_SHRINKING_SECONDS = SHRINKING_SECONDS
 
@@ -44,6 +46,25 @@ def _without_constants_of_modules() -> None:
 
     found, none = providers._get_local_constants, providers._local_constants
     providers._get_local_constants = lambda: none if settings().derandomize else found()
+
+
+def _digested_once() -> None:
+    """Read the source of a test once for all rows of its table, which are searched one by one.
+
+    What a search begins with follows from the source, and from which test it is of those that have
+    the source.
+    """
+    engine_of: Any = core
+    digest = engine_of.function_digest
+
+    @lru_cache(maxsize=64)
+    def digested(test: Any, _which: bytes | None) -> Any:
+        return digest(test)
+
+    def function_digest(test: Any) -> Any:
+        return digested(test, getattr(test, "_hypothesis_internal_add_digest", None))
+
+    engine_of.function_digest = function_digest
 
 
 @contextmanager
