@@ -17,6 +17,21 @@ _PASCAL = re.compile(r"[A-Z][A-Za-z0-9]*")
 
 
 @cache
+def _names() -> tuple[frozenset[str], frozenset[str], frozenset[str]]:
+    """Return what a name of a spec may meet, all that is bound anywhere, and what is imported.
+
+    All at once: the trees of so many modules are larger than anything else that tests keep.
+    """
+    met, everywhere, packages = set[str](), set[str](), set[str]()
+    for alike in _modules().values():
+        for module in alike.values():
+            bound = {name for node in ast.walk(module) for name in _bound(node)}
+            everywhere |= bound
+            met |= bound if len(alike) > 1 else {*_in_classes(module)}
+            packages |= _packages(module)
+    return frozenset(met), frozenset(everywhere), frozenset(packages)
+
+
 def _modules() -> dict[str, dict[str, ast.Module]]:
     """Return the modules of libraries by path, and by text: those that are alike once."""
     found: dict[str, dict[str, ast.Module]] = {}
@@ -30,21 +45,13 @@ def _modules() -> dict[str, dict[str, ast.Module]]:
     return found
 
 
-@cache
 def bound_names(*, everywhere: bool = False) -> frozenset[str]:
     """Return the names that a name of a spec may meet: all of modules that are made for a spec.
 
     Those that are the same in every library bind others, in scopes of their own. Of these, what
     stands in classes, which a class of the spec may have for a base; or all, `everywhere`.
     """
-    names = set[str]()
-    for alike in _modules().values():
-        for module in alike.values():
-            if everywhere or len(alike) > 1:
-                names.update(name for node in ast.walk(module) for name in _bound(node))
-            else:
-                names.update(_in_classes(module))
-    return frozenset(names)
+    return _names()[1 if everywhere else 0]
 
 
 def _in_classes(module: ast.Module) -> Iterator[str]:
@@ -59,22 +66,20 @@ def _in_classes(module: ast.Module) -> Iterator[str]:
                     )
 
 
-@cache
 def imported() -> frozenset[str]:
     """Return the packages that they import by their own name, wherever they do."""
-    nodes = [
-        node
-        for alike in _modules().values()
-        for module in alike.values()
-        for node in ast.walk(module)
-    ]
+    return _names()[2]
+
+
+def _packages(module: ast.Module) -> set[str]:
+    nodes = [*ast.walk(module)]
     plain = {each.name for node in nodes if isinstance(node, ast.Import) for each in node.names}
     named = {
         node.module
         for node in nodes
         if isinstance(node, ast.ImportFrom) and not node.level and node.module
     }
-    return frozenset(name.partition(".")[0] for name in plain | named)
+    return {name.partition(".")[0] for name in plain | named}
 
 
 def snake_names(*, everywhere: bool = False) -> list[str]:

@@ -18,6 +18,7 @@ import random
 from collections import defaultdict
 from contextlib import suppress
 from datetime import datetime, timezone
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
@@ -65,6 +66,7 @@ _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 
 
 ROOT = Path(__file__).parent.parent
+_CACHED = type(cache(print))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -131,6 +133,18 @@ def pytest_collection_finish(session: pytest.Session) -> None:
     """
     gc.freeze()
     gc.set_threshold(50_000, 20, 100)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """Forget with a file of tests what it has worked out once: whole sites, for the most part.
+
+    Kept to the end, that would be as much again as all else that a process holds.
+    """
+    if isinstance(item, pytest.Function) and (nextitem is None or nextitem.path != item.path):
+        for each in vars(item.module).values():
+            if isinstance(each, _CACHED) and each.__module__ == item.module.__name__:
+                each.cache_clear()
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, lru_cache
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_file_location
@@ -238,10 +238,7 @@ class _Library(MetaPathFinder, Loader):
     def exec_module(self, module: ModuleType) -> None:
         file = self._file(module.__name__)
         text = self._texts[file]
-        # Most modules are the same in every library.
-        if text not in _CODE:
-            _CODE[text] = compile(text, file, "exec", dont_inherit=True)
-        exec(_code_at(file, _CODE[text]), vars(module))  # noqa: S102 - it is our own
+        exec(_code_at(file, _compiled(text)), vars(module))  # noqa: S102 - it is our own
 
     def is_package(self, fullname: str) -> bool:
         return Path(self._file(fullname)).name == "__init__.py"
@@ -263,7 +260,10 @@ class _Library(MetaPathFinder, Loader):
         return package if package in self._texts else f"{place}.py"
 
 
-_CODE: dict[str, CodeType] = {}
+# Most modules are the same in every library; those of its own are not asked for again.
+@lru_cache(maxsize=512)
+def _compiled(text: str) -> CodeType:
+    return compile(text, "made", "exec", dont_inherit=True)
 
 
 def _code_at(path: str, code: CodeType) -> CodeType:

@@ -9,6 +9,7 @@ import sys
 import tokenize
 from collections import Counter
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from shutil import which
 from typing import Any, TypeAlias
@@ -208,11 +209,11 @@ def python_of(files: dict[str, str]) -> dict[str, str]:
 
 
 def skeleton(tree: ast.Module) -> str:
-    """Take the strings out of a module: two modules that differ in text alone are left the same."""
+    """Return the digest of a module without its strings: the same where text alone differs."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             node.value = ""
-    return ast.dump(tree)
+    return sha256(ast.dump(tree).encode()).hexdigest()
 
 
 def comments(text: str) -> list[str]:
@@ -265,7 +266,9 @@ def harmless(name: str) -> dict[str, Traits]:
 @cache
 def greenhouse_with(text: str) -> dict[str, str]:
     """Return the library of a greenhouse with `text` wherever prose stands."""
-    return files_of(with_prose(SPECS["greenhouse"], text))
+    files = files_of(with_prose(SPECS["greenhouse"], text))
+    # Most modules are the same in all of them, and kept once.
+    return {path: sys.intern(module) for path, module in files.items()}
 
 
 def vectors_of_one_frame(title: str) -> dict[str, Any]:
