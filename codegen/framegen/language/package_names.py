@@ -63,7 +63,7 @@ MODULES = words(
 PACKAGES = words(
     """
     framegen hid hypothesis jinja2 matplotlib numpy pandas polars pyarrow pydantic pytest serial
-    shtab typing_extensions yaml
+    shtab tomli typing_extensions yaml
     """
 )
 
