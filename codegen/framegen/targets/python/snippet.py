@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from framegen.language.values import to_hex
 from framegen.model.codec import encode
 from framegen.model.slots import Items, Packed
+from framegen.model.stream import ReferenceDecoder
 from framegen.targets.python.client_snippet import client_snippet
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.message_view import MessageView
@@ -78,11 +79,16 @@ def _sending(model: Model, message: MessageLayout, example: Example) -> str:
 def _receiving(model: Model, message: MessageLayout, example: Example) -> str:
     """Write code that finds an example in a stream."""
     names = sorted([message.name, "Direction", "StreamDecoder"])
+    so_far = ReferenceDecoder(model, [message.direction]).decode_so_far(example.hex)
+    # What may be the beginning of a longer frame is one where nothing follows.
+    is_certain = any(event.message is message for event in so_far)
+    fed = "decoder.feed(received)"
+    events = fed if is_certain else f"[*{fed}, *decoder.flush()]"
     return (
         f"from {model.spec.protocol.name} import {', '.join(names)}\n\n"
         f"decoder = StreamDecoder(Direction.{direction_member(message.direction)})\n"
         + _from_hex("received =", example.hex)
-        + "for event in decoder.feed(received):\n"
+        + f"for event in {events}:\n"
         + f"    if isinstance(event, {message.name}):\n"
         + "".join(f"        {line}\n" for line in _shown(message, example))
     )
