@@ -29,7 +29,7 @@ PINS_VENV := .tools/pins
 WORKERS = 3
 # Which of the tests, for `quick`: all.
 TESTS =
-# How many slow tests of each file are a sample; others on each day, or those of a SEED.
+# How many tests of each file of tests/world are a sample; others each day, or those of a SEED.
 SAMPLE = 3
 SEED =
 # Those of no sample: `make packages` and `make newcomer` run all of theirs, and each of the

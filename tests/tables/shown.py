@@ -1,4 +1,4 @@
-"""Which protocols stand for all of them in most runs; the others are slow tests."""
+"""Which protocols stand for all of them in `make test`; tests/world has the others."""
 
 from __future__ import annotations
 
