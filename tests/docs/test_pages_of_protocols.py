@@ -1,6 +1,7 @@
 """The reference of protocols with frames of every kind: complete, linked, and true to the spec."""
 
-from functools import cache
+from collections.abc import Iterable
+from functools import lru_cache
 
 import pytest
 from framegen.language.load import read_source
@@ -10,16 +11,22 @@ from framegen.targets.docs.walkthrough import walkthrough
 
 from tests.docs.peers import joined, noisy_lines, reference_events
 from tests.docs.reference import Reference, broken_links, reference_of
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
 
-@cache
+# A site is large, so that all tests of one follow each other, and no more than it is kept.
+@lru_cache(maxsize=1)
 def site_of(name: str) -> Reference:
     return reference_of(read_source(FILES[name]))
 
 
+def of_each(names: Iterable[str]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("name", names, scope="module")
+
+
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@of_each(FILES)
 def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
     site = site_of(name)
     for path, page in site.site.items():
@@ -28,7 +35,7 @@ def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@of_each(FILES)
 def test_headings_are_in_order(name: str) -> None:
     for path, page in site_of(name).pages.items():
         assert page.headings.count(1) == 1, path
@@ -37,7 +44,7 @@ def test_headings_are_in_order(name: str) -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@of_each(FILES)
 def test_every_part_and_every_field_is_shown(name: str) -> None:
     site = site_of(name)
     parts = {part for frame in site.model.spec.envelopes.values() for part in frame}
@@ -53,7 +60,7 @@ def test_every_part_and_every_field_is_shown(name: str) -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@of_each(FILES)
 def test_no_page_shows_what_is_not_there(name: str) -> None:
     for path, text in site_of(name).files.items():
         assert "| None" not in text, path
@@ -61,7 +68,7 @@ def test_no_page_shows_what_is_not_there(name: str) -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@of_each(FILES)
 def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
     model = site_of(name).model
     shown = stream_examples(model)
@@ -153,6 +160,7 @@ FACTS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "path", "fact"), FACTS)
+@of_each(dict.fromkeys(name for name, _, _ in FACTS))
+@in_turn("path, fact", lambda name: [(path, fact) for of, path, fact in FACTS if of == name])
 def test_a_reader_finds(name: str, path: str, fact: str) -> None:
     assert fact in " ".join(site_of(name).pages[path].words.split())
