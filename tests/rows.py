@@ -50,8 +50,12 @@ def left_out_of(module: ModuleType) -> Iterator[Any]:
                     yield pytest.param(
                         Row(test, values),
                         marks=[getattr(pytest.mark, m.name)(*m.args, **m.kwargs) for m in others],
-                        id=f"{stem}-{name}",
+                        id="-".join([stem, name, *map(_shown, values.values())]),
                     )
+
+
+def _shown(value: Any) -> str:
+    return str(getattr(value, "stem", value))[:40]
 
 
 def _marks(names: Mapping[str, Any]) -> list[pytest.Mark]:

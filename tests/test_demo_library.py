@@ -948,7 +948,7 @@ def side_by_side(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "weather",
         ),
         pytest.param(
-            ("mypy", "--strict", "--no-error-summary", "--python-version", "3.10", "."),
+            ("mypy", "--strict", "--no-error-summary", "."),
             marks=pytest.mark.slow,
         ),
     ],

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 OTHERS = {**FILES, "greenhouse": SPECS["greenhouse"]}
 SERVO = reference("busservo").model
 NAMES = ("Client", "Codec", "Shell")
-# One with addresses and refusals, and one without anything special.
-QUICK = {"modbus", "greenhouse"}
+# One with addresses and refusals, one without anything special, and one without lengths.
+QUICK = {"modbus", "greenhouse", "gauges"}
 
 
 def shown(model: Model, name: str) -> dict[str, Snippet]:
