@@ -67,11 +67,11 @@ quick: $(TO_TEST)  ## Run the tests with fewer examples
 library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples: make library TESTS=tests/client
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
 
-test-all: $(TO_TEST) $(TO_LINT)  ## Run the slow tests as well, and eight times as many examples
+test-all: $(TO_TEST) $(TO_LINT)  ## Run tests/world as well, and eight times as many examples
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS)
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS) tests/world
 
-sample: $(TO_TEST) $(TO_LINT)  ## Run some of the slow tests: make sample SAMPLE=5 SEED=7
+sample: $(TO_TEST) $(TO_LINT)  ## Run some of tests/world: make sample SAMPLE=5 SEED=7
 	$(IN)/python -m pytest -n $(WORKERS) tests/world $(foreach file,$(WHOLE),--ignore tests/world/test_$(file).py) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
