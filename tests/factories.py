@@ -206,7 +206,13 @@ def changed(value: Any, change: Callable[[Steps, str], str], path: Steps = ()) -
 def renamed(value: Any, old: str, new: str) -> Any:
     """Return a copy with the name `old` replaced by `new`, keys and formulas included."""
     if isinstance(value, dict):
-        return {renamed(key, old, new): renamed(item, old, new) for key, item in value.items()}
+        # What is typed in a shell is no name of the spec, though it may be the same word.
+        return {
+            renamed(key, old, new): item
+            if key == "verb" and isinstance(item, str)
+            else renamed(item, old, new)
+            for key, item in value.items()
+        }
     if isinstance(value, list):
         return [renamed(item, old, new) for item in value]
     if isinstance(value, str):

@@ -62,7 +62,8 @@ def test_every_file_has_a_digest() -> None:
     paths = [line.split(" ", 1)[1] for line in expected().splitlines()]
     first = {"/".join(path.split("/")[:-1]) for path in paths}
     for name in SPECS:
-        assert {f"generated/{name}", f"docs/reference/{name}", f"site/{name}"} <= first
+        reference = f"reference/{name}"
+        assert {f"generated/{name}", f"docs/{reference}", f"site/{reference}"} <= first
     assert "site/index.html" in paths
 
 
