@@ -6,9 +6,10 @@
 `console` blocks are too, and `python` and `pycon` blocks in the Python that is then on the path,
 each of them from nothing. A program that begins with `# NAME.py` is saved by that name as well.
 The block behind it is what it must print; `...` stands for anything. `bat` and `powershell` are
-not for this machine, and `text` is nothing to do. A page that installs nothing is followed in an
-environment that is made as getting-started says. A virtual board, which the installed
-`busservo simulate` offers, is behind every COM5 and COM7, and virtual servos behind `lxservo`.
+not for this machine, and `text` and `toml` are nothing to do. A page that installs nothing is
+followed in an environment that is made as getting-started says. A virtual board, which the
+installed `busservo simulate` offers, is behind every COM5 and COM7, and virtual servos behind
+`lxservo`.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ WAITS = (SIMULATE, "busservo monitor")
 INTERRUPTED = 130
 # So many seconds after that it has ended, however busy the machine is.
 PATIENCE = 60
-IGNORED = {"bat", "powershell", "text"}
+IGNORED = {"bat", "powershell", "text", "toml"}
 # Where it is said how to install, and what a page says that does it by itself.
 INSTALLATION = ROOT / "docs" / "getting-started.md"
 INSTALLS = re.compile(r"^(make|python3 -m venv)\b", re.MULTILINE)

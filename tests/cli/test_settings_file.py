@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,12 +13,14 @@ import busservo._cli
 import lxservo._cli
 import pytest
 from busservo._cli import link, settings, teach
+from busservo._cli.settings_file import parsed
 from busservo._cli.settings_save import save
 from busservo._cli.usage_error import UsageError
 from busservo._serial.link_errors import PortNotFoundError
 from busservo_simulator import VirtualController
 from lxservo._cli import link as servo_link
 
+from tests.factories import ROOT
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -36,6 +39,15 @@ def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     here.mkdir()
     monkeypatch.chdir(here)
     return tmp_path / "user" / "busservo" / FILE
+
+
+def test_the_file_of_the_guide_is_one() -> None:
+    guide = (ROOT / "docs" / "command.md").read_text("utf-8")
+    (text,) = re.findall(r"```toml\n(.*?)```", guide, re.DOTALL)
+    found = parsed(Path(FILE), text.encode())
+    assert (found.port, found.ids) == ("/dev/ttyUSB0", (1, 2, 3, 4, 5, 6))
+    assert found.limits is not None
+    assert found.limits.allowed == {1: (100, 900), 6: None}
 
 
 @pytest.fixture
