@@ -7,7 +7,6 @@ import sys
 from .._client.exchanges import POSE
 from .._client.holding import Holding
 from .._client.long_question import parts_of
-from .._client.pose import HOLD_MS
 from .._frame.errors import LimitError
 from .._serial.link_errors import AbsentError, NoReplyError
 from .exit_codes import INTERRUPTED
@@ -47,14 +46,6 @@ def read_targets(
     """Return the current positions, as targets. Raises one of UNREAD unless all are present."""
     exchanged = [(each, controller.request(each)) for each in parts_of(pose.read, ids)]
     return pose.held(exchanged, limits)
-
-
-def hold(controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed) -> None:
-    """Command the current positions. Raises one of UNREAD."""
-    targets = read_targets(controller, pose, ids, limits)
-    # As many motions as it takes: the first is sent before the next is made.
-    for at in range(0, len(targets), pose.room):
-        controller.send(pose.motion(targets[at : at + pose.room], HOLD_MS))
 
 
 def hold_those_there(controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed) -> bool:

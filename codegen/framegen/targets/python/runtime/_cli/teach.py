@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from .._client.pose import HOLD_MS
 from .._frame.pluralize import pluralize
 from .._serial.link_errors import NoReplyError
 from . import link
@@ -17,7 +18,6 @@ from .positions import (
     SEVERAL,
     UNREAD,
     find_present,
-    hold,
     in_options,
     listed,
     nobody,
@@ -146,9 +146,7 @@ class _Lesson:
                 )
                 continue
             try:
-                targets = read_targets(
-                    self._controller, self._pose, self._ids, self._limits.allowed
-                )
+                targets = self._targets()
             except UNREAD as error:
                 print(f"nothing recorded: {in_options(error, self._limits)}", file=sys.stderr)
                 continue
@@ -161,11 +159,16 @@ class _Lesson:
 
     def _held(self) -> bool:
         try:
-            hold(self._controller, self._pose, self._ids, self._limits.allowed)
+            # One motion has room for all of them.
+            self._controller.send(self._pose.motion(self._targets(), HOLD_MS))
         except UNREAD as error:
             print(f"not held: {in_options(error, self._limits)}", file=sys.stderr)
             return False
         return True
+
+    def _targets(self) -> list[tuple[int, int]]:
+        """Return the current positions, as targets. Raises one of UNREAD unless all are present."""
+        return read_targets(self._controller, self._pose, self._ids, self._limits.allowed)
 
 
 def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
