@@ -64,7 +64,7 @@ test: $(TO_TEST)  ## Run the tests
 quick: $(TO_TEST)  ## Run the tests with fewer examples
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
 
-library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples: make library TESTS=tests/client
+library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples: make library TESTS=tests/unit/runtime/client
 	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
 
 test-all: $(TO_TEST) $(TO_LINT)  ## Run tests/world as well, and eight times as many examples
@@ -103,7 +103,7 @@ format: $(TO_LINT)  ## Mend what ruff can mend
 fuzz: $(TO_TEST)  ## Search for new counterexamples, for long; change the specs, and cross them
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
 	CONTRACT=all $(IN)/python -m pytest tests/world/test_contract.py
-	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest -n $(WORKERS) tests/test_crossed.py
+	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest -n $(WORKERS) tests/contract/crossed/test_crossed.py
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)
@@ -116,7 +116,7 @@ docs: $(READY)  ## Build the site: make docs SITE=html BASE=https://where.it/wil
 
 docs-tools:  ## Install what the tests of the reference need of Node.js: a validator, axe-core
 	@mkdir -p .tools/node
-	@cp tests/docs/package.json .tools/node/
+	@cp tests/unit/site/package.json .tools/node/
 	npm install --prefix .tools/node --silent --no-audit --no-fund --no-package-lock
 
 soak: $(TO_TEST)  ## Ask a hundred thousand times, with faults, and see that nothing leaks or is lost

@@ -5,9 +5,9 @@
 
 A file in tests/specs/bad has the cases of the rule that it is named after. A case begins with a
 spec of tests/specs/bad/base (`lamps`, unless it names another as its `base`), changes it by `edits`
-(see tests/spec_edits.py), and says what must be found: `message`, `path`, `hint` and `see`; or that
-several times, as `findings`, each with its `rule` if that is another. Instead of edits, a case may
-have a whole `text`; and a text that is no spec at all has a `refusal`.
+(see tests/mutations/spec_edits.py), and says what must be found: `message`, `path`, `hint` and
+`see`; or that several times, as `findings`, each with its `rule` if that is another.
+Instead of edits, a case may have a whole `text`; and a text that is no spec at all has a `refusal`.
 
 The mark «» is around the place of a finding, to the column, and ⟦⟧ around another place to `see`.
 Marks and findings have the same order. One mark can serve for all findings, and if the places to
@@ -31,7 +31,7 @@ from framegen import __version__
 from framegen.reading.findings import Finding, Related, did_you_mean
 from framegen.reading.source import Source, Span
 
-from tests.spec_edits import EditError, edited, repeated, unmarked
+from tests.mutations.spec_edits import EditError, edited, repeated, unmarked
 
 FOLDER = Path(__file__).parent / "specs" / "bad"
 BASES = FOLDER / "base"

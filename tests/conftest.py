@@ -65,7 +65,7 @@ _sockets: Any = protocol_socket
 _sockets.time = SimpleNamespace(sleep=lambda _seconds: None)
 
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[1]
 _CACHED = type(cache(print))
 
 
@@ -114,6 +114,18 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     """Print what a sample can be repeated with."""
     many = config.option.sample
     return [] if many is None else [f"{many} tests of each file, --seed {config.option.seed}"]
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    """Print the seconds of each folder, as if the workers had run nothing else."""
+    workers = max(1, len(getattr(config.option, "tx", None) or [1]))
+    taken: defaultdict[str, float] = defaultdict(float)
+    for reports in terminalreporter.stats.values():
+        for report in reports:
+            if isinstance(report, pytest.TestReport):
+                taken["/".join(Path(report.nodeid).parts[:2])] += report.duration / workers
+    told = (f"{folder}: {seconds:.0f} s" for folder, seconds in sorted(taken.items()))
+    terminalreporter.write_line(", ".join(told))
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

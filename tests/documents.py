@@ -54,8 +54,8 @@ from tests.timeouts import GENEROUS, undoubted
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-ROOT = Path(__file__).parent.parent
-# The guide to testing is played by tests/simulator/test_guide.py, which needs files of its own.
+ROOT = Path(__file__).parents[1]
+# tests/unit/simulator/test_guide.py plays the guide to testing, which needs files of its own.
 _GUIDE = ROOT / "docs" / "test-your-robot.md"
 _GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *_GUIDES]
@@ -79,7 +79,12 @@ LONGEST_MOTION = 5.0
 _READ = ("spec", "docs", "tests/captures", ".gitignore")
 _CHANGED = (
     *("generated", "codegen", "simulator"),
-    *("tests/witnesses.yaml", "tests/cases.py", "tests/oracle.py", "tests/test_client_contract.py"),
+    *(
+        "tests/witnesses.yaml",
+        "tests/cases.py",
+        "tests/oracle.py",
+        "tests/contract/test_client_contract.py",
+    ),
 )
 _COMMANDS: dict[str, Callable[[Sequence[str]], object]] = {
     "busservo": busservo._cli.main,
@@ -135,6 +140,7 @@ def copy_project(folder: Path, page: str) -> Path:
         if (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, folder / name, ignore=litter)
         else:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / name)
     if "$ git " in page:
         committed(folder)
@@ -436,7 +442,7 @@ def refresh(pages: Sequence[Path]) -> int:
 
 
 if __name__ == "__main__":
-    from tests.comparison.rules_page import write
+    from tests.unit.comparison.rules_page import write
 
     write()
     sys.exit(refresh(PAGES))

@@ -1,7 +1,7 @@
 """What Hypothesis draws: the same in every run, and a digest of it for each test.
 
-    python -m pytest -p tests.draws tests/test_formula.py               prints the digests
-    python -m pytest -p tests.draws --backwards tests/test_formula.py   the last test first
+    python -m pytest -p tests.draws tests/unit/language               prints the digests
+    python -m pytest -p tests.draws --backwards tests/unit/language   the last test first
 
 The digests of a test are the same whatever ran before it, and in whichever process.
 """

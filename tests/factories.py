@@ -27,7 +27,7 @@ from framegen.render import render_target
 from framegen.targets import python, vectors
 from pydantic import ValidationError
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[1]
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
 DEMO = ROOT / "tests" / "specs" / "demo.yaml"
 

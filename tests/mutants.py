@@ -24,30 +24,31 @@ import pytest
 
 HERE = Path(__file__).parent
 
-# The files that judge each package, the innermost of those named here, and those files first that
-# soonest cannot be imported.
+# The files that judge each package, the innermost of those named here, by folder; and those files
+# first that soonest cannot be imported.
 JUDGES = {
-    "busservo._client": (
-        *("client/test_session", "client/test_request_states", "client/test_possible_replies"),
-        *("client/test_client", "client/test_async_client", "client/test_reports"),
-        *("client/test_closing", "client/test_motion", "client/test_pose", "client/test_gaps"),
-        *("client/test_acknowledgements", "client/test_local_echo", "client/test_virtual_board"),
-        *(
-            "client/test_hid_port",
-            "client/test_faults",
-            "client/test_conversations",
-            "independent/test_one_fault",
-        ),
-    ),
-    "framegen": (
-        *("test_verdict", "test_reference_stream", "test_layout", "test_explain"),
-        *("test_bad_specs", "test_findings", "test_edges", "test_values"),
-        *("test_formula", "test_scalars", "test_vectors"),
-    ),
-    "busservo": (
-        *("test_decode", "test_messages", "test_edges", "test_narrow_ranges", "test_vectors"),
-        *("test_stream", "test_oracle_agrees", "test_stream_machine"),
-    ),
+    "busservo._client": {
+        "unit/runtime/client": "session request_states possible_replies client async_client "
+        "reports closing motion pose gaps acknowledgements local_echo virtual_board hid_port "
+        "faults conversations",
+        "contract/independent": "one_fault",
+    },
+    "framegen": {
+        "unit/model": "verdict layout",
+        "contract": "reference_stream",
+        "unit/explanation": "explain",
+        "unit/checks": "bad_specs",
+        "unit/reading": "findings scalars",
+        "unit/runtime/codec": "edges",
+        "unit/language": "values formula",
+        "unit/targets": "vectors",
+    },
+    "busservo": {
+        "unit/runtime/codec": "decode edges stream",
+        "unit/runtime/frame": "messages narrow_ranges",
+        "unit/targets": "vectors",
+        "contract": "oracle_agrees stream_machine",
+    },
 }
 OPTIONS = ("-x", "-q", "--tb=no", "-p", "no:cacheprovider")
 QUIET = ("-W", "ignore:Module already imported:pytest.PytestAssertRewriteWarning")
@@ -86,7 +87,11 @@ def _judge(name: str) -> int:
     resource.setrlimit(resource.RLIMIT_CPU, (used + SECONDS, used + SECONDS))
     resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
     os.environ["MUTANT_UNDER_TEST"] = name
-    files = [f"tests/{judge}.py" for judge in JUDGES[package_of(name)]]
+    files = [
+        f"tests/{folder}/test_{each}.py"
+        for folder, names in JUDGES[package_of(name)].items()
+        for each in names.split()
+    ]
     return int(pytest.main([*OPTIONS, *QUIET, *left_out(), *files]))
 
 

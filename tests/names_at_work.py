@@ -12,8 +12,8 @@ from framegen.targets.python.names import names_of, strategy_name
 from hypothesis import Phase, find, settings
 from hypothesis import strategies as st
 
-from tests.device_line import DeviceLine
 from tests.factories import library, library_files
+from tests.lines.device_line import DeviceLine
 
 if TYPE_CHECKING:
     from types import ModuleType

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Literal
 
 from framegen.cli import main
 
-from tests.docs.browser import launched
 from tests.documents import ROOT
+from tests.unit.site.browser import launched
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -3,8 +3,8 @@
     python -m tests.soak [--requests N] [--rounds N] [--seed S]
 
 In virtual time; by eight threads over TCP; and by a hundred tasks of asyncio over TCP. Then the
-independent board, as often: see tests/independent/long_run.py; and a bus of servos, one of them
-dead: see tests/client/long_bus_run.py. Every value that comes back must be
+independent board, as often: see tests/contract/independent/long_run.py; and a bus of servos, one of
+them dead: see tests/lines/long_bus_run.py. Every value that comes back must be
 the right one, or a declared error, in bounded time; every report must come, in order; and in the
 end no more memory, threads and pending messages may be there than after the first fifth.
 It is no part of `make test`, which only tries that it runs.
@@ -25,15 +25,15 @@ from typing import TYPE_CHECKING
 from busservo import AsyncController, Controller, open_transport
 from busservo_simulator import Faults, VirtualClock, VirtualController
 
-from tests.client.conversation import (
+from tests.contract.independent import long_run
+from tests.lines.conversation import (
     Ledger,
     converse,
     converse_async,
     reports_received,
     reports_received_async,
 )
-from tests.client.long_bus_run import on_a_bus
-from tests.independent import long_run
+from tests.lines.long_bus_run import on_a_bus
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:

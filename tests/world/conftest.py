@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.docs.browser import Visit, launched
+from tests.unit.site.browser import Visit, launched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

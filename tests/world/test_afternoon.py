@@ -13,10 +13,10 @@ import pytest
 
 from tests import documents
 
-ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parents[2]
 GUIDE = "docs/changing-the-protocol.md"
 # The packages that are installed lie elsewhere.
-ELSEWHERE = "tests/test_house.py::test_there_is_one_version"
+ELSEWHERE = "tests/unit/project/test_house.py::test_there_is_one_version"
 
 
 def run(folder: Path, *words: str) -> str:

@@ -15,10 +15,10 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.audit.line import audited, spoken
+from tests.contract.test_random_specs import model_of
 from tests.factories import Data, compiled_of
+from tests.lines.tallied_line import audited, spoken
 from tests.random_specs import lines, specs, values_of, with_examples
-from tests.test_random_specs import model_of
 
 
 @given(specs(), st.data())

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from framegen.cli import main
 
-from tests.comparison.test_automation import ACTION, HOOKS, read
 from tests.factories import DEMO, ROOT
 from tests.timeouts import GENEROUS
+from tests.unit.comparison.test_automation import ACTION, HOOKS, read
 
 GIT = shutil.which("git")
 BASH = shutil.which("bash")

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.docs.browser import (
+from tests.factories import vectors_of, write_files
+from tests.unit.site.browser import (
     MILLISECONDS,
     Visit,
     decoded,
     needs_chromium,
     site_on_disk,
 )
-from tests.docs.reference import reference
-from tests.docs.test_hostile_pages import PAYLOADS, hostile
-from tests.factories import vectors_of, write_files
+from tests.unit.site.reference import reference
+from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
 
 if TYPE_CHECKING:
     from pathlib import Path

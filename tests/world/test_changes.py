@@ -13,9 +13,9 @@ from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.explained import explain
 
-from tests.comparison.edits import EDITS, SPECS, edition, of_the_day
-from tests.comparison.leaves import told_at_their_places
-from tests.comparison.rules_page import PAGE, section, verdicts
+from tests.mutations.edits import EDITS, SPECS, edition, of_the_day
+from tests.mutations.leaves import told_at_their_places
+from tests.unit.comparison.rules_page import PAGE, section, verdicts
 
 if TYPE_CHECKING:
     from framegen.comparison.changes.change import ChangeRule

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.targets.python.docstring import docstring
 from framegen.targets.python.escape import literal
 
-from tests.contract.libraries import linted
+from tests.side_by_side import linted
 
 if TYPE_CHECKING:
     from pathlib import Path

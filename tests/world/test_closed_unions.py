@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parents[2]
 REPORTS = """
         case ActionGroupStarted() | ActionGroupStopped() | ActionGroupCompleted():
             return "report"

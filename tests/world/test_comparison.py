@@ -11,16 +11,16 @@ from framegen.comparison.pair import Pair
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.comparison import proof
-from tests.comparison.authors import marked
-from tests.comparison.mutations import MUTATIONS, SPECS, after, after_data, editions, places
-from tests.comparison.talks import Talk
-from tests.comparison.word_mutations import WORD_MUTATIONS
+from tests.contract.comparison import proof
+from tests.contract.comparison.talks import Talk
+from tests.mutations.authors import marked
+from tests.mutations.mutations import MUTATIONS, SPECS, after, after_data, editions, places
+from tests.mutations.word_mutations import WORD_MUTATIONS
 from tests.protocols.specs import values_for
 from tests.random_specs import specs
 
 if TYPE_CHECKING:
-    from tests.comparison.mutations import Editions
+    from tests.mutations.mutations import Editions
 
 # Words are changed in so many of the specs in which they have a place.
 SOME = 4

@@ -19,10 +19,10 @@ from framegen.reading.yamltree import Unusable
 from framegen.targets import python
 from framegen.targets.python.names import names_of
 
-from tests.contract.conversation import converse
-from tests.contract.healing import healed
-from tests.contract.libraries import Library, imported, library_of, linted, type_checked
-from tests.contract.mutants import (
+from tests.factories import compiled_of
+from tests.lines.every_method import converse
+from tests.mutations.healing import healed
+from tests.mutations.mutants import (
     rotations,
     singly,
     specs,
@@ -31,8 +31,8 @@ from tests.contract.mutants import (
     with_odd_text,
     with_texts,
 )
-from tests.contract.pages import not_inert, pages_of
-from tests.factories import compiled_of
+from tests.side_by_side import Library, imported, library_of, linted, type_checked
+from tests.unit.site.compared import not_inert, pages_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,9 +40,9 @@ if TYPE_CHECKING:
 
     from framegen.compile import Compiled
 
-    from tests.contract.mutants import Mutant
-    from tests.docs.reference import Reference
     from tests.factories import Data
+    from tests.mutations.mutants import Mutant
+    from tests.unit.site.reference import Reference
 
 SEED = int(os.environ.get("CONTRACT_SEED", "8"))
 ONLY = os.environ.get("CONTRACT_ONLY", "")

@@ -7,11 +7,11 @@ from framegen.comparison.pair import Pair
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.comparison import conversations
-from tests.comparison.conversation_cases import CASES
-from tests.comparison.edits import pair_of
-from tests.comparison.ends import differing, ends_of
-from tests.comparison.mutations import MUTATIONS, editions, places
+from tests.contract.comparison import conversations
+from tests.contract.comparison.conversation_cases import CASES
+from tests.contract.comparison.ends import differing, ends_of
+from tests.mutations.edits import pair_of
+from tests.mutations.mutations import MUTATIONS, editions, places
 
 SPECS = ("lxservo", "dynamixel1", "modbus", "visca", "msp", "roboclaw", "learm", "ubx")
 

@@ -14,16 +14,16 @@ from busservo import AsyncController, Controller, open_async_controller, open_co
 from busservo_simulator import Faults, VirtualController
 
 from tests import soak
-from tests.at_once import at_once
-from tests.boards import no_board_refuses_anything
-from tests.client.conversation import (
+from tests.lines.at_once import at_once
+from tests.lines.boards import no_board_refuses_anything
+from tests.lines.conversation import (
     Ledger,
     converse,
     converse_async,
     reports_received,
     reports_received_async,
 )
-from tests.client.test_conversations import FAULTS
+from tests.unit.runtime.client.test_conversations import FAULTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

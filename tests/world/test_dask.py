@@ -11,7 +11,7 @@ import pytest
 from busservo.tables import Piece, Report, archive, scan
 from dask import distributed
 
-from tests.tables.conversations import conversation, recorded
+from tests.unit.runtime.tables.conversations import conversation, recorded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.docs.browser import Visit, needs_chromium, project_on_disk
-from tests.docs.test_drawings import DRAWINGS, drawings
+from tests.unit.site.browser import Visit, needs_chromium, project_on_disk
+from tests.unit.site.test_drawings import DRAWINGS, drawings
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,7 +9,7 @@ from subprocess import run
 
 import pytest
 
-ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parents[2]
 FILES = sorted(
     file.relative_to(ROOT).as_posix()
     for file in (ROOT / "tests").rglob("test_*.py")

@@ -11,10 +11,10 @@ from framegen.guess.spec_text import spec_text
 from framegen.reading.source import Source
 
 from tests.factories import BUSSERVO, compiled_file
-from tests.guess.test_guess import IN_PART
-from tests.guess.traffic import traffic
-from tests.guess.truth import wrong
 from tests.protocols.specs import FILES
+from tests.unit.guess.test_guess import IN_PART
+from tests.unit.guess.traffic import traffic
+from tests.unit.guess.truth import wrong
 
 SPECS = {**FILES, "busservo": BUSSERVO}
 

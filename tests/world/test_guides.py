@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.documents import PAGES, ROOT, copy_project, played
-from tests.test_readme import TAKE_TIME
+from tests.unit.project.test_readme import TAKE_TIME
 
 if TYPE_CHECKING:
     from pathlib import Path

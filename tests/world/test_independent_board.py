@@ -16,16 +16,16 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import AsyncController, Controller, open_async_controller, open_controller
 
-from tests.at_once import at_once
-from tests.independent import faults, firmware
-from tests.independent.board import Board
-from tests.independent.conversation import SIX, Conversation, repeated
-from tests.independent.ports import Port, PtyPort, TcpPort
+from tests.contract.independent import faults, firmware
+from tests.contract.independent.board import Board
+from tests.contract.independent.conversation import SIX, Conversation, repeated
+from tests.contract.independent.ports import Port, PtyPort, TcpPort
+from tests.lines.at_once import at_once
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
-    from tests.independent.conversation import Requested
-    from tests.independent.faults import Script
+    from tests.contract.independent.conversation import Requested
+    from tests.contract.independent.faults import Script
 
 PORTS = [TcpPort] if sys.platform == "win32" else [PtyPort, TcpPort]
 BAUD = 9600

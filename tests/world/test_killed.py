@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.documents import ROOT
-from tests.writing.conftest import no_power_fails
-from tests.writing.killed import EDITIONS
-from tests.writing.test_killed import (
+from tests.unit.writing.conftest import no_power_fails
+from tests.unit.writing.killed import EDITIONS
+from tests.unit.writing.test_killed import (
     _full,
     _interrupted,
     assert_nothing_is_lost,
@@ -22,7 +22,7 @@ from tests.writing.test_killed import (
     prepared,
     wholly,
 )
-from tests.writing.trees import snapshot, without_workshop
+from tests.unit.writing.trees import snapshot, without_workshop
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -52,7 +52,7 @@ def test_a_run_that_is_killed_at_any_step_is_finished_by_the_next(
     before = snapshot(tree)
     words = [str(tree), str(tmp_path), edition, *(["force"] if force else [])]
     done = subprocess.run(
-        [sys.executable, "-m", "tests.writing.killed", *words],
+        [sys.executable, "-m", "tests.unit.writing.killed", *words],
         cwd=ROOT,
         capture_output=True,
         encoding="utf-8",

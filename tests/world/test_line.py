@@ -16,11 +16,11 @@ from busservo_simulator import Faults, VirtualController
 from framegen.cli import main
 from lxservo_simulator import VirtualBus
 
-from tests.docs.browser import Visit, needs_chromium
-from tests.docs.reference import ROOT
-from tests.docs.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
-from tests.independent import faults
-from tests.independent.board import Board
+from tests.contract.independent import faults
+from tests.contract.independent.board import Board
+from tests.unit.site.browser import Visit, needs_chromium
+from tests.unit.site.reference import ROOT
+from tests.unit.site.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser
 
-    from tests.docs.serial_host import End
-    from tests.independent.faults import Script
+    from tests.contract.independent.faults import Script
+    from tests.unit.site.serial_host import End
 
 VOLTAGE = busservo.BatteryVoltage(7500).encode()
 

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 import pytest
 from framegen.cli import main
 
-from tests.docs import looks
-from tests.docs.browser import (
+from tests.factories import BUSSERVO, compiled_file, vectors_of
+from tests.protocols.specs import FILES
+from tests.unit.site import looks
+from tests.unit.site.browser import (
     Visit,
     needs_chromium,
     site_on_disk,
     texts,
 )
-from tests.docs.reference import reference
-from tests.factories import BUSSERVO, compiled_file, vectors_of
-from tests.protocols.specs import FILES
+from tests.unit.site.reference import reference
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from busservo import BatteryVoltage, BatteryVoltageRead, recordings
 from busservo_simulator import VirtualController
 
-from tests.docs.browser import Visit, launched, needs_chromium, site_on_disk
-from tests.docs.serial_host import LiveTab, SerialHost, VirtualEnd
+from tests.unit.site.browser import Visit, launched, needs_chromium, site_on_disk
+from tests.unit.site.serial_host import LiveTab, SerialHost, VirtualEnd
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from framegen.cli import main
 
-from tests.docs.browser import Visit, launched, needs_chromium
-from tests.docs.looks import faults_at_widths
-from tests.docs.reference import Page
-from tests.docs.test_look import OWN, project
+from tests.unit.site.browser import Visit, launched, needs_chromium
+from tests.unit.site.looks import faults_at_widths
+from tests.unit.site.reference import Page
+from tests.unit.site.test_look import OWN, project
 
 __all__ = ["project"]
 

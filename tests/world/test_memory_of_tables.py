@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.tables.conversations import conversation
+from tests.unit.runtime.tables.conversations import conversation
 
 if TYPE_CHECKING:
     from pathlib import Path

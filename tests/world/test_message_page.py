@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.docs.browser import needs_chromium, site_on_disk
+from tests.unit.site.browser import needs_chromium, site_on_disk
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

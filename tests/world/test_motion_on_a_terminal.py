@@ -13,10 +13,10 @@ from busservo._client.exchanges import POSE
 if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
-from tests.boards import no_board_refuses_anything
-from tests.cli.terminal import OnTerminal
-from tests.cli.test_teach_and_play import PATIENT, board, poses_of
+from tests.lines.boards import no_board_refuses_anything
+from tests.lines.terminal import OnTerminal
 from tests.timeouts import await_that
+from tests.unit.runtime.cli.test_teach_and_play import PATIENT, board, poses_of
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from tests.factories import ROOT
-from tests.test_new_project import assert_its_tests_pass_with, python, workplace
+from tests.unit.skeleton.test_new_project import assert_its_tests_pass_with, python, workplace
 
 __all__ = ["workplace"]
 

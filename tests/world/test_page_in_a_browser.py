@@ -8,9 +8,9 @@ from framegen.cli import main
 from framegen.language.values import to_hex
 from framegen.model.codec import encode
 
-from tests.docs import looks
-from tests.docs.browser import Visit, decoded, launched, needs_chromium, site_on_disk, texts
 from tests.protocols.specs import FILES, messages_of
+from tests.unit.site import looks
+from tests.unit.site.browser import Visit, decoded, launched, needs_chromium, site_on_disk, texts
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from busservo_simulator import VirtualController
 
-from tests.docs import looks
-from tests.docs.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk
-from tests.docs.reference import NODE_MODULES
-from tests.docs.serial_host import LiveTab, SerialHost, VirtualEnd
-from tests.docs.uses import GUIDE, SERVO_MOVE, USES, WORKBENCH
+from tests.unit.site import looks
+from tests.unit.site.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk
+from tests.unit.site.reference import NODE_MODULES
+from tests.unit.site.serial_host import LiveTab, SerialHost, VirtualEnd
+from tests.unit.site.uses import GUIDE, SERVO_MOVE, USES, WORKBENCH
 
 if TYPE_CHECKING:
     from pathlib import Path

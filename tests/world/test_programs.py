@@ -13,13 +13,13 @@ import pytest
 from framegen.comparison.pair import Pair
 from hypothesis import given
 
-from tests.comparison.edits import EDITS, of_the_day, pair_of
-from tests.comparison.mutations import MUTATIONS, Editions, after, editions
-from tests.comparison.program_of_all import fails, namespace, program, run
-from tests.comparison.program_verdicts import files_of, verdict_on
-from tests.comparison.test_programs import assert_seen
+from tests.contract.comparison.program_of_all import fails, namespace, program, run
+from tests.contract.comparison.program_verdicts import files_of, verdict_on
+from tests.contract.comparison.test_programs import assert_seen
 from tests.factories import library, write_files
 from tests.few_each import few_each
+from tests.mutations.edits import EDITS, of_the_day, pair_of
+from tests.mutations.mutations import MUTATIONS, Editions, after, editions
 
 if TYPE_CHECKING:
     from pathlib import Path

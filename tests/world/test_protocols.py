@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.contract.libraries import linted, type_checked
 from tests.factories import compiled_file, library_files, write_files
 from tests.protocols.specs import FILES
-from tests.test_new_project import assert_its_tests_pass_with
+from tests.side_by_side import linted, type_checked
+from tests.unit.skeleton.test_new_project import assert_its_tests_pass_with
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -13,8 +13,8 @@ from zipfile import ZipFile
 import pytest
 from framegen.cli import main
 
-from tests.docs.test_publish_guide import GUIDE
 from tests.timeouts import GENEROUS
+from tests.unit.site.test_publish_guide import GUIDE
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path d="M0 0h8v8z"/></svg>\n'
 # A block of commands, or of a file that the paragraph above it names last.

@@ -14,10 +14,10 @@ from framegen.model.stream import Event, ReferenceDecoder
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from tests.contract.test_random_specs import plain
 from tests.factories import compiled_of, library, library_files
 from tests.protocols.libraries import direction_of, made_of, values_in
 from tests.random_specs import lines, specs, with_examples
-from tests.test_random_specs import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -16,7 +16,7 @@ from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.reading.yamltext import block
 
-from tests.comparison.edits import EDITS, of_the_day
+from tests.mutations.edits import EDITS, of_the_day
 
 if TYPE_CHECKING:
     from tests.factories import Data

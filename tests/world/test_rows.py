@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.boards import no_board_refuses_anything
-from tests.protocols.conftest import libraries
+from tests.contract.crossed.test_crossed import scripts
+from tests.contract.protocols.conftest import libraries
+from tests.contract.test_demo_library import side_by_side
+from tests.lines.boards import no_board_refuses_anything
 from tests.rows import left_out_of
-from tests.tables.test_dataset import captures
-from tests.test_crossed import scripts
-from tests.test_demo_library import side_by_side
-from tests.test_names import on_disk
+from tests.unit.runtime.tables.test_dataset import captures
+from tests.unit.targets.test_names import on_disk
 
 if TYPE_CHECKING:
     from tests.rows import Row
@@ -24,9 +24,10 @@ if TYPE_CHECKING:
 __all__ = ["captures", "libraries", "no_board_refuses_anything", "on_disk", "scripts"]
 __all__ += ["side_by_side"]
 
-ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parents[2]
 HAS_SOME = re.compile(
-    r"\bmark\.slow\b|\bmark\.each_protocol\b|^from tests\.tables\.shown ", re.MULTILINE
+    r"\bmark\.slow\b|\bmark\.each_protocol\b|^from tests\.\S+\.tables\.shown ",
+    re.MULTILINE,
 )
 MODULES = [
     ".".join(file.relative_to(ROOT).with_suffix("").parts)

@@ -10,9 +10,9 @@ from framegen.writing import changes
 from framegen.writing.workshop import NAME
 
 from tests.documents import ROOT
-from tests.writing.conftest import no_power_fails
-from tests.writing.test_places import root
-from tests.writing.trees import AFTER, BEFORE, RENAMED, schema
+from tests.unit.writing.conftest import no_power_fails
+from tests.unit.writing.test_places import root
+from tests.unit.writing.trees import AFTER, BEFORE, RENAMED, schema
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,7 +24,7 @@ RUN = """
 import sys
 from pathlib import Path
 from framegen.writing import write
-from tests.writing.killed import EDITIONS
+from tests.unit.writing.killed import EDITIONS
 
 for _ in range(10):
     for name in sys.argv[2:]:

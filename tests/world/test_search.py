@@ -8,9 +8,9 @@ from urllib.parse import parse_qs, urlsplit
 
 import pytest
 
-from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
-from tests.docs.test_hostile_pages import PAYLOADS, hostile
 from tests.factories import write_files
+from tests.unit.site.browser import Visit, needs_chromium, project_on_disk, texts
+from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
 
 if TYPE_CHECKING:
     from pathlib import Path

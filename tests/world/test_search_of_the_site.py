@@ -9,8 +9,8 @@ from functools import cache
 from framegen.render import snippets
 from framegen.site.site import render_site
 
-from tests.docs.scripts import run_script
-from tests.docs.test_search import RANKING, index, needs_node, project
+from tests.unit.site.scripts import run_script
+from tests.unit.site.test_search import RANKING, index, needs_node, project
 
 
 @cache

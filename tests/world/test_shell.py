@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.docs.browser import Visit, needs_chromium, project_on_disk, texts
-from tests.docs.looks import faults
+from tests.unit.site.browser import Visit, needs_chromium, project_on_disk, texts
+from tests.unit.site.looks import faults
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

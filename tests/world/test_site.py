@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.browser import project_on_disk
-from tests.docs.reference import ROOT, Page, broken_links
-from tests.docs.validity import complaints, needs_validator
 from tests.factories import compiled_file
+from tests.unit.site.browser import project_on_disk
+from tests.unit.site.reference import ROOT, Page, broken_links
+from tests.unit.site.validity import complaints, needs_validator
 
 
 @pytest.fixture(scope="module")

@@ -14,8 +14,8 @@ from busservo_simulator import VirtualController
 if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
-from tests.boards import no_board_refuses_anything
-from tests.cli.terminal import OnTerminal, run, start
+from tests.lines.boards import no_board_refuses_anything
+from tests.lines.terminal import OnTerminal, run, start
 from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:

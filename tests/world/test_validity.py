@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.reference import SPECS, reference
-from tests.docs.test_hostile_pages import PAYLOADS, hostile
-from tests.docs.validity import complaints, needs_validator
+from tests.unit.site.reference import SPECS, reference
+from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
+from tests.unit.site.validity import complaints, needs_validator
 
 pytestmark = needs_validator
 

@@ -11,17 +11,17 @@ import pytest
 from busservo import recordings
 from busservo._cli.entries import EntryLines
 
-from tests.docs.browser import (
+from tests.factories import in_larger_unit, vectors_of
+from tests.unit.site.browser import (
     Visit,
     decoded,
     needs_chromium,
     site_on_disk,
     texts,
 )
-from tests.docs.looks import WIDTHS, faults
-from tests.docs.peers import joined, noisy_lines, reference_events
-from tests.docs.reference import ROOT, reference
-from tests.factories import in_larger_unit, vectors_of
+from tests.unit.site.looks import WIDTHS, faults
+from tests.unit.site.peers import joined, noisy_lines, reference_events
+from tests.unit.site.reference import ROOT, reference
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator

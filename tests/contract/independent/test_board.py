@@ -1,0 +1,208 @@
+"""The independent board itself: it does what the document says, and shares nothing with what it
+tests."""
+
+from __future__ import annotations
+
+import ast
+import math
+import os
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.contract.independent import faults, firmware
+from tests.contract.independent.board import Board
+from tests.contract.independent.ports import PtyPort, TcpPort, VirtualPort
+from tests.in_turn import in_turn
+
+HERE = Path(__file__).parent
+PARTS = ["firmware", "faults", "board", "ports", "levels", "strangers"]
+# One byte at 9600 baud, 8N1.
+BYTE = 10 / 9600
+# Sent by a host, and what a board of group 8 answers: the first reply is numbered 1.
+SPOKEN = {
+    "move": ("55 55 08 03 01 E8 03 01 20 03", ""),
+    "move two": ("55 55 0B 03 02 20 03 02 20 03 09 20 03", ""),
+    "run": ("55 55 05 06 08 01 00", "55 55 05 06 08 01 00"),
+    "stop, with nothing running": ("55 55 02 07", ""),
+    "run for ever, stop": (
+        "55 55 05 06 02 00 00 55 55 02 07",
+        "55 55 05 06 02 00 00 55 55 02 07",
+    ),
+    "speed": ("55 55 05 0B 08 32 00", ""),
+    "speed of all": ("55 55 05 0B FF 2C 01", ""),
+    "battery": ("55 55 02 0F", "55 55 04 0F 01 00"),
+    "unload": ("55 55 06 14 03 01 02 03", ""),
+    "unload six": ("55 55 09 14 06 01 02 03 04 05 06", ""),
+    "positions": (
+        "55 55 09 15 06 01 02 03 04 05 06",
+        "55 55 15 15 06 01 01 00 02 01 00 03 01 00 04 01 00 05 01 00 06 01 00",
+    ),
+    "noise, then battery": ("00 55 13 55 55 02 0F", "55 55 04 0F 01 00"),
+}
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_it_shares_no_code_with_what_it_tests(part: str) -> None:
+    tree = ast.parse((HERE / f"{part}.py").read_text(encoding="utf-8"))
+    names = [
+        name
+        for node in ast.walk(tree)
+        for name in (
+            [each.name for each in node.names]
+            if isinstance(node, ast.Import)
+            else [node.module or ""]
+            if isinstance(node, ast.ImportFrom)
+            else []
+        )
+    ]
+    assert names
+    apart = {"typing_extensions", *(f"tests.contract.independent.{each}" for each in PARTS)}
+    assert [
+        name
+        for name in names
+        if name not in apart and name.split(".")[0] not in sys.stdlib_module_names
+    ] == []
+
+
+@in_turn("name", lambda: SPOKEN)
+def test_it_answers_as_the_document_says(name: str) -> None:
+    sent, answered = SPOKEN[name]
+    board = Board()
+    board.write(bytes.fromhex(sent), 0)
+    assert board.read(0) == bytes.fromhex(answered)
+    assert board.refused == []
+
+
+def test_a_group_that_has_ended_is_reported() -> None:
+    board = Board(group_seconds=1)
+    board.write(firmware.frame(firmware.RUN, b"\x08\x02\x00"), 0)
+    assert board.read(1.9) == bytes.fromhex("55 55 05 06 08 02 00")
+    assert board.next_event == 2
+    assert board.read(2) == bytes.fromhex("55 55 05 08 08 02 00")
+    assert board.reported == [board.said[0].data, board.said[1].data]
+
+
+def test_a_frame_that_was_cut_off_eats_the_beginning_of_the_next() -> None:
+    board = Board()
+    board.write(bytes.fromhex("55 55 08 03 01 E8") + 2 * firmware.battery_question(), 0)
+    swallowed = bytes.fromhex("55 55 08 03 01 E8 55 55 02 0F")
+    assert [received.frame for received in board.received] == [
+        swallowed,
+        firmware.battery_question(),
+    ]
+    assert board.read(0) == firmware.battery_reply(1)
+
+
+def test_each_answer_has_a_number_of_its_own() -> None:
+    board = Board(servos=[2])
+    for _ in range(2):
+        board.write(firmware.battery_question() + firmware.positions_question([1, 2]), 0)
+    assert board.read(0) == b"".join(
+        [
+            firmware.battery_reply(1),
+            firmware.positions_reply([(2, 2)]),
+            firmware.battery_reply(3),
+            firmware.positions_reply([(2, 4)]),
+        ]
+    )
+    assert [received.number for received in board.received] == [1, 2, 3, 4]
+
+
+def test_bytes_take_their_time_both_ways() -> None:
+    port = VirtualPort(Board(baud=9600))
+    port.write(firmware.battery_question())
+    times = []
+    while port.read(1):
+        times.append(port.now)
+    assert times == pytest.approx([(4 + number) * BYTE for number in range(1, 7)])
+
+
+def test_an_adapter_hands_over_what_has_come_in_its_time() -> None:
+    port = VirtualPort(Board(baud=9600, latency=0.016))
+    port.write(firmware.battery_question())
+    assert (port.read(1), port.now) == (firmware.battery_reply(1), 0.016)
+
+
+def test_an_adapter_that_gathers_hands_over_a_frame_when_it_is_whole() -> None:
+    port = VirtualPort(Board(baud=9600, gathers=True, faults={1: faults.duplicated()}.get))
+    port.write(firmware.battery_question())
+    assert port.read(1) == firmware.battery_reply(1)
+    assert port.now == pytest.approx(10 * BYTE)
+    assert port.read(1) == firmware.battery_reply(1)
+    assert port.now == pytest.approx(16 * BYTE)
+
+
+def test_a_half_duplex_adapter_gives_back_what_is_sent() -> None:
+    port = VirtualPort(Board(baud=9600, echo=True, thinks=0.01))
+    port.write(firmware.battery_question())
+    data = b""
+    while got := port.read(1):
+        data += got
+    assert data == firmware.battery_question() + firmware.battery_reply(1)
+
+
+REPLY, REPORT = firmware.battery_reply(1), firmware.report(firmware.STOPPED)
+BEHIND = faults.Piece(0.5, REPORT, is_report=True)
+# The script, and what comes within a tenth of a second, and after that.
+SCRIPTS = {
+    "duplicated": (faults.duplicated(), 2 * REPLY, b""),
+    "duplicated later": (faults.duplicated(0.5), REPLY, REPLY),
+    "late": (faults.late(0.5), b"", REPLY),
+    "dropped": (faults.dropped, b"", b""),
+    "cut": (faults.cut(4), REPLY[:4], b""),
+    "cut, silence, report": (faults.cut(4, BEHIND), REPLY[:4], REPORT),
+    "bytes lost": (faults.lost(2, 2), REPLY[:2] + REPLY[4:], b""),
+    "wrong count": (faults.miscounted(-1), REPLY[:4] + b"\x00\x00", b""),
+    "wrong length": (faults.mislengthened(1), REPLY[:2] + b"\x05" + REPLY[3:], b""),
+    "noise before": (faults.preceded(b"\x00\x55"), b"\x00\x55" + REPLY, b""),
+    "report between": (faults.preceded(REPORT, is_report=True), REPORT + REPLY, b""),
+    "report behind": (faults.followed(REPORT, 0.5, is_report=True), REPLY, REPORT),
+    "a pause within": (faults.halted(3, 0.5), REPLY[:3], REPLY[3:]),
+}
+
+
+@in_turn("name", lambda: SCRIPTS)
+def test_a_fault_happens_to_the_reply_that_it_is_meant_for(name: str) -> None:
+    script, soon, later = SCRIPTS[name]
+    board = Board(faults={1: script}.get)
+    board.write(firmware.battery_question(), 0)
+    assert board.read(0.1) == soon
+    assert board.read(1) == later
+    assert board.reported == [REPORT] * ("report" in name)
+    board.write(firmware.battery_question(), 1)
+    assert board.read(1) == firmware.battery_reply(2)
+
+
+def test_another_is_answered_while_a_reply_is_late() -> None:
+    board = Board(faults={1: faults.late(0.5)}.get)
+    board.write(firmware.battery_question(), 0)
+    board.write(firmware.battery_question(), 0.2)
+    assert board.read(0.3) == firmware.battery_reply(2)
+    assert board.read(math.inf) == firmware.battery_reply(1)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
+def test_it_answers_at_a_pty() -> None:
+    with PtyPort(Board(baud=9600)) as port:
+        end = os.open(port.name, os.O_RDWR | os.O_NOCTTY)
+        os.write(end, firmware.battery_question())
+        data = b""
+        while len(data) < 6:
+            data += os.read(end, 100)
+        os.close(end)
+        assert data == firmware.battery_reply(1)
+
+
+def test_it_answers_over_tcp_to_one_host_after_the_other() -> None:
+    with TcpPort(Board()) as port:
+        for number in (1, 2):
+            address = port.name.removeprefix("socket://").split(":")
+            with socket.create_connection((address[0], int(address[1]))) as line:
+                line.sendall(firmware.battery_question())
+                data = b""
+                while len(data) < 6:
+                    data += line.recv(100)
+                assert data == firmware.battery_reply(number)

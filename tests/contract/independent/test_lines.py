@@ -1,0 +1,248 @@
+"""Lines of other kinds, in virtual time: faster than stated, with an echo, or busy before."""
+
+from __future__ import annotations
+
+import logging
+import math
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupStarted,
+    ActionGroupStopped,
+    Controller,
+    EchoError,
+)
+
+from tests.contract.independent import faults, firmware
+from tests.contract.independent.board import BITS_PER_BYTE, Board
+from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.contract.independent.ports import VirtualPort
+from tests.in_turn import in_turn
+
+BAUD = 9600
+REPLY_TIMEOUT = 0.25
+
+
+def conversation(
+    board: Board, reads: int, *, baud: float = BAUD
+) -> tuple[Conversation, Controller, VirtualPort]:
+    """Read the battery so often, one after the other."""
+    port = VirtualPort(board)
+    talk = Conversation(board, port.clock)
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, baud=baud, settle=0
+    ) as controller:
+        for _ in range(reads):
+            talk.ask(controller, None)
+    return talk, controller, port
+
+
+def times(talk: Conversation) -> list[float]:
+    """Return how long each call took."""
+    return [each.ended - each.began for each in talk.calls]
+
+
+# ------------------------------------------------------------------- faster than stated
+
+
+def test_a_line_is_learnt_to_be_faster_from_three_replies_that_were_impossible() -> None:
+    """Each of these is held until the line has been quiet; from then on, none is."""
+    talk, controller, _ = conversation(Board(), 10)
+    assert (talk.stale, talk.failed) == ([], [])
+    assert controller.counters.impossible == 3
+    assert max(times(talk)[3:]) < 0.001
+    assert max(times(talk)) < REPLY_TIMEOUT + 2 * wire_time(None, BAUD)
+
+
+def test_a_line_that_is_said_to_be_faster_is_believed() -> None:
+    talk, controller, _ = conversation(Board(), 10, baud=math.inf)
+    assert (talk.stale, talk.failed) == ([], [])
+    assert controller.counters.impossible == 0
+    assert max(times(talk)) < 0.001
+
+
+@pytest.mark.parametrize("baud", [BAUD, math.inf])
+def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> None:
+    board = Board(thinks=0.002, faults={6: faults.duplicated()}.get)
+    talk, controller, _ = conversation(board, 20, baud=baud)
+    assert (talk.stale, talk.failed) == ([], [])
+    assert controller.counters.unsolicited == 1
+
+
+@pytest.mark.parametrize("baud", [BAUD, math.inf])
+def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> None:
+    """A line that is fast, be that learnt or said, and a reply that comes again while the board
+    thinks about the next question: without a pause, each read gets the answer to the one
+    before, and nobody can know.
+    """
+    board = Board(thinks=0.002, faults={6: faults.duplicated(0.001)}.get)
+    port = VirtualPort(board)
+    talk = Conversation(board, port.clock)
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, baud=baud, settle=0
+    ) as controller:
+        for _ in range(12):
+            talk.ask(controller, None)
+        assert [talk.calls.index(each) for each in talk.stale] == [6, 7, 8, 9, 10, 11]
+        assert list(controller.reports(timeout=0.1)) == []
+        assert controller.counters.unsolicited == 1
+        for _ in range(8):
+            talk.ask(controller, None)
+        assert len(talk.stale) == 6
+        assert talk.failed == []
+
+
+@pytest.mark.parametrize("faster", [1.005, 1.02, 1.04])
+def test_a_board_whose_clock_runs_ahead_is_not_slowed(faster: float) -> None:
+    """The oscillators of two UARTs may differ by a few per cent, and nothing is wrong with that."""
+    talk, controller, _ = conversation(Board(baud=BAUD * faster), 20)
+    assert (talk.stale, talk.failed) == ([], [])
+    assert max(times(talk)) <= wire_time(None, BAUD)
+    assert (controller.counters.impossible, controller.counters.unsolicited) == (0, 0)
+
+
+# ------------------------------------------------------------------- a process that pauses
+
+
+class Pausing(VirtualPort):
+    """A process that stands still for a second behind a read that gave so many bytes in all."""
+
+    def __init__(self, board: Board, behind: int) -> None:
+        super().__init__(board)
+        self._left = behind
+
+    def read(self, timeout: float) -> bytes:
+        data = super().read(timeout)
+        if 0 < self._left <= len(data):
+            self.now += 1.0
+        self._left -= len(data)
+        return data
+
+
+@in_turn("behind", lambda: range(1, 24))
+def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind: int) -> None:
+    board = Board(baud=BAUD)
+    port = Pausing(board, behind)
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
+    ) as controller:
+        for number in (1, 2, 3):
+            positions = controller.read_servo_positions(SIX)
+            assert {position for _, position in positions} == {number}
+        assert controller.counters.noise == 0
+
+
+# ------------------------------------------------------------------- an echo
+
+
+def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
+    board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
+    port = VirtualPort(board)
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, local_echo=True
+    ) as controller:
+        controller.stop_action_group()
+        controller.run_action_group(9, times=1)
+        assert list(controller.reports(timeout=0.3)) == []
+        assert [controller.read_battery_voltage() for _ in range(3)] == [1, 2, 3]
+        assert {position for _, position in controller.read_servo_positions(SIX)} == {4}
+        controller.move_servos([(1, 500)], time_ms=1000)
+        controller.run_action_group(8, times=1)
+        assert list(controller.reports(timeout=0.3)) == [
+            ActionGroupStarted(8, 1),
+            ActionGroupCompleted(8, 1),
+        ]
+        controller.run_action_group(8, times=0)
+        assert list(controller.reports(timeout=0.3)) == [ActionGroupStarted(8, 0)]
+        controller.stop_action_group()
+        assert list(controller.reports(timeout=0.3)) == [ActionGroupStopped()]
+        assert controller.counters.noise == 0
+    assert board.refused == []
+
+
+def test_an_echo_that_is_missing_is_an_error() -> None:
+    port = VirtualPort(Board(baud=BAUD))
+    with (
+        Controller(
+            port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, local_echo=True
+        ) as controller,
+        pytest.raises(EchoError),
+    ):
+        controller.read_battery_voltage()
+
+
+class Damaging(VirtualPort):
+    """An adapter that loses one byte of what it delivers."""
+
+    def __init__(self, board: Board, lost: int) -> None:
+        super().__init__(board)
+        self._left = lost
+
+    def read(self, timeout: float) -> bytes:
+        data = super().read(timeout)
+        self._left -= len(data)
+        return data[:-1] if data and self._left == 0 else data
+
+
+def test_an_echo_that_is_damaged_ends_one_call_alone() -> None:
+    # Two reads of 10 bytes each, echo and reply, and then the second byte of an echo.
+    board = Board(baud=BAUD, echo=True, thinks=0.001)
+    port = Damaging(board, 22)
+    with Controller(
+        port,
+        background=False,
+        clock=port.clock,
+        reply_timeout=REPLY_TIMEOUT,
+        local_echo=True,
+        settle=0,
+    ) as controller:
+        assert [controller.read_battery_voltage() for _ in range(2)] == [1, 2]
+        with pytest.raises(EchoError):
+            controller.read_battery_voltage()
+        assert [controller.read_battery_voltage() for _ in range(3)] == [4, 5, 6]
+
+
+def test_an_undeclared_echo_harms_no_value_and_is_logged_once(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    board = Board(baud=BAUD, echo=True, thinks=0.001)
+    with caplog.at_level(logging.WARNING, "busservo"):
+        talk, controller, _ = conversation(board, 8)
+    assert [each.number for each in talk.calls] == list(range(1, 9))
+    assert controller.counters.echoes > 0
+    assert len([each for each in caplog.records if "echo" in each.getMessage()]) == 1
+
+
+# ------------------------------------------------------------------- a stranger's reply
+
+
+@in_turn("after", lambda: [0.0, 0.001, 0.004, 0.010, 0.015])
+@in_turn("requested", lambda: [None, SIX])
+def test_a_reply_meant_for_a_program_that_was_killed_is_not_taken_for_ours(
+    after: float, requested: tuple[int, ...] | None
+) -> None:
+    """Its question was still on the wire, or its reply, when we opened the port."""
+    board = Board(baud=BAUD)
+    port = VirtualPort(board)
+    question = firmware.positions_question(list(SIX)) if requested else firmware.battery_question()
+    board.write(question, -(len(question) * BITS_PER_BYTE / BAUD) + after)
+    talk = Conversation(board, port.clock)
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
+    ) as controller:
+        for _ in range(3):
+            talk.ask(controller, requested)
+    assert (talk.stale, talk.failed) == ([], [])
+
+
+def test_what_is_in_the_buffer_at_opening_is_not_taken_for_ours() -> None:
+    board = Board(baud=BAUD)
+    board.write(firmware.battery_question(), -1)
+    port = VirtualPort(board)
+    talk = Conversation(board, port.clock)
+    with Controller(
+        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
+    ) as controller:
+        talk.ask(controller, None)
+    assert (talk.stale, talk.failed) == ([], [])

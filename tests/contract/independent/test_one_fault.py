@@ -1,0 +1,239 @@
+"""One fault in a row of reads, in virtual time at 9600 baud: each kind, for each kind of read.
+
+The wire takes its time both ways, and the client is given the true baud rate.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+from busservo import Controller
+
+from tests.contract.independent import faults, firmware
+from tests.contract.independent.board import BITS_PER_BYTE, Board
+from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.contract.independent.faults import Piece
+from tests.contract.independent.ports import VirtualPort
+from tests.in_turn import in_turn
+
+if TYPE_CHECKING:
+    from tests.contract.independent.conversation import Requested
+    from tests.contract.independent.faults import Script
+
+BAUD = 9600
+REPLY_TIMEOUT = 0.25
+READS = {"battery": None, "six positions": SIX}
+REPORT = firmware.report(firmware.COMPLETED, 8, 1)
+STOPPED = firmware.report(firmware.STOPPED)
+# The question whose reply it happens to.
+FAULTY = 4
+
+
+def later(after: float, data: bytes = REPORT) -> Piece:
+    """Return a report, some time after the reply."""
+    return Piece(after, data, is_report=True)
+
+
+class Bench(NamedTuple):
+    """The timing of a board and its adapter."""
+
+    thinks: float = 0.0
+    latency: float = 0.0
+
+
+BENCHES = [Bench(), Bench(thinks=0.002), Bench(thinks=0.003, latency=0.001), Bench(latency=0.016)]
+FAULTS: dict[str, Script] = {
+    "duplicated": faults.duplicated(),
+    "duplicated twice": faults.duplicated(copies=2),
+    "duplicated after 5 ms": faults.duplicated(0.005),
+    "duplicated after 30 ms": faults.duplicated(0.030),
+    "duplicated after 200 ms": faults.duplicated(0.2),
+    "dropped": faults.dropped,
+    "late, but in time": faults.late(0.2),
+    "later than its time": faults.late(0.4),
+    "later than twice its time, behind the next": faults.late(0.55),
+    "later than twice its time": faults.late(0.7),
+    "later than four times its time": faults.late(1.4),
+    "cut in the header": faults.cut(1),
+    "cut behind the header": faults.cut(2),
+    "cut behind the command": faults.cut(4),
+    "the last byte is lost": faults.cut(5),
+    "cut, a report at once": faults.cut(4, later(0.0)),
+    "cut, a report after 5 ms": faults.cut(4, later(0.005)),
+    "cut, a report after 40 ms": faults.cut(4, later(0.040)),
+    "cut, a report after 60 ms": faults.cut(4, later(0.060)),
+    "cut, a report after 200 ms": faults.cut(4, later(0.2)),
+    "cut, the shortest report at once": faults.cut(4, later(0.0, STOPPED)),
+    "cut, the shortest report after 20 ms": faults.cut(4, later(0.020, STOPPED)),
+    "cut one byte later, a report at once": faults.cut(5, later(0.0)),
+    "the first byte is lost": faults.lost(0, 1),
+    "the length is lost": faults.lost(2, 1),
+    "two bytes are lost within": faults.lost(3, 2),
+    "two bytes are lost within, a report at once": faults.lost(3, 2, later(0.0)),
+    "wrong length": faults.mislengthened(1),
+    "noise before": faults.preceded(b"\x00\xff\x55"),
+    "half a header before": faults.preceded(b"\x55"),
+    "the header of a longer reply before": faults.preceded(b"\x55\x55\x15\x15"),
+    "a report before": faults.preceded(REPORT, is_report=True),
+    "a report behind": faults.followed(REPORT, is_report=True),
+    "noise behind": faults.followed(b"\x55\x55"),
+    "a pause of 20 ms within": faults.halted(5, 0.020),
+}
+# These leave a frame of the right shape, with other numbers in it, where it is the battery's.
+OF_POSITIONS = {"wrong count": faults.miscounted(-1), "count too high": faults.miscounted(1)}
+# All requests are answered, and in time.
+HARMLESS = (
+    "noise before",
+    "half a header before",
+    "a report before",
+    "a report behind",
+    "noise behind",
+    "a pause of 20 ms within",
+)
+
+
+class Run:
+    """A row of reads, one after the other without a pause."""
+
+    def __init__(
+        self,
+        requested: Requested,
+        script: Script | None,
+        bench: Bench,
+        reads: int = 12,
+        first: int = 1,
+    ) -> None:
+        self.board = Board(
+            baud=BAUD,
+            thinks=bench.thinks,
+            latency=bench.latency,
+            faults={first + FAULTY - 1: script}.get,
+            first=first,
+        )
+        port = VirtualPort(self.board)
+        self.talk = Conversation(self.board, port.clock)
+        with Controller(
+            port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
+        ) as controller:
+            for _ in range(reads):
+                self.talk.ask(controller, requested)
+            self.reports = [each.encode() for each in controller.reports(timeout=2)]
+            self.counters = controller.counters
+
+    def check(self, requested: Requested) -> None:
+        # A read may wait for the late reply of the one before it, and then for its own.
+        self.talk.check(BAUD, bound=3 * (REPLY_TIMEOUT + wire_time(requested, BAUD)))
+        assert self.reports == self.board.reported
+        assert self.board.refused == []
+
+
+def all_faults() -> list[tuple[str, str]]:
+    """Return each kind of read with each fault that can happen to it."""
+    return [
+        (read, name) for read in READS for name in FAULTS | (OF_POSITIONS if READS[read] else {})
+    ]
+
+
+@in_turn("read, name", all_faults)
+def test_after_any_fault_the_second_next_read_is_right(read: str, name: str) -> None:
+    script = (FAULTS | OF_POSITIONS)[name]
+    for bench in BENCHES:
+        run = Run(READS[read], script, bench)
+        run.check(READS[read])
+        if name in HARMLESS:
+            assert run.talk.failed == []
+
+
+# As numbers, half a header and a whole one: a frame may begin in the last bytes of each reply.
+HEADERS = {"every high byte": 0x5500, "some a header": 0x5550}
+
+
+@pytest.mark.parametrize("numbers", HEADERS)
+@in_turn("read, name", all_faults)
+def test_after_any_fault_in_replies_that_end_in_headers_reads_recover(
+    read: str, name: str, numbers: str
+) -> None:
+    script = (FAULTS | OF_POSITIONS)[name]
+    for bench in BENCHES[1::2]:
+        Run(READS[read], script, bench, first=HEADERS[numbers]).check(READS[read])
+
+
+def test_without_faults_each_request_is_sent_and_counted_once() -> None:
+    for requested in READS.values():
+        for bench in BENCHES:
+            run = Run(requested, None, bench)
+            assert (run.talk.failed, run.talk.stale) == ([], [])
+            assert (run.counters.sent, run.counters.replies) == (12, 12)
+            assert (run.counters.unsolicited, run.counters.impossible) == (0, 0)
+
+
+def test_a_healthy_read_takes_what_the_wire_takes() -> None:
+    for requested in READS.values():
+        for thinks in (0.0, 0.002):
+            for call in Run(requested, None, Bench(thinks)).talk.calls:
+                taken = call.ended - call.began
+                assert taken == pytest.approx(wire_time(requested, BAUD) + thinks, abs=1e-4)
+
+
+@pytest.mark.parametrize("read", READS)
+def test_a_duplicate_shifts_nothing(read: str) -> None:
+    """A reply that came twice made 77 of 80 reads stale, without an error or a count."""
+    for bench in BENCHES:
+        run = Run(READS[read], faults.duplicated(), bench, reads=80)
+        run.check(READS[read])
+        assert (run.talk.stale, run.talk.failed) == ([], [])
+        # Where the adapter hands over both at once, neither is taken, and the read is repeated.
+        at_once = bench.latency > 0.01 and READS[read] is None
+        assert (run.counters.unsolicited, run.counters.retries) == (1 + at_once, at_once)
+        assert run.counters.replies == 80
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.005, 0.010, 0.049, 0.051, 0.1, 0.2])
+def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
+    """`55 55 04 0F` and a report behind it were read as 21845 mV: the report's header."""
+    run = Run(None, faults.cut(4, later(gap)), Bench())
+    run.check(None)
+    assert [call.number for call in run.talk.calls[: FAULTY - 1]] == [1, 2, 3]
+    assert run.talk.calls[FAULTY - 1].number is None
+
+
+@pytest.mark.parametrize("report", [STOPPED, REPORT])
+def test_a_report_that_fills_what_is_missing_is_no_part_of_the_reply(report: bytes) -> None:
+    run = Run(SIX, faults.cut(-len(report), later(0.0, report)), Bench())
+    run.check(SIX)
+
+
+BYTE = BITS_PER_BYTE / BAUD
+# A question of 4 bytes, a reply of 6, and a board that then thinks for 7.7. How long after its own
+# reply a duplicate is due, and whether the next read is stale: it is where the duplicate is whole
+# after question and reply can have come, if the line is a little fast, and before the reply is.
+WINDOW = {
+    "at once": (0, False),
+    "before question and reply fit": (9.4, False),
+    "when question and reply fit": (10.1, True),
+    "while the board thinks": (14, True),
+    "behind the reply": (17.8, False),
+}
+
+
+@pytest.mark.parametrize("name", WINDOW)
+def test_one_read_at_most_is_stale_where_time_cannot_distinguish_replies(name: str) -> None:
+    after, stale = WINDOW[name]
+    run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.008))
+    run.check(None)
+    assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY] * stale
+    assert run.counters.unsolicited == 1
+    assert run.talk.failed == []
+
+
+@pytest.mark.parametrize("after", [10.1, 14, 18])
+def test_one_read_at_most_is_stale_where_a_board_thinks_for_longer_than_the_wire_takes(
+    after: float,
+) -> None:
+    """The right reply then comes when that to the next question could: it is waited for."""
+    run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.020), reads=20)
+    run.check(None)
+    assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY]
+    assert run.counters.unsolicited == 1
+    assert run.talk.failed == []

@@ -1,0 +1,178 @@
+"""The property of the independent board, held to the simulator: by seed, at 9600 baud.
+
+It does not record when a fault happened, so that every fault is over before the last reads, which
+must be right. No stale value may come of a reply that was impossible, whatever happens.
+"""
+
+from __future__ import annotations
+
+import bisect
+from typing import TYPE_CHECKING
+
+from busservo import BatteryVoltage, Controller, ServoPositions
+from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator.board_fault_injector import REPLIES
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.contract.independent.conversation import SIX, Conversation, wire_time
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from busservo import BatteryVoltageRead, ServoPositionsRead
+    from busservo_simulator.memory_end import MemoryEnd
+    from busservo_simulator.virtual_device import Report
+
+BAUD = 9600
+REPLY_TIMEOUT = 0.25
+# So many healthy reads show that a line keeps its rate.
+HEALTHY = 8
+# By then, all that was late is there.
+QUIET = 3.0
+BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
+
+
+class Simulated:
+    """A simulated board that numbers its replies, with a record of the values and times."""
+
+    def __init__(self, board: VirtualController, clock: VirtualClock) -> None:
+        self.questions = 0
+        self.reported: list[bytes] = []
+        self.calm_at = float("inf")
+        self._clock = clock
+        self._transport: MemoryEnd = board.transport
+        self._stream = bytearray()
+        # How many bytes there were by then, and when that was.
+        self._sizes: list[int] = []
+        self._times: list[float] = []
+        board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
+        board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
+
+    def note_reports(self, board: VirtualController) -> None:
+        """Record every report that leaves the board; to be called whenever faults are set."""
+        injector = board._line._injector
+        reports = injector.reports
+
+        def noted(report: Report) -> Iterator[Report]:
+            for event in reports(report):
+                if not isinstance(event, REPLIES):
+                    self.reported.append(event.encode())
+                yield event
+
+        injector.reports = noted  # type: ignore[method-assign]
+
+    def _voltage(self, _message: BatteryVoltageRead) -> BatteryVoltage:
+        self.questions += 1
+        return BatteryVoltage(self.questions)
+
+    def _positions(self, message: ServoPositionsRead) -> ServoPositions:
+        self.questions += 1
+        return ServoPositions([(servo, self.questions) for servo in message.servo_ids])
+
+    # ---------------------------------------------------------------- a transport
+
+    name = "simulator"
+
+    def read(self, timeout: float) -> bytes:
+        data = self._transport.read(timeout)
+        self._stream += data
+        self._sizes.append(len(self._stream))
+        self._times.append(self._clock.now())
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._transport.write(data)
+
+    def drain(self, timeout: float) -> None:
+        self._transport.drain(timeout)
+
+    def close(self) -> None:
+        self._transport.close()
+
+    # ---------------------------------------------------------------- what a test looks at
+
+    def arrivals(self, data: bytes) -> list[float]:
+        found = []
+        at = self._stream.find(data)
+        while at >= 0:
+            found.append(self._times[bisect.bisect_left(self._sizes, at + len(data))])
+            at = self._stream.find(data, at + 1)
+        return found
+
+    def troubled(self, since: float, until: float) -> bool:  # noqa: ARG002 - it ends by itself
+        return since < self.calm_at
+
+    def faulted(self, since: float, until: float) -> bool:
+        return self.troubled(since, until)
+
+
+chance = st.sampled_from([0.0, 0.0, 0.1, 0.3])
+# Of bytes that are lost, a report may take the place: what comes of that, other tests have.
+whole = st.builds(
+    Faults,
+    seed=st.integers(0, 2**32),
+    duplicated=chance,
+    late=chance,
+    late_by=st.sampled_from([0.05, 0.3, 0.7, 1.0]),
+    noise=chance,
+    splits=chance,
+    coalesced=chance,
+    delays=chance,
+    longest_delay=st.sampled_from([0.01, 0.3, 1.0]),
+    dropped=chance,
+    wrong_count=chance,
+    unsolicited=chance,
+)
+holed = st.builds(
+    Faults,
+    seed=st.integers(0, 2**32),
+    lost_bytes=st.sampled_from([0.01, 0.05, 0.1]),
+    noise=chance,
+    dropped=chance,
+)
+
+
+@given(st.one_of(whole, holed), st.lists(st.sampled_from([None, SIX, (1, 2)]), max_size=8))
+def test_every_read_from_the_faulty_simulator_is_right_or_excused(
+    faults: Faults, requested: list[tuple[int, ...] | None]
+) -> None:
+    clock = VirtualClock(follow_reads=True)
+    with VirtualController(clock=clock, baud=BAUD) as board:
+        simulated = Simulated(board, clock)
+        talk = Conversation(simulated, clock.now)
+        with Controller(
+            simulated, background=False, clock=clock.now, reply_timeout=REPLY_TIMEOUT, settle=0
+        ) as controller:
+            for _ in range(HEALTHY):
+                talk.ask(controller, None)
+            board.faults = faults
+            simulated.note_reports(board)
+            for each in requested:
+                talk.ask(controller, each)
+            board.faults = Faults()
+            received = [each.encode() for each in controller.reports(timeout=QUIET)]
+            simulated.calm_at = clock.now()
+            for _ in range(3):
+                talk.ask(controller, None)
+            talk.check(BAUD, BOUND)
+            assert received == simulated.reported
+
+
+def test_reads_come_no_faster_than_the_line_allows() -> None:
+    """Some replies come up to a second late: with each seed, most reads after them came early."""
+    for seed in range(4):
+        clock = VirtualClock(follow_reads=True)
+        faults = Faults(seed=seed, delays=0.04, longest_delay=1.0)
+        with VirtualController(clock=clock, baud=BAUD, faults=faults) as board:
+            simulated = Simulated(board, clock)
+            talk = Conversation(simulated, clock.now)
+            with Controller(
+                simulated, background=False, clock=clock.now, reply_timeout=REPLY_TIMEOUT, settle=0
+            ) as controller:
+                for _ in range(100):
+                    talk.ask(controller, None)
+            least = 0.95 * wire_time(None, BAUD)
+            early = [call for call in talk.calls if call.ended - call.began < least]
+            assert early == []
+            talk.check(BAUD, BOUND)

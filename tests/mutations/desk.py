@@ -1,0 +1,212 @@
+"""The desk of an author: a spec that is changed, and places in it that are drawn by lot."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from tests.mutations.authors import MARK, kinds_of, parts_of
+
+if TYPE_CHECKING:
+    import random
+    from collections.abc import Callable, Iterable, Iterator
+
+    from tests.factories import Data
+
+T = TypeVar("T")
+
+
+class Inapplicable(Exception):  # noqa: N818 - says what the mutation is
+    """A mutation for which there is no place in a spec."""
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A field and the fields among which it is; `message` has them, or the list that it is in."""
+
+    message: Data
+    fields: Data
+    name: str
+    inner: bool
+
+    @property
+    def field(self) -> Data:
+        """The field itself."""
+        found: Data = self.fields[self.name]
+        return found
+
+
+@dataclass(frozen=True)
+class Desk:
+    """A marked spec, which mutations change, and the chance that chooses where."""
+
+    spec: Data
+    chance: random.Random
+
+    def pick(self, things: Iterable[T]) -> T:
+        """Return one of some things, the same in each run: a set has another order in each."""
+        found = sorted(things, key=str) if isinstance(things, set) else list(things)
+        if not found:
+            raise Inapplicable
+        return self.chance.choice(found)
+
+    def fresh(self, stem: str) -> str:
+        """Return a name that nothing has."""
+        text = repr(self.spec)
+        return next(name for at in range(1, 99) if (name := f"{stem}{at}") not in text)
+
+    @property
+    def messages(self) -> Data:
+        """The messages, by name."""
+        found: Data = self.spec["messages"]
+        return found
+
+    @property
+    def kinds(self) -> dict[str, Data]:
+        """The kinds of frames, by name."""
+        return kinds_of(self.spec)
+
+    def parts_of(self, message: Data) -> Data:
+        """Return the parts of the frames of a message."""
+        return parts_of(self.spec, message)
+
+    def spots(self) -> Iterator[Spot]:
+        """Yield every field, those of elements included."""
+        for message in self.messages.values():
+            for name, field in message["fields"].items():
+                yield Spot(message, message["fields"], name, inner=False)
+                for inner in field.get("fields", ()):
+                    yield Spot(message, field["fields"], inner, inner=True)
+
+    def spot(self, fits: Callable[[Spot], Any]) -> Spot:
+        """Return some field that fits."""
+        return self.pick(spot for spot in self.spots() if fits(spot))
+
+    def number(self, fits: Callable[[Data], Any] = lambda _: True) -> Spot:
+        """Return some number that a user gives, also one of an element."""
+        return self.spot(lambda spot: is_number(spot) and fits(spot.field))
+
+    def part(self, fits: Callable[[Data], Any]) -> tuple[Data, str]:
+        """Return the parts of some kind of frame, and the name of one that fits."""
+        return self.pick(
+            (parts, name)
+            for parts in self.kinds.values()
+            for name, part in parts.items()
+            if fits(part)
+        )
+
+    def rename_field(self, spot: Spot, new: str, *, said: bool) -> None:
+        """Give a field another name, wherever it is named."""
+        old = spot.name
+        said_before = spot.field.get("was", ())
+        before = [said_before] if isinstance(said_before, str) else [*said_before]
+        renamed = {**spot.field, **({"was": [old, *before]} if said else {})}
+        _put(spot.fields, {new if key == old else key: spot.fields[key] for key in spot.fields})
+        spot.fields[new] = renamed
+        if not spot.inner:
+            for field in spot.fields.values():
+                for key in ("counted_by", "sized_by"):
+                    if field.get(key) == old:
+                        field[key] = new
+            for key in ("method", "lasts", "failure", "asks_for"):
+                if key in spot.message:
+                    spot.message[key] = in_words(spot.message[key], old, new)
+
+    def rename_part(self, parts: Data, old: str, new: str) -> None:
+        """Give a part of a frame another name, wherever other parts name it."""
+        _put(parts, {new if name == old else name: part for name, part in parts.items()})
+        for part in parts.values():
+            for key in ("counts", "covers"):
+                if key in part:
+                    part[key] = [new if each == old else each for each in part[key]]
+
+    def rename_message(self, old: str, new: str, *, said: bool) -> None:
+        """Give a message another name, wherever it is named."""
+        messages = {new if name == old else name: each for name, each in self.messages.items()}
+        _put(self.messages, messages)
+        message = messages[new]
+        if said:
+            before = message.get("was", [])
+            message["was"] = [old, *([before] if isinstance(before, str) else before)]
+        for each in messages.values():
+            for key in ("reply", "refusal", "acknowledged"):
+                if each.get(key) == old:
+                    each[key] = new
+            if "reports" in each:
+                each["reports"] = [new if name == old else name for name in each["reports"]]
+
+
+def in_words(text: str, old: str, new: str) -> str:
+    """Return a text with one name instead of another."""
+    return re.sub(rf"\b{re.escape(old)}\b", new, text)
+
+
+def _put(around: Data, things: Data) -> None:
+    """Put other things in the place of those that are there."""
+    around.clear()
+    around.update(things)
+
+
+def reordered(around: Data, names: Iterable[str]) -> None:
+    """Put things into another order; those that are not named are dropped."""
+    _put(around, {name: around[name] for name in [*names]})
+
+
+def inserted(around: Data, at: int, name: str, thing: Data) -> None:
+    """Insert a thing in front of the one at a place."""
+    items = [*around.items()]
+    _put(around, dict([*items[:at], (name, thing), *items[at:]]))
+
+
+def removed(around: Data, name: str) -> None:
+    """Remove a thing."""
+    del around[name]
+
+
+def copied(thing: Any) -> Any:
+    """Return a copy of a thing that is another thing: without marks."""
+    if isinstance(thing, dict):
+        return {key: copied(each) for key, each in thing.items() if key not in (MARK, "was")}
+    return [copied(each) for each in thing] if isinstance(thing, list) else thing
+
+
+def is_single(field: Data) -> bool:
+    """Tell whether a field is one number or a constant, no list and no text."""
+    return "type" in field and not {"count", "counted_by", "sized_by", "text"} & field.keys()
+
+
+def is_constant(field: Data) -> bool:
+    """Tell whether a field is no argument."""
+    return "always" in field or "reserved" in field
+
+
+def is_counter(spot: Spot) -> bool:
+    """Tell whether a field says how long a list is."""
+    others = spot.fields.values()
+    return any(spot.name in (each.get("counted_by"), each.get("sized_by")) for each in others)
+
+
+def is_number(spot: Spot) -> bool:
+    """Tell whether a field is one number that a user gives."""
+    return is_single(spot.field) and not is_constant(spot.field) and not is_counter(spot)
+
+
+def is_whole(field: Data) -> bool:
+    """Tell whether a number has no fractions."""
+    return field["type"][0] in "ui"
+
+
+def varies(field: Data) -> bool:
+    """Tell whether a field is a list of a size that varies."""
+    return "counted_by" in field or "sized_by" in field
+
+
+def bounds_of(field: Data) -> tuple[int, int]:
+    """Return the lowest and the highest value of a whole number."""
+    bits, signed = int(field["type"][1:]), field["type"][0] == "i"
+    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
+    if "range" in field:
+        bottom, _, top = str(field["range"]).partition("..")
+        return int(bottom, 0), int(top, 0) if top else high
+    return low, high

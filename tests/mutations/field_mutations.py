@@ -1,0 +1,312 @@
+"""What authors do to fields: types, order, presence, names, constants."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from tests.mutations.desk import (
+    Inapplicable,
+    copied,
+    inserted,
+    is_constant,
+    is_counter,
+    is_single,
+    is_whole,
+    removed,
+    reordered,
+    varies,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from tests.factories import Data
+    from tests.mutations.desk import Desk, Spot
+
+# Types that an author might take for each other.
+RETYPED = (
+    *(("u8", "u16"), ("u16", "u8"), ("u16", "u32"), ("u32", "u16"), ("u8", "i8"), ("i8", "u8")),
+    *(("u16", "i16"), ("i16", "u16"), ("u16", "u24"), ("u24", "u16"), ("u32", "f32")),
+    *(
+        ("f32", "u32"),
+        ("f32", "f64"),
+        ("f64", "f32"),
+        ("i32", "u32"),
+        ("u64", "i64"),
+        ("u32", "i32"),
+    ),
+)
+
+
+ADDED: dict[str, Data] = {
+    "a byte": {"type": "u8"},
+    "a number": {"type": "u16"},
+    "a constant": {"type": "u8", "always": 7},
+    "padding": {"type": "u8", "reserved": 0},
+    "text": {"type": "u8", "count": 3, "text": "ascii"},
+}
+
+
+def _retyped(old: str, new: str, desk: Desk) -> None:
+    field = desk.number(lambda field: field["type"] == old).field
+    field["type"] = new
+    for key in ("range", "bits", "signed_as", "limits"):
+        field.pop(key, None)
+    if new[0] == "f":
+        for key in ("values", "bits", "scale"):
+            field.pop(key, None)
+
+
+def counter_retyped(desk: Desk) -> None:
+    field = desk.spot(is_counter).field
+    field["type"] = {"u8": "u16", "u16": "u8"}.get(field["type"], "u8")
+
+
+def order_of_bytes(desk: Desk) -> None:
+    field = desk.number(lambda field: field["type"][1:] != "8").field
+    order = field.get("byte_order", desk.spec["byte_order"])
+    field["byte_order"] = "little" if order == "big" else "big"
+
+
+def order_of_bytes_said(desk: Desk) -> None:
+    field = desk.number(lambda field: "byte_order" not in field).field
+    field["byte_order"] = desk.spec["byte_order"]
+
+
+def order_of_all_bytes(desk: Desk) -> None:
+    desk.spec["byte_order"] = "little" if desk.spec["byte_order"] == "big" else "big"
+
+
+def neighbours_swapped(desk: Desk) -> None:
+    spot = desk.spot(lambda spot: len(spot.fields) > 1 and _movable(spot))
+    names = [*spot.fields]
+    at = names.index(spot.name)
+    to = (at + 1) % len(names)
+    names[at], names[to] = names[to], names[at]
+    reordered(spot.fields, names)
+
+
+def first_put_last(desk: Desk) -> None:
+    spot = desk.spot(lambda spot: len(spot.fields) > 2 and _movable(spot))
+    names = [each for each in spot.fields if each != spot.name]
+    at = len(names) - any(varies(each) for each in spot.fields.values())
+    reordered(spot.fields, [*names[:at], spot.name, *names[at:]])
+
+
+def _movable(spot: Spot) -> bool:
+    return not varies(spot.field) and "optional" not in spot.field
+
+
+def _taken_away(where: str, desk: Desk) -> None:
+    def fits(spot: Spot) -> bool:
+        names = [*spot.fields]
+        at = names.index(spot.name)
+        place = "front" if at == 0 else "end" if at == len(names) - 1 else "middle"
+        return place == where and not is_counter(spot)
+
+    spot = desk.spot(fits)
+    removed(spot.fields, spot.name)
+    _unmentioned(spot)
+
+
+def _unmentioned(spot: Spot) -> None:
+    """Drop a method that names a field which is no argument any more."""
+    if not spot.inner:
+        spot.message.pop("method", None)
+
+
+def _put_in(where: str, what: Data, desk: Desk) -> None:
+    message = desk.pick(desk.messages.values())
+    fields = message["fields"]
+    names = [*fields]
+    # Behind a list of a size that varies there is nothing, nor behind what may be absent.
+    last = next(
+        (at for at, name in enumerate(names) if varies(fields[name]) or "optional" in fields[name]),
+        len(names),
+    )
+    at = {"front": 0, "middle": last // 2, "end": last}[where]
+    inserted(fields, at, desk.fresh("added"), {**what, "about": "It is new."})
+    message.pop("method", None)
+
+
+def optional_added(desk: Desk) -> None:
+    with_length = [
+        message
+        for message in desk.messages.values()
+        if any(part["is"] == "length" for part in desk.parts_of(message).values())
+        and not any(varies(field) for field in message["fields"].values())
+    ]
+    message = desk.pick(with_length)
+    kind = desk.chance.choice(["u8", "u16"])
+    message["fields"][desk.fresh("extra")] = {"type": kind, "optional": True, "about": "New."}
+    message.pop("method", None)
+
+
+def became_optional(desk: Desk) -> None:
+    spot = desk.number(lambda field: "optional" not in field)
+    if spot.inner or [*spot.fields][-1] != spot.name:
+        raise Inapplicable
+    spot.field["optional"] = True
+
+
+def optional_became_sure(desk: Desk) -> None:
+    message = desk.pick(
+        each
+        for each in desk.messages.values()
+        if any("optional" in field for field in each["fields"].values())
+    )
+    next(each for each in message["fields"].values() if "optional" in each).pop("optional")
+
+
+def absence_ruled_out(desk: Desk) -> None:
+    """All that may be absent always comes."""
+    message = desk.pick(
+        each
+        for each in desk.messages.values()
+        if any("optional" in field for field in each["fields"].values())
+    )
+    for field in message["fields"].values():
+        field.pop("optional", None)
+
+
+def _renamed(said: bool, desk: Desk) -> None:
+    spot = desk.spot(lambda spot: not spot.field.get("was"))
+    desk.rename_field(spot, desk.fresh("renamed"), said=said)
+
+
+def _renamed_and_moved(said: bool, desk: Desk) -> None:
+    spot = desk.spot(lambda spot: len(spot.fields) > 1 and _movable(spot))
+    names = [*spot.fields]
+    at = names.index(spot.name)
+    to = (at + 1) % len(names)
+    names[at], names[to] = names[to], names[at]
+    reordered(spot.fields, names)
+    desk.rename_field(spot, desk.fresh("moved"), said=said)
+
+
+def _renamed_and_retyped(said: bool, desk: Desk) -> None:
+    spot = desk.number(lambda field: is_whole(field) and field["type"] != "u32")
+    spot.field["type"] = "u32"
+    for key in ("bits", "signed_as", "limits"):
+        spot.field.pop(key, None)
+    desk.rename_field(spot, desk.fresh("wide"), said=said)
+
+
+def replaced(desk: Desk) -> None:
+    """Another field stands in the place of one that is gone."""
+    spot = desk.number()
+    names = [*spot.fields]
+    at = names.index(spot.name)
+    other = copied(spot.field)
+    removed(spot.fields, spot.name)
+    inserted(spot.fields, at, desk.fresh("another"), other)
+    _unmentioned(spot)
+
+
+def split_in_two(desk: Desk) -> None:
+    """Two bytes instead of one number of two."""
+    spot = desk.number(lambda field: field["type"] == "u16")
+    at = [*spot.fields].index(spot.name)
+    removed(spot.fields, spot.name)
+    for number, stem in enumerate(("low", "high")):
+        inserted(spot.fields, at + number, desk.fresh(stem), {"type": "u8", "about": "Half."})
+    _unmentioned(spot)
+
+
+def joined(desk: Desk) -> None:
+    """One number of two bytes instead of two of one."""
+
+    def fits(spot: Spot) -> bool:
+        names = [*spot.fields]
+        at = names.index(spot.name)
+        pair = [spot.fields[name] for name in names[at : at + 2]]
+        return len(pair) == 2 and all(is_single(each) and each["type"] == "u8" for each in pair)
+
+    spot = desk.spot(lambda spot: fits(spot) and not is_counter(spot))
+    names = [*spot.fields]
+    at = names.index(spot.name)
+    removed(spot.fields, names[at + 1])
+    removed(spot.fields, spot.name)
+    inserted(spot.fields, at, desk.fresh("joined"), {"type": "u16", "about": "Both."})
+    _unmentioned(spot)
+
+
+def constant_changed(desk: Desk) -> None:
+    field = desk.spot(lambda spot: "always" in spot.field).field
+    field["always"] = field["always"] ^ 1
+
+
+def unused_changed(desk: Desk) -> None:
+    field = desk.spot(lambda spot: "reserved" in spot.field).field
+    field["reserved"] = field["reserved"] ^ 1
+
+
+def _became(key: str, desk: Desk) -> None:
+    """A number that was given is always the same, or means nothing any more."""
+    spot = desk.number(is_whole)
+    kept = ("type", "about", "byte_order", "#")
+    for name in [*spot.field.keys() - {*kept}]:
+        del spot.field[name]
+    spot.field[key] = desk.chance.choice([0, 1])
+    _unmentioned(spot)
+
+
+def constant_given(desk: Desk) -> None:
+    spot = desk.spot(lambda spot: is_constant(spot.field))
+    for key in ("always", "reserved", "count"):
+        spot.field.pop(key, None)
+    _unmentioned(spot)
+
+
+def constant_unchecked(desk: Desk) -> None:
+    field = desk.spot(lambda spot: "always" in spot.field).field
+    field["reserved"] = field.pop("always")
+
+
+def unused_checked(desk: Desk) -> None:
+    field = desk.spot(lambda spot: "reserved" in spot.field and "count" not in spot.field).field
+    field["always"] = field.pop("reserved")
+
+
+FIELD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
+    **{f"{old} became {new}": partial(_retyped, old, new) for old, new in RETYPED},
+    **{
+        f"a field in {where} removed": partial(_taken_away, where)
+        for where in ("front", "middle", "end")
+    },
+    **{
+        f"{name} added in {where}": partial(_put_in, where, what)
+        for where in ("front", "middle", "end")
+        for name, what in ADDED.items()
+    },
+    **{
+        f"a field {name}, {'said' if said else 'unsaid'}": partial(change, said)
+        for name, change in {
+            "renamed": _renamed,
+            "renamed and moved": _renamed_and_moved,
+            "renamed and retyped": _renamed_and_retyped,
+        }.items()
+        for said in (True, False)
+    },
+    "a counter retyped": counter_retyped,
+    "byte order of a field": order_of_bytes,
+    "byte order of a field said": order_of_bytes_said,
+    "byte order of all": order_of_all_bytes,
+    "neighbouring fields swapped": neighbours_swapped,
+    "a field put last": first_put_last,
+    "an optional field added": optional_added,
+    "a field became optional": became_optional,
+    "an optional field became sure": optional_became_sure,
+    "no field is optional": absence_ruled_out,
+    "a field replaced by another": replaced,
+    "a field split in two": split_in_two,
+    "two fields joined": joined,
+    "a constant changed": constant_changed,
+    "an unused field written otherwise": unused_changed,
+    "a field became a constant": partial(_became, "always"),
+    "a field became unused": partial(_became, "reserved"),
+    "a constant became a field": constant_given,
+    "a constant is not checked": constant_unchecked,
+    "an unused field is checked": unused_checked,
+}

@@ -1,0 +1,209 @@
+"""What authors do to messages, to the ends of the line, and to what is said of a conversation."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from tests.mutations.authors import MARK
+from tests.mutations.desk import copied, in_words, removed, reordered
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from tests.factories import Data
+    from tests.mutations.desk import Desk
+
+
+def _ids_of(desk: Desk, message: Data) -> list[str]:
+    parts = desk.parts_of(message)
+    return [name for name, part in parts.items() if part["is"] == "id" and part.get("sent", True)]
+
+
+def _renumber(desk: Desk, message: Data) -> None:
+    """Give a message an id that no other has."""
+    name = desk.pick(_ids_of(desk, message))
+    said = message["id"]
+    taken = {
+        each["id"] if isinstance(each["id"], int) else each["id"].get(name)
+        for each in desk.messages.values()
+        if "id" in each
+    }
+    free = desk.pick(set(range(1, 200)) - taken)
+    message["id"] = {**said, name: free} if isinstance(said, dict) else free
+
+
+def _element_names(desk: Desk, message: Data) -> None:
+    for field in message["fields"].values():
+        if "element" in field:
+            field["element"] = desk.fresh("Element")
+
+
+def added(desk: Desk) -> None:
+    message = copied(desk.messages[desk.pick(desk.messages)])
+    _renumber(desk, message)
+    message.pop("method", None)
+    _element_names(desk, message)
+    desk.messages[desk.fresh("Added")] = message
+
+
+def taken_away(desk: Desk) -> None:
+    removed(desk.messages, desk.pick(desk.messages))
+
+
+def renumbered(desk: Desk) -> None:
+    _renumber(desk, desk.messages[desk.pick(desk.messages)])
+
+
+def ids_swapped(desk: Desk) -> None:
+    one = desk.pick(each for each in desk.messages.values() if "id" in each)
+    other = desk.pick(
+        each
+        for each in desk.messages.values()
+        if "id" in each
+        and each["id"] != one["id"]
+        and each["direction"] == one["direction"]
+        and each.get("frame") == one.get("frame")
+    )
+    one["id"], other["id"] = other["id"], one["id"]
+
+
+def turned_round(desk: Desk) -> None:
+    message = desk.messages[desk.pick(desk.messages)]
+    sender, _, receiver = message["direction"].partition(" -> ")
+    message["direction"] = f"{receiver} -> {sender}"
+
+
+def moved(desk: Desk) -> None:
+    names = [*desk.messages]
+    desk.chance.shuffle(names)
+    reordered(desk.messages, names)
+
+
+def _renamed(said: bool, desk: Desk) -> None:
+    desk.rename_message(desk.pick(desk.messages), desk.fresh("Renamed"), said=said)
+
+
+def _renamed_and_renumbered(said: bool, desk: Desk) -> None:
+    name = desk.pick(desk.messages)
+    _renumber(desk, desk.messages[name])
+    desk.rename_message(name, desk.fresh("Renamed"), said=said)
+
+
+def replaced(desk: Desk) -> None:
+    """Another message has the id of one that is gone."""
+    name = desk.pick(desk.messages)
+    other = copied(desk.messages[name])
+    other["fields"] = {desk.fresh("only"): {"type": "u8", "about": "Something else."}}
+    other.pop("method", None)
+    removed(desk.messages, name)
+    desk.messages[desk.fresh("Another")] = other
+
+
+def replaced_alike(desk: Desk) -> None:
+    """Another message has the id and the layout of one that is gone."""
+    name = desk.pick(desk.messages)
+    other = copied(desk.messages[name])
+    other.pop("method", None)
+    _element_names(desk, other)
+    removed(desk.messages, name)
+    desk.messages[desk.fresh("Alike")] = other
+
+
+def split(desk: Desk) -> None:
+    """A message has its first field only, and a new one has the others."""
+    message = desk.pick(each for each in desk.messages.values() if len(each["fields"]) > 1)
+    first, *others = message["fields"]
+    rest = copied(message)
+    for name in others:
+        removed(message["fields"], name)
+    removed(rest["fields"], first)
+    for each in (message, rest):
+        each.pop("method", None)
+    _renumber(desk, rest)
+    _element_names(desk, rest)
+    desk.messages[desk.fresh("Rest")] = rest
+
+
+# What only says something of what the client sends.
+_OF_A_CLIENT = (
+    *("method", "reply", "refusal", "echoed", "asks_for", "failure", "acknowledged", "lasts"),
+)
+
+
+def end_renamed(desk: Desk) -> None:
+    ends = desk.spec["endpoints"]
+    old = desk.pick(ends)
+    new = desk.fresh("end")
+    desk.spec["endpoints"] = {new if name == old else name: ends[name] for name in ends}
+    for message in desk.messages.values():
+        message["direction"] = in_words(message["direction"], old, new)
+
+
+def ends_in_other_order(desk: Desk) -> None:
+    reordered(desk.spec["endpoints"], reversed([*desk.spec["endpoints"]]))
+    for message in desk.messages.values():
+        for key in _OF_A_CLIENT:
+            message.pop(key, None)
+
+
+def end_added(desk: Desk) -> None:
+    desk.spec["endpoints"][desk.fresh("third")] = {MARK: 0, "about": "Listens."}
+
+
+def _dropped(key: str, desk: Desk) -> None:
+    desk.pick(each for each in desk.messages.values() if each.get(key)).pop(key)
+
+
+def reply_changed(desk: Desk) -> None:
+    message = desk.pick(each for each in desk.messages.values() if "reply" in each)
+    others = {each["reply"] for each in desk.messages.values() if "reply" in each}
+    message["reply"] = desk.pick(others - {message["reply"]})
+    message.pop("echoed", None)
+    message.pop("asks_for", None)
+    message.pop("method", None)
+
+
+def deprecated(desk: Desk) -> None:
+    desk.messages[desk.pick(desk.messages)]["deprecated"] = "Use another."
+
+
+def vendor_name(desk: Desk) -> None:
+    desk.messages[desk.pick(desk.messages)]["vendor_name"] = "CMD_OTHER"
+
+
+MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
+    "a message added": added,
+    "a message removed": taken_away,
+    "a message renumbered": renumbered,
+    "ids of messages swapped": ids_swapped,
+    "a message turned round": turned_round,
+    "messages in another order": moved,
+    "a message renamed, said": partial(_renamed, True),
+    "a message renamed, unsaid": partial(_renamed, False),
+    "a message renamed and renumbered, said": partial(_renamed_and_renumbered, True),
+    "a message renamed and renumbered, unsaid": partial(_renamed_and_renumbered, False),
+    "a message replaced by another": replaced,
+    "a message replaced by another like it": replaced_alike,
+    "a message split in two": split,
+    "an end renamed": end_renamed,
+    "ends in another order": ends_in_other_order,
+    "an end added": end_added,
+    "a message deprecated": deprecated,
+    "a reply changed": reply_changed,
+    "a vendor's name": vendor_name,
+    **{
+        f"{key} dropped": partial(_dropped, key)
+        for key in (
+            "reply",
+            "refusal",
+            "failure",
+            "echoed",
+            "asks_for",
+            "reports",
+            "acknowledged",
+            "lasts",
+            "method",
+        )
+    },
+}

@@ -1,0 +1,354 @@
+"""A change of the spec: everything that has to be written by hand is named, and nothing else."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from typing import TYPE_CHECKING, TypeAlias
+
+import pytest
+from framegen.cli import main
+from framegen.witnesses import DECLARATION, read_witnesses
+
+from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, ROOT, data_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Capture: TypeAlias = "pytest.CaptureFixture[str]"
+# Kind, file and subject.
+Missing: TypeAlias = "tuple[str, str, str]"
+
+CASES, ORACLE = "tests/cases.py", "tests/oracle.py"
+CONTRACT = "tests/contract/test_client_contract.py"
+
+BLOW_CASE = """\
+    Case(
+        HornBlow(times=2, pause_ms=300), "55 55 05 C9 02 2C 01", HOST, "1.8 example 1"
+    ),
+"""
+BLOW_LAYOUT = """\
+        "HornBlow": _frame(201, "times" / Byte, "pause_ms" / Int16ul),
+"""
+BLOW_CONTRACT = """\
+    "HornBlow": ("horn_blow", ("times", "pause_ms"), None, "", (), ()),
+"""
+BLOWN = """\
+  HornBlown:
+    id: 202
+    direction: controller -> host
+    summary: The horn has sounded.
+    cite: vendor, section 2.2
+    length: 2
+    examples:
+      - {title: It has sounded, hex: 55 55 02 CA, values: {}, cite: vendor}
+
+"""
+BLOWN_CASE = """\
+    Case(HornBlown(), "55 55 02 CA", CONTROLLER, "2.2 report"),
+"""
+BLOWN_LAYOUT = """\
+        "HornBlown": _frame(202),
+"""
+FIELD = """\
+      source: {type: u8, about: Which terminals.}
+"""
+NAMED = """\
+        values:
+          empty: {value: 7500, about: Charge it.}
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """Return a copy of the spec, of the files written by hand beside it, and of their list."""
+    witnesses = read_witnesses(ROOT, "busservo") or []
+    for path in ("spec/busservo.yaml", DECLARATION, *(each.file for each in witnesses)):
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / path, tmp_path / path)
+    return tmp_path
+
+
+def edit(file: Path, *edits: tuple[str, str]) -> None:
+    text = file.read_text(encoding="utf-8")
+    for old, new in edits:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    file.write_text(text, encoding="utf-8")
+
+
+def missing(project: Path, capsys: Capture) -> list[Missing]:
+    """Return the findings of the command in a project."""
+    status = main(["missing", "--json", str(project / "spec" / "busservo.yaml")])
+    found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert status == bool(found)
+    return [(each["kind"], each["in"], each["path"]) for each in found]
+
+
+def test_nothing_is_missing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    status = main(["missing"])
+    printed = capsys.readouterr()
+    said = f"what a change of the spec needs is to be written first:\n\n{printed.out}"
+    assert status == 0, f"{said}(in a run of all tests, no other test was run)"
+
+
+# ------------------------------------------------------------------ what a change needs
+
+# The changes of the spec, what is missing after them, and what has to be written.
+CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[str, str]]]] = {
+    "a command": (
+        [("  ServoUnload:\n", f"{NEW_MESSAGE}  ServoUnload:\n")],
+        [
+            ("case", CASES, "messages.HornBlow"),
+            ("layout", ORACLE, "messages.HornBlow"),
+            ("contract", CONTRACT, "messages.HornBlow"),
+        ],
+        {
+            CASES: ("CASES = (\n", f"CASES = (\n{BLOW_CASE}"),
+            ORACLE: ('        "ServoUnload":', f'{BLOW_LAYOUT}        "ServoUnload":'),
+            CONTRACT: ('    "ServoUnload":', f'{BLOW_CONTRACT}    "ServoUnload":'),
+        },
+    ),
+    "a report": (
+        [("  BatteryVoltage:\n", f"{BLOWN}  BatteryVoltage:\n")],
+        [
+            ("case", CASES, "messages.HornBlown"),
+            ("layout", ORACLE, "messages.HornBlown"),
+        ],
+        {
+            CASES: ("CASES = (\n", f"CASES = (\n{BLOWN_CASE}"),
+            ORACLE: ('        "BatteryVoltage":', f'{BLOWN_LAYOUT}        "BatteryVoltage":'),
+        },
+    ),
+    "a field": (
+        [
+            ("      voltage_mv:\n", f"{FIELD}      voltage_mv:\n"),
+            ("section 1.5\n    length: 4\n", "section 1.5\n    length: 5\n"),
+            ("hex: 55 55 04 0F 4C 1D", "hex: 55 55 05 0F 00 4C 1D"),
+            ("hex: 55 55 04 0F C9 1E", "hex: 55 55 05 0F 00 C9 1E"),
+            ("{voltage_mv: 7500}", "{source: 0, voltage_mv: 7500}"),
+            ("{voltage_mv: 7881}", "{source: 0, voltage_mv: 7881}"),
+        ],
+        [("keyword", CASES, "messages.BatteryVoltage.fields.source")],
+        {CASES: ("BatteryVoltage(voltage_mv=7500)", "BatteryVoltage(source=0, voltage_mv=7500)")},
+    ),
+    "a named value": (
+        [("        scale: 0.001 V\n", f"        scale: 0.001 V\n{NAMED}")],
+        [("constant", CASES, "messages.BatteryVoltage.fields.voltage_mv.values.empty")],
+        {CASES: ("voltage_mv=7500", "voltage_mv=BatteryVoltage.VOLTAGE_MV_EMPTY")},
+    ),
+}
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_what_a_change_needs_is_named_until_it_is_there(
+    what: str, project: Path, capsys: Capture
+) -> None:
+    changes, needed, written = CHANGES[what]
+    assert missing(project, capsys) == []
+    edit(project / "spec" / "busservo.yaml", *changes)
+    assert missing(project, capsys) == needed
+    for file, text in written.items():
+        edit(project / file, text)
+        needed = [each for each in needed if each[1] != file]
+        assert missing(project, capsys) == needed
+    assert needed == []
+
+
+def test_the_report_says_where_to_write_what_and_why(
+    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    edit(project / "spec" / "busservo.yaml", *CHANGES["a command"][0])
+    monkeypatch.chdir(project)
+    assert main(["missing"]) == 1
+    printed = capsys.readouterr()
+    first = printed.out.split("\n\n")[0].splitlines()
+    text = (project / "spec" / "busservo.yaml").read_text(encoding="utf-8").splitlines()
+    line = text.index("  HornBlow:") + 1
+    assert first[:3] == [
+        "tests/cases.py: HornBlow has no case",
+        f"    = see: spec/busservo.yaml:{line}:3",
+        '    = write: Case(HornBlow(times=..., pause_ms=...), "55 55 ...", HOST, "section"),',
+    ]
+    assert first[3].startswith("    = why: ")
+    messages = len(data_of(BUSSERVO)["messages"]) + 1
+    assert printed.err.startswith(f"spec/busservo.yaml: {messages} messages, ")
+    assert printed.err.endswith(" files: 3 missing\n")
+
+
+# ------------------------------------------------------------------ how it is looked for
+
+LAYOUT = """\
+busservo:
+  case:
+    of: {of}
+    file: made_up.txt
+    text: '{text}'
+    write: a case
+    why: it is tried
+"""
+
+
+def declare(project: Path, of: str, text: str) -> None:
+    declared = LAYOUT.replace("{of}", of).replace("{text}", text)
+    (project / "tests" / "witnesses.yaml").write_text(declared, encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("of", "text", "written", "found"),
+    [
+        ("messages", "Case({message}(", "Case(ServoMove(1))", True),
+        ("messages", "Case({message}(", "Case (\n  ServoMove\n(1))", True),
+        ("messages", "Case({message}(", "BadCase(ServoMove(1))", False),
+        ("messages", "Case({message}(", "Case(ServoMoves(1))", False),
+        ("messages", "Case({message}(", "Case(MyServoMove(1))", False),
+        ("messages", "case {message}", "case ServoMove", True),
+        ("messages", "case {message}", "case\nServoMove", True),
+        ("messages", "case {message}", "caseServoMove", False),
+        ("messages", "[{MESSAGE}] {SENDER}", "[SERVO_MOVE] HOST", True),
+        ("messages", "[{MESSAGE}] {SENDER}", "[SERVOMOVE] HOST", False),
+        ("messages", ".{message}.", "xServoMovex", False),
+        ("messages", "x{message}: {fields}", "xServoMove: time_ms=..., targets=...", True),
+        ("requests", "Case({message}, {method})", "Case(ServoMove, move_servos)", True),
+        ("fields", "Case({message}(...{field}=", "Case(ServoMove(f(1, (2,)), time_ms=1))", True),
+        ("fields", "Case({message}(...{field}=", "Case(ServoMove(1)), Case(X(time_ms=1))", False),
+        ("fields", "Case({message}(...{field}=", "Case(ServoMove(real_time_ms=1))", False),
+        ("values", "Case({message}...{FIELD}_{VALUE}", "Case(ServoMove, TIME_MS_NEVER)", True),
+        ("values", "Case({message}...{FIELD}_{VALUE}", "Case(ServoMove, TIME_MS_NEVER_1)", False),
+    ],
+)
+def test_a_pattern_matches_the_name_or_value_it_is_made_of(
+    of: str, text: str, written: str, found: bool, project: Path, capsys: Capture
+) -> None:
+    about = "        about: How long the motion takes.\n"
+    named = f"{about}        values: {{never: {{value: 800, about: x}}}}\n"
+    edit(project / "spec" / "busservo.yaml", (about, named))
+    declare(project, of, text)
+    (project / "made_up.txt").write_text(written, encoding="utf-8")
+    names = {
+        "fields": "ServoMove.fields.time_ms",
+        "values": "ServoMove.fields.time_ms.values.never",
+    }
+    sought = ("case", "made_up.txt", f"messages.{names.get(of, 'ServoMove')}")
+    assert (sought not in missing(project, capsys)) is found
+
+
+@pytest.mark.parametrize(
+    ("of", "text", "written", "gone"),
+    [
+        ("fields", "x {message}.{field}", "x Flags.error", "messages.Flags.fields.error"),
+        ("bits", "BIT_{FIELD}_{BIT}", "BIT_ERROR_HEAT", "messages.Flags.fields.error.bits.heat"),
+        (
+            "bits",
+            "BIT {field} {bit}",
+            "BIT flags far",
+            "messages.Lists.fields.points.fields.flags.bits.far",
+        ),
+        ("addresses", "AT_{ADDRESS}_{VALUE}", "AT_STATION_ALL", "frames.ask.station.values.all"),
+    ],
+)
+def test_bits_and_addresses_can_have_witnesses_too(
+    of: str, text: str, written: str, gone: str, project: Path, capsys: Capture
+) -> None:
+    spec = project / "spec" / "everything.yaml"
+    shutil.copy(DEMO.with_name(spec.name), spec)
+    declared = LAYOUT.replace("busservo", "everything")
+    declared = declared.replace("{of}", of).replace("{text}", text)
+    (project / DECLARATION).write_text(declared, encoding="utf-8")
+    (project / "made_up.txt").write_text("", encoding="utf-8")
+    assert main(["missing", "--json", str(spec)]) == 1
+    before = [json.loads(line)["path"] for line in capsys.readouterr().out.splitlines()]
+    (project / "made_up.txt").write_text(written, encoding="utf-8")
+    main(["missing", "--json", str(spec)])
+    after = [json.loads(line)["path"] for line in capsys.readouterr().out.splitlines()]
+    assert [each for each in before if each not in after] == [gone]
+
+
+def test_what_every_frame_has_is_no_field(project: Path, capsys: Capture) -> None:
+    spec = project / "spec" / "everything.yaml"
+    shutil.copy(DEMO.with_name(spec.name), spec)
+    declared = LAYOUT.replace("busservo", "everything").replace("{of}", "fields")
+    (project / DECLARATION).write_text(declared.replace("{text}", "x {field}"), encoding="utf-8")
+    (project / "made_up.txt").write_text("", encoding="utf-8")
+    main(["missing", str(spec)])
+    printed = capsys.readouterr()
+    assert "Numbers.a_u8 has no case" in printed.out
+    assert "station" not in printed.out
+    assert "sequence" not in printed.out
+
+
+# ------------------------------------------------------------------ what is no use
+
+
+def refusal(project: Path, capsys: Capture) -> str:
+    assert main(["missing", str(project / "spec" / "busservo.yaml")]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    return printed.err.removeprefix("framegen: error: ")
+
+
+@pytest.mark.parametrize("declared", [None, "kiln: {}\n"])
+def test_without_declarations_nothing_is_reported_complete(
+    declared: str | None, project: Path, capsys: Capture
+) -> None:
+    file = project / "tests" / "witnesses.yaml"
+    if declared is None:
+        file.unlink()
+    else:
+        file.write_text(declared, encoding="utf-8")
+    spec = (project / "spec" / "busservo.yaml").as_posix()
+    messages = len(data_of(BUSSERVO)["messages"])
+    assert refusal(project, capsys) == (
+        f"{spec} has {messages} messages, and no witness is declared for it: "
+        "nothing was looked for\n  hint: tests/witnesses.yaml declares them, by the name of the "
+        "protocol: `busservo: {}` for none\n"
+    )
+
+
+def test_a_project_may_have_no_witness(project: Path, capsys: Capture) -> None:
+    (project / "tests" / "witnesses.yaml").write_text("busservo: {}\n", encoding="utf-8")
+    spec = project / "spec" / "busservo.yaml"
+    assert main(["missing", str(spec)]) == 0
+    said = f"{spec.as_posix()}: nothing looked up in 0 files: nothing is missing\n"
+    assert capsys.readouterr().err == said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("messages", "mesages", "3:5: busservo.case.of: nothing of a spec is `mesages`"),
+        ("    of: messages\n", "", "2:3: busservo.case.of: is missing"),
+        ("    why:", "    because:", "7:5: busservo.case.because: no such key"),
+        ("it is tried", "12", "7:5: busservo.case.why: is no text"),
+        ("{message}", "{massage}", "5:5: busservo.case.text: nothing is put for `{massage}`"),
+        ("a case", "a case of {field}", "6:5: busservo.case.write: nothing is put for `{field}`"),
+        ("Case({message}(", "Case(", "5:5: busservo.case.text: this is no pattern"),
+        ("Case({message}(", "{message}(", "5:5: busservo.case.text: this is no pattern"),
+        ("  case:", "  case: [1]\n  other:", "2:3: busservo.case: no mapping"),
+        ("  why", "\twhy", "tests/witnesses.yaml is no mapping of protocols to witnesses\n"),
+        ("  case:", "  case: &a", "tests/witnesses.yaml is no mapping of protocols to witnesses\n"),
+    ],
+)
+def test_an_invalid_declaration_is_reported_with_its_place(
+    old: str, new: str, said: str, project: Path, capsys: Capture
+) -> None:
+    declare(project, "messages", "Case({message}(")
+    (project / "made_up.txt").write_text("", encoding="utf-8")
+    edit(project / "tests" / "witnesses.yaml", (old, new))
+    refused = refusal(project, capsys)
+    place = "" if said.startswith("tests") else "tests/witnesses.yaml:"
+    assert refused.startswith(place + said)
+
+
+@pytest.mark.parametrize(
+    ("data", "why"), [(None, "No such file or directory"), (b"\xff", "it is not UTF-8 text")]
+)
+def test_a_file_that_cannot_be_read_is_reported(
+    data: bytes | None, why: str, project: Path, capsys: Capture
+) -> None:
+    declare(project, "messages", "Case({message}(")
+    if data is not None:
+        (project / "made_up.txt").write_bytes(data)
+    said = f"made_up.txt, which tests/witnesses.yaml names, cannot be read: {why}\n"
+    assert refusal(project, capsys).startswith(said)

@@ -1,0 +1,162 @@
+"""What became of what between two editions: each change is told, once, and both ways alike."""
+
+from __future__ import annotations
+
+import copy
+import re
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.comparison import changes as rules
+from framegen.comparison.changes import CHANGE_RULES, changes
+from framegen.comparison.pair import Pair
+from framegen.language import spec as language
+
+from tests.factories import ROOT, compiled_of, data_of, renamed
+from tests.in_turn import in_turn
+from tests.mutations.edits import EDITS, SERVO, SPECS, edition, pair_of, with_
+from tests.mutations.leaves import leaves, mirrored, told_at_their_places, turned
+from tests.unit.comparison.rule_examples import example
+
+if TYPE_CHECKING:
+    from framegen.comparison.changes.change import ChangeRule
+
+EXPECTED = data_of(ROOT / "tests" / "unit" / "comparison" / "changes.yaml")
+BY_ID = in_turn("rule", lambda: CHANGE_RULES)
+BY_EDIT = in_turn("name", lambda: EDITS)
+
+
+@BY_EDIT
+def test_an_edit_is_told(name: str) -> None:
+    told = [f"{each.rule} | {each.text}" for each in changes(pair_of(*EDITS[name]))]
+    assert told == EXPECTED[name]
+
+
+@BY_EDIT
+def test_what_is_new_one_way_is_gone_the_other_way(name: str) -> None:
+    old, new = EDITS[name]
+    assert mirrored(changes(pair_of(old, new))) == turned(changes(pair_of(new, old)))
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_nothing_became_of_what_is_the_same(name: str) -> None:
+    assert changes(pair_of(SPECS[name], copy.deepcopy(SPECS[name]))) == []
+
+
+@BY_ID
+def test_a_rule_says_what_it_is_for(rule: ChangeRule) -> None:
+    assert re.fullmatch(r"[a-z]+(?:-[a-z]+)*", rule.id)
+    assert not rule.title.endswith(".")
+    assert rule.why.endswith(".")
+    assert rule.do.endswith(".")
+    assert rule.before != rule.after
+    assert getattr(rules, rule.id.replace("-", "_")).RULE is rule
+
+
+@BY_ID
+def test_what_a_rule_says_is_not_about_its_example(rule: ChangeRule) -> None:
+    assert not re.search(
+        r"lamp|level|colour|signed_|_controller", f"{rule.why} {rule.do}", re.IGNORECASE
+    )
+
+
+def test_no_two_rules_share_an_id_and_none_has_that_of_a_rule_of_check() -> None:
+    from framegen.checks import RULES  # noqa: PLC0415
+
+    ids = [rule.id for rule in (*CHANGE_RULES, *RULES)]
+    assert sorted(set(ids)) == sorted(ids)
+
+
+def test_what_may_come_may_go() -> None:
+    ids = {rule.id for rule in CHANGE_RULES}
+    assert {each.removesuffix("-added") for each in ids if each.endswith("-added")} == {
+        each.removesuffix("-removed") for each in ids if each.endswith("-removed")
+    }
+
+
+@BY_ID
+def test_the_example_of_a_rule_is_what_it_tells_of(rule: ChangeRule) -> None:
+    old, new = example(rule)
+    for data in (old, new):
+        assert {each.rule for each in compiled_of(data).findings} <= {"no-example"}
+    told = {each.rule for each in changes(pair_of(old, new))}
+    # Of other sizes, the rule of the length says so too.
+    assert rule.id in told
+    assert told <= {rule.id, "length-changed"}
+
+
+# ------------------------------------------------------------------ nothing is passed over
+
+# So many leaves are one that is changed in every run; all of them are, among the slow tests.
+_EACH = 24
+
+
+@pytest.mark.parametrize("name", ["greenhouse", "everything"])
+def test_every_changed_fact_is_told_at_its_place(name: str) -> None:
+    assert told_at_their_places(SPECS[name], each=_EACH) > 5
+
+
+def test_every_key_of_the_language_is_among_the_examples() -> None:
+    """Each key of each part of a spec is in a spec whose leaves are changed, here or by a rule."""
+    said: set[str] = set()
+    specs: list[Any] = [*SPECS.values()]
+    for rule in CHANGE_RULES:
+        specs += example(rule)
+    for data in specs:
+        said |= {str(step) for path, _ in leaves(data) for step in path}
+    keys = {
+        info.alias or key
+        for part in vars(language).values()
+        if isinstance(part, type) and issubclass(part, language.Part)
+        for key, info in part.model_fields.items()
+    }
+    assert keys <= said
+
+
+# ------------------------------------------------------------------ names
+
+
+def test_what_names_a_thing_by_its_new_name_is_no_change() -> None:
+    new = renamed(SERVO, "time_ms", "duration_ms")
+    new = with_(new, "messages", "ServoMove", "fields", "duration_ms", "was", "time_ms")
+    told = [each.text for each in changes(pair_of(SERVO, new))]
+    assert told == ["ServoMove.duration_ms: renamed from time_ms"]
+    back = [each.text for each in changes(pair_of(new, SERVO))]
+    assert back == ["ServoMove.time_ms: renamed from duration_ms"]
+
+
+def test_what_only_may_be_renamed_is_told_under_the_name_that_it_had() -> None:
+    new = renamed(SERVO, "ActionGroupCompleted", "GroupOver")
+    new = with_(new, "messages", "ActionGroupRun", "reports", ["ActionGroupStarted"])
+    told = [each.text for each in changes(pair_of(SERVO, new)) if each.rule == "reports"]
+    assert told == [
+        "ActionGroupRun: reports ActionGroupStarted, ActionGroupCompleted became ActionGroupStarted"
+    ]
+
+
+@pytest.mark.parametrize(("key", "at", "words"), [("errata", 2, "title"), ("unknowns", 2, "what")])
+def test_what_is_said_otherwise_of_the_same_message_is_the_same(
+    key: str, at: int, words: str
+) -> None:
+    message = SERVO[key][at]["concerns"]["message"]
+    new = with_(SERVO, key, at, words, "Other words.")
+    new = with_(new, key, at, "concerns", {"message": message})
+    told = [(each.rule, each.path) for each in changes(pair_of(SERVO, new))]
+    assert {path[:2] for _, path in told} == {(key, at)}
+    assert not [rule for rule, _ in told if rule.endswith(("-added", "-removed"))]
+
+
+def test_changes_come_in_the_order_of_the_new_edition_and_what_is_gone_last() -> None:
+    from framegen.comparison.edition import Edition  # noqa: PLC0415
+
+    data = with_(SERVO, "messages", "ServoMove", "id", 4)
+    data = with_(data, "link", "baud", 19200)
+    data = with_(data, "messages", "ServoUnload", "fields", "servo_ids", "count", "2..")
+    del data["pose"]
+    compiled = [compiled_of(each) for each in (SERVO, data)]
+    editions = []
+    for each in compiled:
+        made = edition(each.tree.data)
+        editions.append(Edition("spec.yaml", each, made.spec, made.model))
+    told = [each.rule for each in changes(Pair(*editions))]
+    assert told == ["baud", "message-id", "count", "pose-removed"]

@@ -1,0 +1,112 @@
+"""What one end makes of a frame of the other: single frames, by hand."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.comparison.comparison import Comparison
+from framegen.comparison.effect import OUTCOMES
+from framegen.comparison.wire import trials_of
+
+from tests.mutations.edits import ALL, GONE, LISTS, SPECS, edition, pair_of, with_
+from tests.mutations.houses import DOOR, WAY, house
+
+if TYPE_CHECKING:
+    from framegen.comparison.effect import Which, Witness
+
+    from tests.factories import Data, Steps
+
+SERVO = SPECS["busservo"]
+UNLOADLESS = pair_of(SERVO, with_(SERVO, "messages", "ServoUnload", GONE))
+
+
+def unloaded(servo_ids: list[int]) -> tuple[Witness, bool]:
+    """Return what a controller that knows no ServoUnload makes of one."""
+    trial = next(
+        each for each in trials_of(UNLOADLESS, "old") if each.message.name == "ServoUnload"
+    )
+    return trial.of({"servo_ids": servo_ids})
+
+
+def test_what_is_refused_may_hold_a_frame_that_is_read() -> None:
+    witness, breaks = unloaded([0x55, 0x55, 2, 15])
+    assert witness.data == bytes.fromhex("55 55 07 14 04 55 55 02 0F")
+    assert (witness.outcome, witness.reading) == ("misread", "is read as BatteryVoltageRead")
+    assert breaks
+
+
+def test_what_is_refused_and_holds_nothing_is_refused() -> None:
+    witness, breaks = unloaded([0x55, 0x54, 2, 15])
+    assert (witness.outcome, breaks) == ("refused", True)
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [(*LISTS, "readings", "sized_by"), ("messages", "Flags", "fields", "layout", "always")],
+    ids=["the size of a list", "what never changes"],
+)
+def test_what_is_given_now_and_was_worked_out_is_read_alike(steps: Steps) -> None:
+    pair = pair_of(ALL, with_(ALL, *steps, GONE))
+    # What is given now may be another number than the old edition works out.
+    ends: tuple[tuple[Which, set[str]], ...] = (("old", {"same"}), ("new", {"same", "refused"}))
+    for sender, outcomes in ends:
+        found = {
+            max((frame.outcome for frame, _ in trial.frames()), key=OUTCOMES.index)
+            for trial in trials_of(pair, sender)
+        }
+        assert found == outcomes
+
+
+def broken(old: Data, new: Data) -> set[str]:
+    """Return what ends notice of which editions as breaking."""
+    comparison = Comparison(edition(old), edition(new))
+    return {each.outcome for each in comparison.effects if each.axis == "wire" and each.breaks}
+
+
+def with_field(direction: str, size: int, name: str, field: Data) -> Data:
+    """Return the greenhouse with one more message of one more field."""
+    message = {**DOOR, "direction": direction, "length": 1 + size}
+    return house({"DoorAsked": {**message, "fields": {**DOOR["fields"], name: field}}})
+
+
+@pytest.mark.parametrize(
+    ("direction", "outcomes"), [("gateway -> station", set()), (WAY, {"refused"})]
+)
+def test_a_value_that_is_free_now_was_never_asked_of_an_old_end(
+    direction: str, outcomes: set[str]
+) -> None:
+    kind: Data = {"type": "u8", "about": "Which layout."}
+    old, new = (with_field(direction, 1, "kind", each) for each in ({**kind, "always": 4}, kind))
+    # A device that sends what no old end reads is another matter: nobody there chose that.
+    assert broken(old, new) == outcomes
+
+
+@pytest.mark.parametrize(("widened", "outcomes"), [("0..250", set()), ("0..200", {"refused"})])
+def test_an_address_that_no_old_end_has_is_nobody_in_use(widened: str, outcomes: set[str]) -> None:
+    modbus = SPECS["modbus"]
+    assert broken(modbus, with_(modbus, "frame", "unit", "range", widened)) == outcomes
+
+
+NUMBERS: Data = {"type": "u16", "counted_by": "door", "about": "How far."}
+NAMED: Data = {
+    **{key: each for key, each in NUMBERS.items() if key != "type"},
+    "element": "Gap",
+    "fields": {"gap": {"type": "u16", "about": "How far."}},
+}
+
+
+@pytest.mark.parametrize("direction", ["gateway -> station", WAY])
+@pytest.mark.parametrize(("type_", "outcomes"), [("u16", set()), ("i16", {"misread", "refused"})])
+def test_a_list_of_numbers_is_that_of_elements_with_one_number_each(
+    direction: str, type_: str, outcomes: set[str]
+) -> None:
+    named = {**NAMED, "fields": {"gap": {**NAMED["fields"]["gap"], "type": type_}}}
+    message = {**DOOR, "direction": direction, "length": "2 * door + 1"}
+    bare, other = (
+        house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": each}}})
+        for each in (NUMBERS, named)
+    )
+    assert broken(bare, other) <= outcomes
+    assert broken(other, bare) <= outcomes
+    assert bool(broken(bare, other)) == bool(outcomes)

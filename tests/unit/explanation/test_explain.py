@@ -1,0 +1,604 @@
+"""`framegen explain`: its text for frames, and for bytes that are none."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from framegen.cli import main
+from framegen.explain import explain
+from framegen.explanation import refusals
+from framegen.explanation.explanation import Explanation, Reading, Refusal, Row
+from framegen.explanation.text import as_json, as_text
+from framegen.language.load import load, read_source
+from framegen.language.spec import Spec
+from framegen.language.values import Direction
+from framegen.model import codec
+from framegen.model.model import Model, derive
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.factories import data_of
+from tests.in_turn import in_turn
+
+ROOT = Path(__file__).parents[3]
+BUSSERVO = ROOT / "spec" / "busservo.yaml"
+DEMO = ROOT / "tests" / "specs" / "demo.yaml"
+
+
+def layout_of(file: Path) -> Model:
+    spec = load(read_source(file)).spec
+    assert spec is not None
+    return derive(spec)
+
+
+LAYOUT = layout_of(BUSSERVO)
+GREENHOUSE = layout_of(DEMO)
+HOST, CONTROLLER = LAYOUT.directions
+
+
+def explained(hex_text: str, model: Model = LAYOUT) -> Explanation:
+    return explain(model, bytes.fromhex(hex_text), model.directions)
+
+
+def hints(explanation: Explanation) -> list[str]:
+    return [hint.text for hint in explanation.hints]
+
+
+# ---------------------------------------------------------------------------- whole pages
+
+MOVE = "55 55 08 03 01 E8 03 01 20 03"
+MOVE_PAGE = """\
+ServoMove, host -> controller
+Turn one or more servos to positions, all of them in the same time.
+
+  byte  hex    part                 value    meaning
+     0  55 55  header                        Two bytes that announce a frame
+     2  08     length               8        3 * servo_count + 5
+     3  03     command              3        ServoMove, CMD_SERVO_MOVE to the vendor
+     4  01     servo_count          1        How many servos are listed
+     5  E8 03  time_ms              1000 ms  How long the motion takes
+     7  01     targets[0].servo_id  1        The servo to turn
+     8  20 03  targets[0].position  800      Where to turn it
+
+  reply:   none is due
+  example: Servo 1 to position 800 in 1000 ms (vendor, section 1.1, example 1)
+  source:  vendor, section 1.1 (Bus Servo Controller Communication Protocol)
+"""
+
+BATTERY = "55 55 04 0F 4C 1D"
+BATTERY_PAGE = """\
+BatteryVoltage, controller -> host
+The voltage of the battery.
+
+  byte  hex    part        value              meaning
+     0  55 55  header                         Two bytes that announce a frame
+     2  04     length      4                  always 4
+     3  0F     command     15                 BatteryVoltage, CMD_GET_BATTERY_VOLTAGE to the vendor
+     4  4C 1D  voltage_mv  7500 mV = 7.500 V  The voltage of the controller board
+
+  answers: BatteryVoltageRead
+  example: The battery is at 7500 mV (vendor, section 1.5, example 2)
+  source:  vendor, section 1.5 (Bus Servo Controller Communication Protocol)
+"""
+
+OFF_BY_ONE = "55 55 09 03 01 E8 03 01 20 03"
+OFF_BY_ONE_PAGE = """\
+These 10 bytes are no frame of the Hiwonder bus servo controller.
+
+  55 55 09 03 01 E8 03 01 20 03
+        ^^ byte 2
+  host -> controller: length mismatch: ServoMove has a length of 8, 11, 14 .. 254, not 9
+
+  right up to there:
+  byte  hex    part    value  meaning
+     0  55 55  header         Two bytes that announce a frame
+
+  55 55 09 03 01 E8 03 01 20 03
+           ^^ byte 3
+  controller -> host: unknown command: no message controller -> host has the command 3
+
+hint: 10 bytes have a length of 8; with that they are ServoMove (host -> controller)
+      55 55 08 03 01 E8 03 01 20 03
+"""
+
+LX16A = "55 55 01 07 01 20 03 E8 03 E8"
+LX16A_PAGE = """\
+These 10 bytes are no frame of the Hiwonder bus servo controller.
+
+  55 55 01 07 01 20 03 E8 03 E8
+        ^^ byte 2
+  host -> controller: length mismatch: ActionGroupStop has a length of 2, not 1
+  controller -> host: length mismatch: ActionGroupStopped has a length of 2, not 1
+
+  right up to there:
+  byte  hex    part    value  meaning
+     0  55 55  header         Two bytes that announce a frame
+
+hint: this looks like a frame of the LX-16A bus servo protocol. Spoken behind the controller, at
+      115200 baud, between the board and each servo. The same two header bytes, but a servo
+      number comes before the length, and a checksum ends the frame. Public write-ups mix the
+      two up. For servos without the controller there is lxservo, from the same house, whose
+      command reads these frames.
+"""
+
+BOTH_WAYS = "55 55 05 06 02 00 00"
+BOTH_WAYS_PAGE = """\
+ActionGroupRun, host -> controller
+Run an action group stored on the controller, a number of times or for ever.
+
+  byte  hex    part     value          meaning
+     0  55 55  header                  Two bytes that announce a frame
+     2  05     length   5              always 5
+     3  06     command  6              ActionGroupRun, CMD_ACTION_GROUP_RUN to the vendor
+     4  02     group    2              The number of the action group
+     5  00 00  times    0 (unlimited)  Run until it is stopped
+
+  reply:       none is due
+  reported by: ActionGroupStarted, ActionGroupCompleted
+  example:     Run action group 2 until it is stopped (vendor, section 1.2, example 2)
+  source:      vendor, section 1.2 (Bus Servo Controller Communication Protocol)
+
+ActionGroupStarted, controller -> host
+An action group has started to run.
+
+  byte  hex    part     value          meaning
+     0  55 55  header                  Two bytes that announce a frame
+     2  05     length   5              always 5
+     3  06     command  6              ActionGroupStarted, CMD_ACTION_GROUP_RUN to the vendor
+     4  02     group    2              The number of the action group
+     5  00 00  times    0 (unlimited)  It runs until it is stopped
+
+  reports on: ActionGroupRun
+  example:    Action group 2 has started, to run until it is stopped
+  source:     vendor, section 2.1 (Bus Servo Controller Communication Protocol)
+"""
+
+NOISE_BEFORE = "00 FF 55 55 55 02 0F"
+NOISE_BEFORE_PAGE = """\
+These 7 bytes are no frame of the Hiwonder bus servo controller.
+
+  00 FF 55 55 55 02 0F
+  ^^ byte 0
+  in every direction: bad header: a frame begins 55 55
+
+hint: a frame begins at byte 3: BatteryVoltageRead (host -> controller)
+      55 55 02 0F
+"""
+
+PAGES = [
+    pytest.param(MOVE, 0, MOVE_PAGE, id="a command"),
+    pytest.param(BATTERY, 0, BATTERY_PAGE, id="a reply with a scale"),
+    pytest.param(BOTH_WAYS, 0, BOTH_WAYS_PAGE, id="a frame that is legal in both directions"),
+    pytest.param(OFF_BY_ONE, 1, OFF_BY_ONE_PAGE, id="a length that is off by one"),
+    pytest.param(LX16A, 1, LX16A_PAGE, id="a frame of a look-alike"),
+    pytest.param(NOISE_BEFORE, 1, NOISE_BEFORE_PAGE, id="a frame after noise"),
+]
+
+
+@pytest.mark.parametrize(("hex_text", "code", "page"), PAGES)
+def test_a_page_explains_a_frame(
+    hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", str(BUSSERVO), *hex_text.split()]) == code
+    assert capsys.readouterr() == (page, "")
+
+
+@pytest.mark.parametrize(("hex_text", "code", "page"), PAGES)
+def test_json_holds_the_same_as_the_page(
+    hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", str(BUSSERVO), "--json", hex_text]) == code
+    printed = json.loads(capsys.readouterr().out)
+    assert printed == as_json(explained(hex_text))
+    assert (printed["hex"], printed["frame"]) == (hex_text, code == 0)
+    assert [reading["message"] for reading in printed["readings"]] == [
+        line.split(",")[0] for line in page.splitlines() if code == 0 and line.endswith(ENDS)
+    ]
+
+
+ENDS = (", host -> controller", ", controller -> host")
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "line"),
+    [
+        (["55 55 02 07"], 0, "ActionGroupStop, host -> controller"),
+        (["55 55 01 03 1C DF"], 0, "PositionRead, host -> servo"),
+        (["55 55 01 03 1C DE"], 1, "These 6 bytes are no frame of the LX-16A servo bus."),
+        (["busservo", "55 55 01 03 1C DF"], 1, "no frame of the Hiwonder bus servo controller."),
+        (["55 55 01 03 1C DF", "--direction", "controller"], 1, "servo controller."),
+    ],
+)
+def test_bytes_are_explained_by_the_protocol_that_they_come_closest_to(
+    words: list[str],
+    code: int,
+    line: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert main(["explain", *words]) == code
+    assert capsys.readouterr().out.partition("\n")[0].endswith(line)
+
+
+def test_more_bytes_than_a_line_holds_are_shown_on_several() -> None:
+    page = as_text(explained("55 55 15 15 07" + 18 * " 01"))
+    assert page.splitlines()[2:6] == [
+        "  55 55 15 15 07 01 01 01 01 01 01 01 01 01 01 01",
+        "              ^^ byte 4",
+        "  01 01 01 01 01 01 01",
+        "  host -> controller: count mismatch: a length of 21 makes servo_count 18, not 7",
+    ]
+
+
+def test_of_a_long_paste_the_bytes_around_the_place_are_shown() -> None:
+    frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": [17] * 60})
+    page = as_text(explain(LAYOUT, frame + bytes(60), [HOST]))
+    assert page.splitlines()[2:10] == [
+        "  ... 32 bytes before",
+        f"  {(16 * ' 11').strip()}",
+        f"  {(16 * ' 11').strip()}",
+        "  11 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00",
+        "     ^^ byte 65",
+        f"  {(16 * ' 00').strip()}",
+        f"  {(16 * ' 00').strip()}",
+        "  ... 13 bytes after",
+    ]
+
+
+# ---------------------------------------------------------------------------- frames
+
+
+def rows_cover(rows: tuple[Row, ...], data: bytes) -> bool:
+    """Return whether the rows, in order, are the first bytes of `data`, none left out."""
+    shown = b"".join(row.data for row in rows)
+    ends = [0, *(row.end for row in rows)]
+    return data.startswith(shown) and [row.offset for row in rows] == ends[:-1]
+
+
+EXAMPLES = [
+    pytest.param(layout, message.name, example.hex, id=f"{message.name}: {example.title}")
+    for layout in (LAYOUT, GREENHOUSE)
+    for message in layout.messages.values()
+    for example in message.message.examples
+]
+
+
+@in_turn("model, name, data", lambda: EXAMPLES)
+def test_every_byte_of_an_example_is_explained(model: Model, name: str, data: bytes) -> None:
+    explanation = explain(model, data, model.directions)
+    (reading,) = (each for each in explanation.readings if each.message == name)
+    assert rows_cover(reading.rows, data)
+    assert reading.rows[-1].end == len(data)
+    assert "example" in dict(reading.facts)
+    assert explanation.hints == ()
+
+
+@in_turn("model, name, data", lambda: EXAMPLES)
+def test_every_value_of_an_example_is_shown(model: Model, name: str, data: bytes) -> None:
+    message = model.messages[name]
+    (reading,) = explain(model, data, [message.direction]).readings
+    values = {row.path: row.value for row in reading.rows}
+    for field, value in codec.decode(model, message.direction, data).values.items():
+        if not isinstance(value, list):
+            assert values[field] == value
+            continue
+        for index, element in enumerate(value):
+            if not isinstance(element, dict):
+                assert values[f"{field}[{index}]"] == element
+                continue
+            for inner, number in element.items():
+                assert values[f"{field}[{index}].{inner}"] == number
+
+
+@in_turn("model, name, data", lambda: EXAMPLES)
+def test_a_frame_cut_short_is_explained_up_to_the_cut(model: Model, name: str, data: bytes) -> None:
+    direction = model.messages[name].direction
+    (whole,) = explain(model, data, [direction]).readings
+    for size in range(len(data)):
+        (refusal,) = explain(model, data[:size], [direction]).refusals
+        assert (refusal.reason, refusal.offset) == (refusals.TOO_SHORT, size)
+        paths = [row.path for row in refusal.rows]
+        assert paths == [row.path for row in whole.rows if row.end <= size]
+
+
+def test_a_signed_number_is_shown_with_its_sign_and_in_its_unit() -> None:
+    (reading,) = explained("C3 5A A5 11 00 09 00 01 51 80 02 FF 6A 00 C8", GREENHOUSE).readings
+    assert [row.text for row in reading.rows[-2:]] == ["-150 cK = -1.50 K", "200 cK = 2.00 K"]
+
+
+def test_a_deprecated_message_says_so_first() -> None:
+    (reading,) = explained("C3 5A A5 10 00 04 FF FF FF FE", GREENHOUSE).readings
+    assert reading.facts[0] == (
+        "deprecated",
+        "The display reads the bus by itself since 2024.",
+    )
+
+
+# ---------------------------------------------------------------------------- no frames
+
+# What is wrong: hex, direction, reason, offset, how many rows are right.
+REFUSALS = [
+    ("12", HOST, refusals.BAD_HEADER, 0, 0),
+    ("55", HOST, refusals.TOO_SHORT, 1, 0),
+    ("55 54 02 07", HOST, refusals.BAD_HEADER, 1, 0),
+    ("55 55", HOST, refusals.TOO_SHORT, 2, 1),
+    ("55 55 02", HOST, refusals.TOO_SHORT, 3, 2),
+    ("55 55 02 08", HOST, refusals.UNKNOWN_COMMAND, 3, 2),
+    ("55 55 02 08", CONTROLLER, refusals.LENGTH_MISMATCH, 2, 1),
+    ("55 55 05 06 08", HOST, refusals.TOO_SHORT, 5, 4),
+    ("55 55 05 06 08 01", HOST, refusals.TOO_SHORT, 6, 4),
+    ("55 55 02 07 00", HOST, refusals.TRAILING_BYTES, 4, 3),
+    ("55 55 08 03 02 E8 03 01 20 03", HOST, refusals.COUNT_MISMATCH, 4, 3),
+    # Short, and its count wrong before that shows.
+    ("55 55 09 15 06 01 02 03", CONTROLLER, refusals.COUNT_MISMATCH, 4, 3),
+]
+
+
+@in_turn("hex_text, direction, reason, offset, right", lambda: REFUSALS)
+def test_a_refusal_has_its_reason_and_offset(
+    hex_text: str, direction: Direction, reason: str, offset: int, right: int
+) -> None:
+    data = bytes.fromhex(hex_text)
+    (refusal,) = explain(LAYOUT, data, [direction]).refusals
+    assert (refusal.reason, refusal.offset, len(refusal.rows)) == (reason, offset, right)
+    assert rows_cover(refusal.rows, data[:offset])
+
+
+def test_a_value_out_of_range_is_where_the_frame_ends() -> None:
+    refusal, *_ = explained("C3 5A A5 10 00 06 00 00 01 01 FC 7B", GREENHOUSE).refusals
+    assert (refusal.reason, refusal.offset) == (refusals.OUT_OF_RANGE, 10)
+    assert refusal.expected == "vents[0].angle is -901, outside -900..900"
+    assert refusal.rows[-1].path == "vents[0].vent_id"
+
+
+def test_the_direction_that_came_closest_is_shown_first() -> None:
+    refused = explained("55 55 09 15 06 01 02 03 04 05").refusals
+    assert [(refusal.direction, len(refusal.rows)) for refusal in refused] == [
+        (str(HOST), 9),
+        (str(CONTROLLER), 3),
+    ]
+    refused = explained("55 55 02 08").refusals
+    assert [refusal.reason for refusal in refused] == [
+        refusals.LENGTH_MISMATCH,
+        refusals.UNKNOWN_COMMAND,
+    ]
+
+
+# ---------------------------------------------------------------------------- hints
+
+STOP_OR_STOPPED = "ActionGroupStop (host -> controller) or ActionGroupStopped (controller -> host)"
+HINTS = [
+    (
+        "55 55 02 0D",
+        ["in the dialect of LeArm and uHand boards, 13 reads the positions of all six servos"],
+    ),
+    ("55 55 02 08", ["in the dialect of LeArm and uHand boards, 8 erases action groups"]),
+    ("55 55 02 63", []),
+    ("12 34", []),
+    (
+        "55 55 02 0F 55 55 02 07",
+        [
+            "a frame begins at byte 0: BatteryVoltageRead (host -> controller)",
+            f"a frame begins at byte 4: {STOP_OR_STOPPED}",
+        ],
+    ),
+    # A frame inside a frame's bytes is shown once, and what follows it is looked at again.
+    (
+        "55 55 55 02 0F 55 02",
+        ["a frame begins at byte 1: BatteryVoltageRead (host -> controller)"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("hex_text", "expected"), HINTS)
+def test_a_refused_frame_gets_hints(hex_text: str, expected: list[str]) -> None:
+    assert hints(explained(hex_text)) == expected
+
+
+def test_hints_list_the_first_of_many_frames() -> None:
+    lines = hints(explained("55 55 02 0F " * 10))
+    assert len(lines) == 9
+    assert lines[-2:] == [
+        "a frame begins at byte 28: BatteryVoltageRead (host -> controller)",
+        "more frames follow, from byte 32 on",
+    ]
+
+
+def test_a_frame_of_the_other_end_is_recognised() -> None:
+    explanation = explain(LAYOUT, bytes.fromhex(BATTERY), [HOST])
+    assert explanation.readings == ()
+    assert hints(explanation) == [
+        "sent the other way, they are BatteryVoltage (controller -> host)"
+    ]
+
+
+def test_a_reserved_command_is_recognised() -> None:
+    assert hints(explained("C3 5A A5 13 00 00", GREENHOUSE)) == [
+        "19 is reserved: It was VentsOpen with angles of zero until 1.0.0."
+    ]
+
+
+def test_a_corrected_length_is_proposed_whatever_it_counts() -> None:
+    (hint,) = explained("C3 5A A5 11 00 08 00 01 51 80 02 FF 6A 00 C8", GREENHOUSE).hints
+    assert hint.text == (
+        "15 bytes have a size of 9; with that they are StationState (station -> gateway)"
+    )
+    assert hint.frame == bytes.fromhex("C3 5A A5 11 00 09 00 01 51 80 02 FF 6A 00 C8")
+
+
+def test_every_example_of_a_lookalike_is_hinted_at() -> None:
+    texts = [
+        explain(layout, example.hex, layout.directions).hints[0].text
+        for layout in (LAYOUT, GREENHOUSE)
+        for lookalike in layout.spec.lookalikes.values()
+        for example in lookalike.examples
+    ]
+    assert [text.partition(".")[0] for text in texts] == [
+        "this looks like a frame of the LX-16A bus servo protocol",
+        "in the dialect of LeArm and uHand boards, 1 asks for the version",
+        "this looks like a frame of the Orchard bus",
+        "in the Stations before 2019, 33 asks for the firmware",
+    ]
+
+
+# ---------------------------------------------------------------------------- the command
+
+
+@pytest.mark.parametrize(
+    ("sender", "expected"),
+    [
+        (None, ["ActionGroupStop", "ActionGroupStopped"]),
+        ("host", ["ActionGroupStop"]),
+        ("controller", ["ActionGroupStopped"]),
+    ],
+)
+def test_direction_is_chosen_by_sender(
+    sender: str | None, expected: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    chosen = [] if sender is None else ["--direction", sender]
+    assert main(["explain", str(BUSSERVO), "5555", *chosen, "--json", "0207"]) == 0
+    readings = json.loads(capsys.readouterr().out)["readings"]
+    assert [reading["message"] for reading in readings] == expected
+
+
+def test_an_unknown_sender_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", str(BUSSERVO), "--direction", "hots", "55"]) == 2
+    assert capsys.readouterr().err == (
+        "framegen: error: no endpoint 'hots' sends anything\n  hint: did you mean `host`?\n"
+    )
+
+
+def test_the_spec_may_have_any_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "spec without ending"
+    file.write_bytes(BUSSERVO.read_bytes())
+    assert main(["explain", str(file), MOVE]) == 0
+    assert capsys.readouterr().out == MOVE_PAGE
+
+
+def test_hex_longer_than_a_path_can_be_is_hex(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # With two specs, the first word would have to name one.
+    shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("lx*"))
+    monkeypatch.chdir(tmp_path)
+    servo_ids = list(range(252))
+    frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": servo_ids})
+    assert main(["explain", frame.hex()]) == 0
+    assert "\n   255  FA     servo_ids[250]  250\n" in capsys.readouterr().out
+    assert main(["explain", 20 * frame.hex()]) == 1
+    assert "hint: more frames follow, from byte 2056 on\n" in capsys.readouterr().out
+
+
+# ---------------------------------------------------------------------------- hex
+
+
+@in_turn(
+    "text, problem, hint",
+    lambda: [
+        ("", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
+        (" , ", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
+        ("55 5 02", "`5` is half a byte\n  55 5 02\n     ^", "did you mean 05?"),
+        (
+            "55 555",
+            "`555` is 3 digits, which is no whole number of bytes\n  55 555\n     ^^^",
+            "look for a digit that was lost or added",
+        ),
+        (
+            "0x55,0xO2",
+            "`O` is no hex digit\n  0x55,0xO2\n         ^",
+            "write two digits a byte, like 0A 1B FF",
+        ),
+        (
+            "55 \u0665\u0665",
+            "`\u0665` is no hex digit\n  55 \u0665\u0665\n     ^",
+            "write two digits a byte, like 0A 1B FF",
+        ),
+        ("0x", "`0x` has no digits after it\n  0x\n  ^^", "write the byte whole, like 0x1B"),
+        (
+            "55\x1b[2J",
+            "`\ufffd` is no hex digit\n  55\ufffd[2J\n    ^",
+            "write two digits a byte, like 0A 1B FF",
+        ),
+        (
+            40 * "55" + "!" + 40 * "55",
+            f"`!` is no hex digit\n  {15 * '55'}!{'55' * 14}5\n{' ' * 32}^",
+            "write two digits a byte, like 0A 1B FF",
+        ),
+    ],
+)
+def test_what_is_no_hex_is_shown_at_its_place(
+    text: str, problem: str, hint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", str(BUSSERVO), text]) == 2
+    assert capsys.readouterr().err == f"framegen: error: {problem}\n  hint: {hint}\n"
+
+
+# ---------------------------------------------------------------------------- any bytes
+
+# Frames with a byte changed, cut, doubled or led in by noise: what people really paste.
+WHOLE = st.sampled_from(
+    [
+        example.hex
+        for layout in (LAYOUT, GREENHOUSE)
+        for message in layout.messages.values()
+        for example in message.message.examples
+    ]
+)
+
+
+@st.composite
+def damaged(draw: st.DrawFn) -> bytes:
+    data = bytearray(draw(WHOLE))
+    if draw(st.booleans()):
+        data[draw(st.integers(0, len(data) - 1))] = draw(st.integers(0, 255))
+    cut = draw(st.integers(1, len(data)))
+    return draw(st.binary(max_size=4)) + bytes(data[:cut]) + draw(st.binary(max_size=4))
+
+
+@settings(max_examples=400, deadline=None, derandomize=True)
+@given(
+    model=st.sampled_from([LAYOUT, GREENHOUSE]),
+    data=st.one_of(st.binary(min_size=1, max_size=40), damaged()),
+)
+def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
+    explanation = explain(model, data, model.directions)
+    page, values = as_text(explanation), as_json(explanation)
+    results: list[Reading | Refusal] = [*explanation.readings, *explanation.refusals]
+    assert {result.direction for result in results} == set(map(str, model.directions))
+    assert all(rows_cover(result.rows, data) for result in results)
+    assert all(
+        row.end <= refusal.offset for refusal in explanation.refusals for row in refusal.rows
+    )
+    for hint in explanation.hints:
+        assert not hint.frame or explain(model, hint.frame, model.directions).readings
+    assert json.loads(json.dumps(values)) == values
+    assert bool(explanation.readings) != page.startswith(("These ", "This "))
+    assert bool(explanation.readings) == any(legal(model, data, way) for way in model.directions)
+
+
+def legal(model: Model, data: bytes, direction: Direction) -> bool:
+    try:
+        codec.decode(model, direction, data)
+    except codec.NotAFrame:
+        return False
+    return True
+
+
+def test_a_checksum_that_another_one_covers_is_mended_first() -> None:
+    data = data_of(BUSSERVO)
+    data["frame"] = {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "sum": {"is": "checksum", "type": "u8", "method": "sum", "covers": ["command", "check"]},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+        "check": {"is": "checksum", "type": "u8", "method": "xor", "covers": ["parameters"]},
+    }
+    model = derive(Spec.model_validate(data))
+    message = model.messages["ActionGroupRun"]
+    frame = codec.encode(message, message.message.examples[0].values)
+    damaged = frame[:2] + b"\0" + frame[3:-1] + b"\0"
+    found = explain(model, damaged, [message.direction])
+    assert frame in [hint.frame for hint in found.hints]

@@ -1,0 +1,73 @@
+"""Editions of the language: old ones are read for ever, newer ones refused before all else.
+
+The specs in `specs/editions/N` were right in edition N, and are never edited.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from framegen.compile import compile_spec
+from framegen.language.edition import EDITIONS, LATEST, is_newer
+from framegen.language.load import read_source
+from framegen.reading.source import Source
+from framegen.reading.yamltree import read_tree
+
+from tests.factories import BUSSERVO, DEMO, data_of
+from tests.in_turn import in_turn
+
+FOLDER = Path(__file__).parents[2] / "specs" / "editions"
+OLD = sorted(FOLDER.glob("*/*.yaml"))
+
+
+def name_of(file: Path) -> str:
+    return f"{file.parent.name}-{file.stem}"
+
+
+@pytest.mark.parametrize("file", OLD, ids=name_of)
+def test_a_spec_of_an_old_edition_is_read_as_ever(file: Path) -> None:
+    compiled = compile_spec(read_source(file))
+    assert compiled.findings == []
+    assert compiled.spec.framegen == int(file.parent.name)
+
+
+@pytest.mark.parametrize("file", OLD, ids=name_of)
+def test_it_says_the_same_in_the_latest_edition_once_its_number_says_so(file: Path) -> None:
+    old = read_source(file)
+    number = f"framegen: {file.parent.name}\n"
+    assert old.text.count(number) == 1
+    new = compile_spec(Source(old.name, old.text.replace(number, f"framegen: {LATEST}\n")))
+    assert new.findings == []
+    assert new.model.roles == compile_spec(old).model.roles
+    assert new.model.messages == compile_spec(old).model.messages
+
+
+def test_there_is_a_spec_of_every_old_edition() -> None:
+    assert {int(file.parent.name) for file in OLD} == set(EDITIONS) - {LATEST}
+    assert list(EDITIONS) == list(range(1, LATEST + 1))
+
+
+@pytest.mark.parametrize("file", [BUSSERVO, DEMO], ids=lambda file: file.stem)
+def test_our_own_specs_are_written_in_the_latest_edition(file: Path) -> None:
+    assert data_of(file)["framegen"] == LATEST
+
+
+@in_turn(
+    "text, newer",
+    lambda: (
+        [("1", False), ("2", False), ("3", True), ("9" * 39, True), ("0", False), ("-3", False)]
+        + [(each, False) for each in ('"3"', "true", "null", "[3]", "{a: 3}", "three", "")]
+    ),
+)
+def test_only_a_higher_number_is_a_newer_edition(text: str, newer: bool) -> None:
+    tree, _ = read_tree(Source("spec.yaml", f"framegen: {text}"))
+    assert is_newer(tree.data["framegen"]) == newer
+
+
+def test_a_newer_edition_is_the_only_finding() -> None:
+    text = "framegen: 3\nendpoints: *who\nprotocol: [no]\nmessages: 010\n"
+    [finding] = compile_spec(Source("spec.yaml", text)).findings
+    assert finding.rule == "edition"
+    assert "edition 3 of the language" in finding.message
+    assert "a newer framegen is needed: git pull in its clone, then" in finding.hint

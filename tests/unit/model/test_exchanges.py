@@ -1,0 +1,50 @@
+"""A question whose reply repeats nothing of it is sent whole, by the model and by a client."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import pytest
+
+from tests.factories import Data, files_of, kiln, layout_of, library
+from tests.lines.device_line import DeviceLine
+
+
+def long_question(*, echoed: bool) -> Data:
+    """Return the kiln, whose question for dampers can name more than its reply has room for."""
+    data = kiln()
+    # A pose is only there where the reply repeats the question.
+    del data["pose"]
+    question = data["messages"]["DamperRead"]
+    question["method"] = "read_dampers(damper_ids) -> positions"
+    if not echoed:
+        del question["echoed"]
+    return data
+
+
+@pytest.mark.parametrize(("echoed", "most", "split"), [(True, 84, True), (False, 0, False)])
+def test_only_a_query_whose_reply_repeats_its_list_is_split(
+    echoed: bool, most: int, split: bool
+) -> None:
+    model = layout_of(long_question(echoed=echoed))
+    [exchange] = [each for each in model.exchanges if each.request.name == "DamperRead"]
+    assert exchange.request.items is not None
+    assert (exchange.most, exchange.split is not None) == (most, split)
+
+
+@pytest.mark.parametrize("echoed", [True, False])
+def test_a_reply_need_not_repeat_the_request(echoed: bool) -> None:
+    with library(files_of(long_question(echoed=echoed))) as kiln_library:
+        made: Any = kiln_library
+
+        device: Any = importlib.import_module(f"{made.__name__}.device")
+
+        class Board(device.Device):  # type: ignore[misc]
+            def on_damper_read(self, message: Any) -> Any:
+                return made.DamperPositions([(each, 10 * each) for each in message.damper_ids])
+
+        with made.Controller(
+            DeviceLine(Board()), background=False, baud=float("inf")
+        ) as controller:
+            assert controller.read_dampers([3, 4]) == ((3, 30), (4, 40))

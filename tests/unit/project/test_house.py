@@ -1,0 +1,250 @@
+"""The repository is in order: repeated facts agree, and no file is there that nobody wrote."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import busservo
+import framegen
+import pytest
+import yaml
+from framegen.compile import compile_spec
+from framegen.language.load import read_source
+from framegen.render import render, render_shared
+from framegen.writing import changes
+
+from tests.documents import ROOT
+
+SPECS = sorted((ROOT / "spec").glob("*.yaml"))
+# Folders that tools make, and nobody writes.
+IGNORED = (ROOT / ".gitignore").read_text(encoding="utf-8").splitlines()
+LITTER = {".git", "node_modules", *(line.strip("/") for line in IGNORED)}
+
+# No page and no program may depend on the machine on which it was written.
+MACHINE = {
+    "a path of somebody's machine": re.compile(
+        r"(?<![\w.$}~])/(?:home|root|Users|work|workspace|tmp|opt|mnt|srv)/\w", re.ASCII
+    ),
+    "a folder of Windows": re.compile(r"\b[A-Za-z]:\\(?:Users|Windows|Program)", re.ASCII),
+    "the address of a package registry": re.compile(
+        r"pypi\.(?:org|python)|pythonhosted\.|registry\.npmjs|(?:extra-)?index-url|/simple/",
+        re.IGNORECASE,
+    ),
+    "an address inside a network": re.compile(
+        r"\b(?:10\.\d+|172\.(?:1[6-9]|2\d|3[01])|192\.168)\.\d+\.\d+\b"
+    ),
+}
+UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX)\b|^(?:<{7}|>{7}|={7}$)", re.MULTILINE)
+
+
+def our_files() -> list[Path]:
+    """Return the project's files: what git would keep, or else everything but litter."""
+    git = shutil.which("git")
+    if git is not None and (ROOT / ".git").exists():
+        listed = subprocess.run(
+            [git, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+            cwd=ROOT,
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        if listed.returncode == 0:
+            names = listed.stdout.split("\0")
+            return sorted(ROOT / name for name in names if (ROOT / name).is_file())
+    found = []
+    for folder, folders, files in os.walk(ROOT):
+        folders[:] = [name for name in folders if name not in LITTER]
+        found += [Path(folder) / name for name in files]
+    return sorted(found)
+
+
+def text_of(file: Path) -> str | None:
+    """Return the text of a file; None for bytes that are no text."""
+    try:
+        return file.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return None
+
+
+TEXTS = {
+    file.relative_to(ROOT).as_posix(): text
+    for file in our_files()
+    if (text := text_of(file)) is not None
+}
+
+
+def places(pattern: re.Pattern[str]) -> list[str]:
+    return [
+        f"{name}:{text.count(chr(10), 0, match.start()) + 1}: {match[0]}"
+        for name, text in TEXTS.items()
+        if name != "tests/unit/project/test_house.py"
+        for match in pattern.finditer(text)
+    ]
+
+
+# Where the code is that the tests of each folder are for; the rest is about the project as a whole.
+ROOMS = {
+    "simulator": "simulator/busservo_simulator",
+    "runtime": "codegen/framegen/targets/python/runtime",
+    "": "codegen/framegen",
+}
+
+
+def room_of(folder: str) -> str:
+    """Return the folder of the code that a folder of tests/unit is for."""
+    top, _, rest = folder.partition("/")
+    if top in ROOMS:
+        # The folders of a library are private, and have a line in front of their names.
+        return "/_".join([ROOMS[top], *filter(None, [rest])])
+    return f"{ROOMS['']}/{folder}"
+
+
+def test_the_folders_of_the_tests_are_those_of_the_code() -> None:
+    folders = {Path(name).parent for name in TEXTS if name.startswith("tests/unit/")}
+    names = {each.relative_to("tests/unit").as_posix() for each in folders} - {"project"}
+    assert [name for name in sorted(names) if not (ROOT / room_of(name)).is_dir()] == []
+
+
+@pytest.mark.parametrize("what", MACHINE)
+def test_no_file_names_a_machine(what: str) -> None:
+    assert places(MACHINE[what]) == []
+
+
+def test_nothing_is_left_unfinished() -> None:
+    assert places(UNFINISHED) == []
+
+
+def test_text_files_end_with_one_line_break() -> None:
+    wrong = [
+        name
+        for name, text in TEXTS.items()
+        if (text and not text.endswith("\n")) or text.endswith("\n\n")
+    ]
+    assert wrong == []
+
+
+def test_there_is_one_version() -> None:
+    said = [TEXTS[project] for project in PROJECTS]
+    versions = re.findall(r'^version = "(.*)"$', "\n".join(said), flags=re.MULTILINE)
+    required = re.findall(r'"busservo==(.*?)"', "\n".join(said))
+    changes = re.findall(r"^## \[(.*?)\]", TEXTS["CHANGELOG.md"], flags=re.MULTILINE)
+    assert changes[0] == "Unreleased"
+    # framegen's project file reads its version from the package.
+    assert (len(versions), len(required)) == (2, 1)
+    assert {*versions, *required, *changes[1:2], busservo.__version__} == {framegen.__version__}
+
+
+def test_the_form_of_a_report_begins_with_the_title_that_is_asked_for() -> None:
+    form = yaml.safe_load(TEXTS[".github/ISSUE_TEMPLATE/report.yml"])
+    assert f'titled "{form["title"]}"' in TEXTS["CONTRIBUTING.md"]
+
+
+def test_everything_under_generated_is_what_the_generator_makes() -> None:
+    compiled = [compile_spec(read_source(spec)) for spec in SPECS]
+    rendered = [render(each) for each in compiled]
+    found = changes(ROOT, [*rendered, render_shared(compiled[0])])
+    assert [(change.path, change.why) for change in found] == []
+    on_disk = {name for name in TEXTS if name.startswith("generated/")}
+    made = {name for each in rendered for name in (*each.files, each.manifest)}
+    assert on_disk <= made
+
+
+def test_there_is_nothing_in_generated_but_the_libraries() -> None:
+    names = {path.name for path in (ROOT / "generated").iterdir() if path.name not in LITTER}
+    assert names == {name for spec in SPECS for name in (spec.stem, f"{spec.stem}.manifest")}
+
+
+def test_generated_code_silences_no_checker() -> None:
+    silenced = [
+        name
+        for name, text in TEXTS.items()
+        if name.startswith("generated/") and re.search(r"#\s*(?:noqa|type: ignore|pyright:)", text)
+    ]
+    assert silenced == []
+
+
+# -- Packages, commands and machines ---------------------------------------------------------------
+
+PROJECTS = ("pyproject.toml", "codegen/pyproject.toml", "simulator/pyproject.toml")
+BASH = shutil.which("bash")
+WORKFLOWS = [name for name in TEXTS if name.startswith(".github/workflows/")]
+ACTIONS = [name for name in TEXTS if name.startswith(".github/actions/")]
+
+
+def lines_of(project: str, *starts: str) -> list[str]:
+    """Those lines of a project file that must be the same in all."""
+    return [line for line in TEXTS[project].splitlines() if line.lstrip().startswith(starts)]
+
+
+def test_what_packages_have_in_common_is_the_same() -> None:
+    python = '"Programming Language :: Python ::'
+    common = ("requires", "build-backend", "license", "authors", python, '"Operating System ::')
+    first, *others = [lines_of(project, *common) for project in PROJECTS]
+    assert len(first) == 12
+    assert all(other == first for other in others)
+    assert {TEXTS[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")} == {
+        TEXTS["LICENSE"]
+    }
+
+
+def test_a_declared_python_is_a_tested_one() -> None:
+    declared = re.findall(r"Python :: (3\.\d+)", TEXTS["pyproject.toml"])
+    job = yaml.safe_load(TEXTS[".github/workflows/ci.yml"])["jobs"]["linux"]
+    assert job["strategy"]["matrix"]["python"] == declared
+    assert f'requires-python = ">={declared[0]}"' in TEXTS["pyproject.toml"]
+
+
+@pytest.mark.skipif(os.name == "nt" or BASH is None, reason="there is no bash here")
+def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path: Path) -> None:
+    elsewhere = tmp_path / "bin"
+    done = subprocess.run(
+        [str(BASH), str(ROOT / ".ci/bare"), "env"],
+        env={
+            **os.environ,
+            "BARE_HOME": str(tmp_path / "home"),
+            "PATH": f"{elsewhere}{os.pathsep}{os.environ['PATH']}",
+            "PYTHONPATH": str(elsewhere),
+            "PIP_CERT": "kept",
+        },
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
+    kept = dict(line.partition("=")[::2] for line in done.stdout.splitlines())
+    ways = re.compile(
+        r"PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$",
+        re.IGNORECASE,
+    )
+    names = {name for name in kept if not ways.match(name)} - {"_", "PWD", "SHLVL"}
+    assert names == {"HOME", "PATH", "LANG", "CI", "VERSIONS"}
+    assert kept["PIP_CERT"] == "kept"
+    assert kept["HOME"] == str(tmp_path / "home")
+    assert str(elsewhere) not in kept["PATH"].split(os.pathsep)
+
+
+@pytest.mark.parametrize("name", [*WORKFLOWS, *ACTIONS])
+def test_actions_are_our_own_or_pinned_to_a_commit(name: str) -> None:
+    read = yaml.safe_load(TEXTS[name])
+    jobs = [read["runs"]] if name in ACTIONS else read["jobs"].values()
+    used = [step["uses"] for job in jobs for step in job["steps"] if "uses" in step]
+    own = {f"./{action.rpartition('/')[0]}" for action in ACTIONS}
+    assert used
+    assert [
+        action
+        for action in used
+        if action not in own and not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", action)
+    ] == []
+
+
+def test_hooks_are_local() -> None:
+    hooks = yaml.safe_load(TEXTS[".pre-commit-config.yaml"])
+    assert [repository["repo"] for repository in hooks["repos"]] == ["local"]
+
+
+def test_every_command_of_make_is_explained() -> None:
+    phony = re.search(r"^\.PHONY: (.*)$", TEXTS["Makefile"], flags=re.MULTILINE)
+    assert phony is not None
+    explained = re.findall(r"^([a-z-]+):.*  ## \S", TEXTS["Makefile"], flags=re.MULTILINE)
+    assert sorted(explained) == sorted(phony[1].split())

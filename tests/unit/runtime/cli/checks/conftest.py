@@ -1,0 +1,30 @@
+"""What holds for tests that start boards, what shortens those in real time, and libraries."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo._cli.checks import silence
+
+from tests.contract.protocols.conftest import libraries
+from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
+from tests.timeouts import undoubted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["libraries", "no_board_refuses_anything", "pytest_runtest_makereport"]
+
+
+@pytest.fixture(autouse=True)
+def _no_reply_is_doubted() -> None:
+    """Have replies doubted here, other than by the verbs: the doctor tells of doubt."""
+
+
+@pytest.fixture
+def nothing_else_comes(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Shorten the waits for what a board may send besides its replies."""
+    monkeypatch.setattr(silence, "_LISTENING", 0.001)
+    with undoubted():
+        yield

@@ -1,0 +1,254 @@
+"""The doctor's results for each fault of the virtual board, in virtual time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo import ActionGroupStarted
+from busservo._cli.checks.checks import CHECKS
+from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
+from busservo_simulator import Faults
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.in_turn import in_turn
+from tests.lines.patient import LONGEST, board_with, diagnosis_of, examined
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from busservo_simulator import VirtualController
+
+
+@dataclass
+class Case:
+    """A fault, and the checks that do not pass, each with its state and text."""
+
+    faults: Faults = field(default_factory=Faults)
+    board: dict[str, Any] = field(default_factory=dict)
+    given: dict[str, Any] = field(default_factory=dict)
+    before: Callable[[VirtualController], object] = lambda _board: None
+    expected: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    garbage: bool = False
+
+
+NO_REPLY = {
+    "reply": (UNKNOWN, "there was no reply to look at", ""),
+    "round-trip": (UNKNOWN, "there was no reply to measure", ""),
+    "present": (UNKNOWN, "there is no reply to anything", ""),
+}
+NOTHING = NO_REPLY | {"look-alike": (UNKNOWN, "nothing came", "")}
+LOST = dict.fromkeys(
+    ("echo", "reply", "round-trip", "present", "look-alike"),
+    (UNKNOWN, "not looked at: see the check `rate`", ""),
+)
+
+CASES = {
+    "nothing": Case(),
+    "noise": Case(
+        Faults(noise=1.0),
+        expected={"reply": (FAILED, "of 11 questions 11 answered with noise around it", "grounds")},
+    ),
+    "some bits": Case(
+        Faults(bit_flips=0.03, seed=3),
+        expected={"reply": (FAILED, "answered by bytes that are no reply", "loose plugs")},
+    ),
+    "lost bytes": Case(
+        Faults(lost_bytes=0.02, seed=1),
+        expected={
+            "reply": (FAILED, "answered by bytes that are no reply", "loose plugs"),
+        },
+    ),
+    "pieces": Case(Faults(splits=1.0)),
+    "together": Case(Faults(coalesced=1.0)),
+    "a little late": Case(Faults(late=1.0, late_by=0.2)),
+    "late": Case(
+        Faults(late=1.0, late_by=0.6),
+        expected={"reply": (FAILED, "of 11 questions 11 answered too late", "--timeout 2")},
+    ),
+    "far too late": Case(
+        Faults(late=1.0, late_by=100.0),
+        expected=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
+    ),
+    "twice": Case(
+        Faults(duplicated=1.0),
+        expected={
+            "reply": (FAILED, "of 11 questions 11 answered more than once", "no other program")
+        },
+    ),
+    "never": Case(
+        Faults(dropped=1.0),
+        expected=NOTHING | {"rate": (FAILED, "nothing came at all", "TX goes to RX")},
+    ),
+    "sometimes": Case(
+        Faults(dropped=0.3, seed=6),
+        expected={"reply": (FAILED, "not answered", "retries=2 asks again")},
+    ),
+    "reports": Case(Faults(unsolicited=1.0)),
+    "hung up": Case(
+        Faults(hang_up=1.0), expected=LOST | {"rate": (FAILED, "virtual board: ", "run this again")}
+    ),
+    "noise to the board": Case(Faults(noise_to_board=1.0), garbage=True),
+    "pieces to the board": Case(Faults(splits_to_board=1.0)),
+    "no servo": Case(
+        board={"servos": []},
+        expected={"present": (FAILED, "servos that are there: none", "supply of the servos")},
+    ),
+    "all servos off": Case(
+        Faults(absent=1.0),
+        expected={"present": (FAILED, "none; reported absent: 6", "supply of the servos")},
+    ),
+    "some servos missing": Case(Faults(fewer=0.5, seed=1)),
+    "wrong counts": Case(
+        Faults(wrong_count=1.0),
+        expected={
+            "present": (FAILED, "servos 1 to 84 was not answered", "does not know this question")
+        },
+    ),
+    "echo": Case(
+        board={"local_echo": True},
+        expected={"echo": (FAILED, "came back 1 of 1 times: a local echo", "say --local-echo")},
+    ),
+    "echo that is known": Case(board={"local_echo": True}, given={"local_echo": True}),
+    "no echo, against expectation": Case(
+        given={"local_echo": True},
+        expected={"echo": (FAILED, "came back 0 of 1 times", "leave out --local-echo")},
+    ),
+    "echo alone": Case(
+        Faults(dropped=1.0),
+        board={"local_echo": True},
+        expected=NOTHING
+        | {
+            "rate": (FAILED, "which are the question itself", "TX goes to RX"),
+            "echo": (FAILED, "came back 2 of 2 times", "say --local-echo"),
+        },
+    ),
+    "as fast as can be": Case(
+        board={"baud": None},
+        expected={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
+    ),
+    "as fast as can be, but for a pause": Case(
+        Faults(delays=0.5, longest_delay=0.1),
+        board={"baud": None},
+        expected={"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")},
+    ),
+    "as fast as can be, and late": Case(
+        Faults(late=0.3, late_by=1.5, seed=3),
+        board={"baud": None},
+        expected={
+            "reply": (FAILED, "1 answered more than once, 1 answered too late", "--timeout 2"),
+            "round-trip": (FAILED, "before the line could have carried", "an earlier question"),
+        },
+    ),
+    "as fast as can be, and said to be": Case(board={"baud": None}, given={"baud": math.inf}),
+    "spurious output": Case(
+        before=lambda board: board.spurious_output(b"\x00\xf8", 20, ignore_input=False),
+        expected={
+            "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
+            "reply": (FAILED, "answered with noise around it", "grounds"),
+        },
+    ),
+    "spurious output and nothing else": Case(
+        before=lambda board: board.spurious_output(b"\x00\xf8", 20),
+        expected=NO_REPLY
+        | {
+            "silence": (FAILED, "bytes that are no frame came unsolicited", "see that the rate"),
+            "rate": (FAILED, "that are no reply", "at which rate the device is set"),
+            "look-alike": (UNKNOWN, "not recognised", "at which rate the device is set"),
+        },
+    ),
+    "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),
+    "the servos' own protocol": Case(
+        before=lambda board: board.send_bytes(bytes.fromhex("55 55 01 07 01 20 03 E8 03 E8")),
+        expected={
+            "silence": (FAILED, "10 bytes that are no frame", "see that the rate"),
+            "look-alike": (FAILED, "another protocol came: LX-16A", "look-alikes"),
+        },
+    ),
+    "another edition": Case(
+        before=lambda board: board.send_bytes(bytes.fromhex("55 55 03 63 01")),
+        expected={
+            "silence": (FAILED, "5 bytes that are no frame", "see that the rate"),
+            "look-alike": (FAILED, "a frame of command 99 came", "send a report in"),
+        },
+    ),
+    "another length": Case(
+        before=lambda board: board.send_bytes(bytes.fromhex("55 55 06 0F 4C 1D 00 00")),
+        expected={
+            "silence": (FAILED, "8 bytes that are no frame", "see that the rate"),
+            "look-alike": (
+                FAILED,
+                "BatteryVoltage came with 8 bytes, which none has",
+                "send a report in",
+            ),
+        },
+    ),
+}
+
+
+@in_turn("name", lambda: [name for name in CASES if not CASES[name].garbage])
+def test_each_fault_is_reported_by_the_checks_that_detect_it(name: str) -> None:
+    check_case(CASES[name])
+
+
+@pytest.mark.garbage
+@pytest.mark.parametrize("name", [name for name in CASES if CASES[name].garbage])
+def test_requests_refused_by_the_board_are_no_fault_of_the_return_line(name: str) -> None:
+    check_case(CASES[name])
+
+
+def check_case(case: Case) -> None:
+    with board_with(case.faults, **case.board) as board:
+        case.before(board)
+        found = examined(diagnosis_of(board, **case.given))
+        assert board.clock.now() < LONGEST
+    assert [*found] == [check.id for check in CHECKS]
+    states = {name: result.state for name, result in found.items()}
+    assert states == {
+        name: case.expected[name][0] if name in case.expected else PASSED for name in states
+    }, found
+    for name, (_, seen, advice) in case.expected.items():
+        assert seen in found[name].seen
+        assert advice in found[name].advice
+        assert found[name].advice or found[name].state == UNKNOWN
+
+
+CHANCES = st.sampled_from([0.0, 0.0, 0.05, 0.5, 1.0])
+
+
+@given(
+    faults=st.builds(
+        Faults,
+        seed=st.integers(0, 99),
+        noise=CHANCES,
+        bit_flips=st.sampled_from([0.0, 0.02]),
+        lost_bytes=st.sampled_from([0.0, 0.02]),
+        splits=CHANCES,
+        coalesced=CHANCES,
+        delays=CHANCES,
+        late=CHANCES,
+        duplicated=CHANCES,
+        dropped=CHANCES,
+        fewer=CHANCES,
+        absent=CHANCES,
+        wrong_count=CHANCES,
+        unsolicited=CHANCES,
+        hang_up=st.sampled_from([0.0, 0.0, 0.1]),
+        late_by=st.floats(0, 5),
+    ),
+    local_echo=st.booleans(),
+    baud=st.sampled_from([None, 9600.0]),
+)
+def test_whatever_goes_wrong_each_check_ends_in_time_and_says_what_to_do(
+    faults: Faults, local_echo: bool, baud: float | None
+) -> None:
+    with board_with(faults, local_echo=local_echo, baud=baud) as board:
+        found = examined(diagnosis_of(board))
+        assert board.clock.now() < LONGEST
+    assert [*found] == [check.id for check in CHECKS]
+    for result in found.values():
+        assert result.seen
+        assert result.advice or result.state != FAILED

@@ -1,0 +1,181 @@
+"""The verb `bench-line`: what it measures, and its output for questions without an answer."""
+
+from __future__ import annotations
+
+import json
+import re
+from types import SimpleNamespace
+
+import pytest
+from busservo import BatteryVoltage, Message, ServoPositions
+from busservo._cli import bench_line, main
+from busservo._client.client import Client
+from busservo_simulator import Faults, VirtualController
+
+from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import GENEROUS
+
+WORDS = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6")
+PATIENT = ("--timeout", str(GENEROUS))
+
+
+def test_round_trips_and_the_share_of_the_line_rate_are_reported(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", baud=9600) as board:
+        assert main(["bench-line", "--port", board.port, *WORDS, "-n", "5", *PATIENT]) == 0
+        port = board.port
+        assert (board.accepted, board.rejects.total) == (5, 0)
+    first, wire, trips, rate, errors = capsys.readouterr().out.splitlines()
+    assert first == f"ServoPositionsRead servo_ids=1,2,3,4,5,6 on {port}: 5 requests, 5 answered"
+    assert wire == "  the wire alone  35.42 ms: 11 bytes there and 23 back, at 9600 baud"
+    times = [float(each) for each in re.findall(r"([0-9.]+) ms", trips)]
+    assert times == sorted(times)
+    assert times[0] >= 35.42
+    share = re.fullmatch(r"  rate +[0-9.]+ a second, ([0-9.]+)% of what the line allows", rate)
+    assert share is not None
+    assert 0 < float(share[1]) <= 100
+    assert errors == "  errors          none"
+
+
+def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp") as board:
+        assert main(["bench-line", "--port", board.port, "-n", "3", "--json", *PATIENT]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["question"], found["requests"], found["answered"]) == ("BatteryVoltageRead", 3, 3)
+    assert (found["errors"], found["wire"], found["baud"]) == ({}, 0.010417, 9600)
+    assert 0 < found["min"] <= found["median"] <= found["max"]
+
+
+def test_a_line_that_takes_no_time_allows_any_rate(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["-n", "3", "--baud", "inf", *PATIENT]
+    with VirtualController("tcp") as board:
+        assert main(["bench-line", "--port", board.port, *words]) == 0
+        assert main(["bench-line", "--port", board.port, *words, "--json"]) == 0
+    _, wire, _, rate, _, record = capsys.readouterr().out.splitlines()
+    size = "4 bytes there and 6 back"
+    assert wire == f"  the wire alone  0.00 ms: {size}, on a line that takes no time"
+    assert re.fullmatch("  rate +[0-9.]+ a second", rate)
+    found = json.loads(record)
+    assert (found["baud"], found["wire"], found["share"]) == (None, 0.0, None)
+
+
+def test_replies_faster_than_the_line_rate_are_reported(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
+    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
+    output = capsys.readouterr().out
+    assert "it is faster than that rate, so try --baud inf" in output
+    assert "too soon        3 questions had a reply that no such wire can have carried" in output
+    assert "slips" not in output
+
+
+def test_a_duplicate_reply_is_counted_and_not_taken_for_speed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reply = BatteryVoltage(7500)
+    twice: list[tuple[float, bytes | Message]] = [(0.0105, reply), (0.0107, reply)]
+    answers = iter([twice])
+    line = VirtualLine(lambda _: next(answers, twice[:1]))
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
+    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
+    output = capsys.readouterr().out
+    assert "faster" not in output
+    assert "slips           1 reply to nothing, sent twice or too late: dropped" in output
+
+
+def test_errors_are_counted_by_kind(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    replies: list[list[tuple[float, bytes | Message]]] = [
+        [(0.0, ServoPositions([(1, 5), (2, 6)]))],
+        [],
+        [(0.0, ServoPositions([(2, 6)]))],
+        [(0.0, BatteryVoltage(7500))],
+        [(0.0, b"noise")],
+        [(0.0, ServoPositions([(1, 5), (2, 6)]))],
+    ]
+    line = VirtualLine(lambda _: replies.pop(0))
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "6"]
+    assert main(["bench-line", "--port", "COM7", *words]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].endswith(" on COM7: 6 requests, 3 answered")
+    assert lines[-2:] == [
+        "  errors          3 no reply, 1 incomplete reply",
+        (
+            "  without a reply 5 bytes came that are no frame: wrong baud rate?; "
+            "1 report came, so the device can be heard"
+        ),
+    ]
+
+
+def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["bench-line", "--port", board.port, *PATIENT]) == 3
+    output, errors = capsys.readouterr()
+    assert output.splitlines()[0].endswith(": 0 requests, 0 answered")
+    assert "the line was lost" in errors
+
+
+def test_without_a_reply_there_are_no_times(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--timeout", "0.02", "-n", "2"]
+    assert main(["bench-line", "--port", "loop://", *words]) == 1
+    assert capsys.readouterr().out.splitlines() == [
+        "BatteryVoltageRead on loop://: 2 requests, 0 answered",
+        "  errors          2 no reply",
+        "  without a reply 8 bytes came that are no frame: wrong baud rate?",
+    ]
+
+
+def test_silence_is_said_to_be_that(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line = VirtualLine(lambda _: [])
+    client = Client(line, background=False, clock=line.clock, settle=0)
+    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
+    assert main(["bench-line", "--port", "COM7", "-n", "2"]) == 1
+    assert "  without a reply nothing came at all: is the device" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["ServoMove", "time_ms=1", "targets=1:2"], "nothing answers ServoMove, so it cannot be"),
+        (["ActionGroupStarted"], "ActionGroupStarted is never sent from here"),
+        (["ServoPositionsRead"], "ServoPositionsRead needs servo_ids"),
+        (
+            ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(85)))}"],
+            "servo_ids: 85 items are requested at once, and a reply has room for 84",
+        ),
+        (["-n", "0"], "argument -n: 0 is below 1"),
+        (
+            ["--timeout", "4000"],
+            "argument --timeout: 4000 is not above 0 and up to 3600 seconds",
+        ),
+    ],
+)
+def test_what_cannot_be_measured_is_refused(
+    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
+) -> None:
+    assert main(["bench-line", "--port", "no-such-port", *words]) == 2
+    errors = capsys.readouterr().err
+    assert expected in errors
+    assert "no such port" not in errors
+
+
+def test_a_question_must_be_named_where_each_has_fields(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bench_line, "_usual", lambda: None)
+    assert main(["bench-line", "--port", "no-such-port"]) == 2
+    errors = capsys.readouterr().err
+    assert "name the question to measure" in errors
+    assert "questions are BatteryVoltageRead, ServoPositionsRead" in errors

@@ -1,0 +1,518 @@
+"""The verbs that need a line, against the virtual controller."""
+
+import argparse
+import ast
+import json
+import re
+import shlex
+import signal
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from busservo import ServoPositions, ServoPositionsRead
+from busservo._cli import link, main, send, simulate
+from busservo._cli.examples import EXAMPLES, VERBS
+from busservo._cli.method_verb import MethodVerb
+from busservo._cli.questions import in_parts
+from busservo._cli.verbs import verb_named
+from busservo._client import session
+from busservo._client.client import Client
+from busservo._serial.hid_devices import HidDevice
+from busservo._serial.link_errors import PortNotFoundError
+from busservo._serial.serial_port import SerialPortSeen
+from busservo_simulator import Faults, VirtualController
+from serial.tools.list_ports_common import ListPortInfo
+
+from tests.documents import ROOT
+from tests.in_turn import in_turn
+from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import GENEROUS
+
+PATIENT = ("--timeout", str(GENEROUS))
+
+
+def test_a_reply_is_printed_as_decode_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp") as board:
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
+    shown = "     0  controller  BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D\n"
+    assert capsys.readouterr().out == shown
+
+
+def test_a_reply_can_be_json(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["ServoPositionsRead", "servo_ids=1", "--json"]
+    with VirtualController("tcp") as board:
+        assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["fields"] == {"positions": [{"servo_id": 1, "position": 500}]}
+
+
+def test_a_command_arrives_and_prints_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    with VirtualController("tcp") as board:
+        assert main(["send", "--port", board.port, "ServoUnload", "servo_ids=1,2"]) == 0
+        # Its answer proves that the command before it has been taken in.
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
+        assert (board.servos[1].loaded, board.servos[3].loaded) == (False, True)
+        assert board.rejects.total == 0
+    assert "ServoUnload" not in capsys.readouterr().out
+
+
+def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", servos=[1, 3]) as board:
+        words = ["ServoPositionsRead", "servo_ids=1,2,3,9"]
+        assert main(["send", "--port", board.port, *words, *PATIENT]) == 1
+    output, errors = capsys.readouterr()
+    assert "ServoPositions positions=1:500,3:500" in output
+    assert errors == "the reply is incomplete: nothing of servo_ids 2, 9\n"
+
+
+def test_a_question_too_large_for_one_reply_is_sent_in_parts(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    servos = range(1, 201)
+    with VirtualController("tcp", servos=servos) as board:
+        ids = f"servo_ids={','.join(map(str, servos))}"
+        words = ["ServoPositionsRead", ids, "--json", "--baud", "inf"]
+        assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
+        assert board.accepted == 3
+    output, errors = capsys.readouterr()
+    parts = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
+    assert [len(each) for each in parts] == [84, 84, 32]
+    assert [each["servo_id"] for part in parts for each in part] == [*servos]
+    assert errors == "sent in 3 requests: one reply has no room for so much\n"
+
+
+def test_silence_after_a_part_keeps_what_had_come(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, ServoPositions([(1, 500)]))])
+    client = Client(line, background=False, clock=line.clock)
+    monkeypatch.setattr(send, "open_client", lambda *_, **__: client)
+    words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(1, 87)))}"]
+    assert main(["send", "--port", "COM7", *words]) == 1
+    output, errors = capsys.readouterr()
+    assert output.count("ServoPositions positions=1:500 |") == 1
+    first, incomplete, silent = errors.splitlines()
+    assert first == "sent in 2 requests: one reply has no room for so much"
+    assert incomplete.startswith("the reply is incomplete: nothing of servo_ids 2, 3, 4, ")
+    assert "no ServoPositions came within" in silent
+
+
+def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--retries", "2", "--timeout", "0.01"]
+    assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
+    assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
+
+
+# `stats` has no port: it is told the rate of a line that was recorded.
+@in_turn("name", lambda: sorted({*VERBS} - {"simulate", "stats"}))
+def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
+    verb = verb_named(name)
+    parser = argparse.ArgumentParser()
+    verb.add_arguments(parser)
+    options = parser.format_help()
+    assert ("--port" in options) == ("--baud" in options)
+
+
+@pytest.mark.parametrize("baud", ["19200", "inf"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["send", "BatteryVoltageRead"],
+        ["bench-line"],
+        ["monitor"],
+        ["replay", str(ROOT / "tests" / "captures" / "noisy_line.bin"), "--raw"],
+    ],
+)
+def test_the_rate_is_that_of_the_port(
+    monkeypatch: pytest.MonkeyPatch, words: list[str], baud: str
+) -> None:
+    opened: list[tuple[str, float]] = []
+
+    def refuse(port: str, *, baud: float) -> object:
+        opened.append((port, baud))
+        raise PortNotFoundError(port, "it is a test", "look elsewhere")
+
+    monkeypatch.setattr(link, "open_transport", refuse)
+    assert main([*words, "--port", "COM7", "--baud", baud]) == 2
+    assert opened == [("COM7", float(baud))]
+
+
+ADAPTER = SerialPortSeen("COM3", "1A86:7523", "USB Serial")
+# What is foreign stays in its line.
+OTHER = SerialPortSeen("/dev/cu.01", "10C4:EA60", "CP\n2102")
+BUILT_IN = SerialPortSeen("COM1", "", "")
+BOARD = HidDevice(0x0483, 0x5750, "1-1", "")
+
+# Which port is taken, by the words, the environment, the ports and the devices there are; or what
+# the error says.
+PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] = [
+    (["--port", "COM9"], "COM8", [ADAPTER], [], "COM9"),
+    ([], "COM8", [ADAPTER], [], "COM8"),
+    ([], "", [ADAPTER], [], "COM3"),
+    ([], "", [BUILT_IN, ADAPTER], [], "COM3"),
+    (
+        [],
+        "",
+        [BUILT_IN],
+        [],
+        (
+            "busservo: error: no port is plugged in by USB; if it is one of these, name it:\n"
+            "  --port COM1  not USB\n"
+            "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
+        ),
+    ),
+    ([], "", [BUILT_IN], [BOARD], "hid://"),
+    ([], "", [ADAPTER], [BOARD], "COM3"),
+    (
+        [],
+        "",
+        [BUILT_IN, ADAPTER, OTHER],
+        [],
+        (
+            "busservo: error: 2 ports are plugged in by USB; name the one that is meant:\n"
+            "  --port COM3        USB Serial\n"
+            "  --port /dev/cu.01  CP\\n2102\n"
+            "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
+        ),
+    ),
+    (
+        [],
+        "",
+        [],
+        [],
+        (
+            "busservo: error: no port is plugged in; plug in the device, or name a port: "
+            "--port PORT, BUSSERVO_PORT=PORT, or `port` in busservo.toml; `busservo doctor` looks "
+            "closer\n"
+        ),
+    ),
+]
+
+
+def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    taken: list[str] = []
+
+    def refuse(port: str, *, baud: float) -> object:
+        taken.append(port)
+        raise PortNotFoundError(port, f"it is a test at {baud}", "look elsewhere")
+
+    monkeypatch.setattr(link, "open_transport", refuse)
+    found = []
+    for words, variable, ports, devices, _ in PORTS:
+        monkeypatch.setenv("BUSSERVO_PORT", variable)
+        monkeypatch.setattr(link, "serial_ports", lambda ports=ports: ports)
+        monkeypatch.setattr(link, "hid_devices_at_hand", lambda devices=devices: devices)
+        assert main(["send", "ActionGroupStop", *words]) == 2
+        errors = capsys.readouterr().err
+        found.append(taken.pop() if taken else errors)
+    assert found == [expected for *_, expected in PORTS]
+
+
+@pytest.mark.parametrize("echoes", [True, False])
+def test_a_local_echo_is_expected_where_it_was_said(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *, echoes: bool
+) -> None:
+    monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
+    words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
+    with VirtualController("tcp", local_echo=echoes) as board:
+        status = main(["send", "--port", board.port, *words, *PATIENT])
+    output, errors = capsys.readouterr()
+    assert (status, "7500 mV" in output) == ((0, True) if echoes else (2, False))
+    assert ("leave out local_echo" in errors) == (not echoes)
+
+
+def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["BatteryVoltageRead", "--timeout", "0.01"]
+    assert main(["send", "--port", "loop://", *words]) == 1
+    assert "no BatteryVoltage came" in capsys.readouterr().err
+
+
+@in_turn(
+    "words, expected",
+    lambda: [
+        (["send", "--port", "no-such-port", "ActionGroupStop"], "there is no such port"),
+        (["send", "--port", "gopher://x", "ActionGroupStop"], "that begins with gopher://"),
+        (["send", "--port", "loop://", "ActionGroupStopped"], "is never sent from here"),
+        (["send", "--port", "loop://", "ServoMov"], "did you mean ServoMove?"),
+        (["send", "--port", "loop://", "ServoMove", "time_ms=1"], "ServoMove needs targets"),
+        (
+            ["send", "--port", "loop://", "ServoPositionsRead", f"servo_ids={100 * '1,'}300"],
+            "servo_ids[100]: 300 is outside 0..255",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "-1"],
+            "argument --retries: -1 is below 0, the least there can be",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "0"],
+            "argument --timeout: 0 is not above 0 and up to 3600 seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "inf"],
+            "argument --timeout: inf is not above 0 and up to 3600 seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "nan"],
+            "argument --timeout: 'nan' is no number of seconds: write it like 12 or 0.5",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "soon"],
+            "argument --timeout: 'soon' is no number of seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "1_0"],
+            "argument --timeout: '1_0' is no number of seconds",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "٣"],
+            "argument --retries: '٣' is no whole number",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", "0"],
+            "argument --baud: 0 is below 1",
+        ),
+        (
+            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", str(2**31)],
+            "baud is 2147483648, and must be from 1 to 2147483647",
+        ),
+    ],
+)
+def test_unusable_arguments_are_refused_in_one_line(
+    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
+) -> None:
+    assert main(words) == 2
+    errors = capsys.readouterr().err
+    assert expected in errors
+    assert "Traceback" not in errors
+
+
+def test_ports_lists_or_says_that_there_are_none(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["ports"]) == 0
+    output, errors = capsys.readouterr()
+    assert output or errors.startswith("no serial port is plugged in\n")
+
+
+def test_boards_without_a_serial_port_are_listed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    one = HidDevice(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: [one])
+    assert main(["ports"]) == 0
+    output, errors = capsys.readouterr()
+    about = "USB HID, no serial port (not seen on hardware yet)"
+    assert output == f"hid://0483:5750   0483:5750  LOBOT, {about}\n"
+    assert errors == "no serial port is plugged in\n"
+    # Of two of a kind, each has an address of its own.
+    other = one._replace(path="/dev/hidraw2", product="")
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: [one, other])
+    assert main(["ports", "--json"]) == 0
+    assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
+        {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {about}"},
+        {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": about},
+    ]
+
+
+def test_where_nobody_can_list_such_boards_it_says_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: None)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr().err.splitlines() == [
+        "no serial port is plugged in",
+        (
+            "USB HID devices (0483:5750) have no serial port, and are not listed without "
+            "hidapi: pip install hidapi"
+        ),
+    ]
+
+
+def test_ports_are_listed_with_their_usb_descriptions(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    board = ListPortInfo("/dev/ttyUSB0")
+    board.vid, board.pid, board.description = 0x1A86, 0x7523, "USB Serial"
+    found = [board, ListPortInfo("/dev/ttyS0")]
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "/dev/ttyS0        -",
+        "/dev/ttyUSB0      1A86:7523  USB Serial",
+    ]
+    assert main(["ports", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out.splitlines()[1]) == {
+        "port": "/dev/ttyUSB0",
+        "usb": "1A86:7523",
+        "description": "USB Serial",
+    }
+
+
+def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 3
+        errors = capsys.readouterr().err
+        assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
+        assert errors.endswith("; check the cable and the power, then run this again\n")
+
+
+def test_simulate_runs_the_simulator(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["simulate", "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith("usage: busservo simulate ")
+    assert "busservo simulate --tcp 4000" in shown
+    assert "busservo-simulator" not in shown
+
+
+def test_simulate_says_what_is_missing(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("busservo_simulator", "busservo_simulator.cli"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setattr(sys, "path", [])
+    monkeypatch.setattr(sys, "meta_path", [])
+    monkeypatch.setitem(sys.modules, "busservo_simulator", None)
+    assert main(["simulate"]) == 2
+    assert "is not installed here" in capsys.readouterr().err
+
+
+FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["decode", "55"],
+        ["encode", "ActionGroupStop"],
+        ["answer"],
+        ["--help"],
+        ["decode", "--help"],
+    ],
+)
+def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> None:
+    assert imported(words, "serial", "threading", "shtab") == []
+
+
+@in_turn(
+    "words",
+    lambda: [
+        ["monitor", "--help"],
+        ["send", "--help"],
+        ["bench-line", "--help"],
+        ["replay", "--help"],
+        ["doctor", "--help"],
+        ["ports", "--help"],
+        ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
+        ["send", "--port", "COM7", "ServoMov"],
+        ["--version"],
+    ],
+)
+def test_pyserial_is_imported_only_to_open_a_port(words: list[str]) -> None:
+    assert imported(words, "serial", "shtab") == []
+
+
+def imported(words: list[str], *names: str) -> list[str]:
+    """Return which of these modules running the command imports."""
+    program = (
+        "import sys; from busservo._cli import main; "
+        f"main({words!r}); print(sorted(set({names!r}) & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found: list[str] = ast.literal_eval(done.stdout.splitlines()[-1])
+    return found
+
+
+@in_turn("verb", lambda: sorted(set(VERBS) - {"simulate"}))
+def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
+    capsys: pytest.CaptureFixture[str], verb: str
+) -> None:
+    assert main([verb, "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert "\nexamples:\n  busservo " in shown
+    assert all(example in shown for example, _ in EXAMPLES[verb])
+    ends = re.findall(r"^  ([0-9]+) +[a-z]", shown.partition("\nexit status:\n")[2], re.MULTILINE)
+    assert [int(end) for end in ends] == sorted({0, 2, 130, 141, *map(int, ends)})
+    assert ("3" in ends) == ("--port" in shown)
+
+
+@in_turn(
+    "line",
+    lambda: [line for verb in EXAMPLES for line, _ in EXAMPLES[verb] if "--help" not in line],
+)
+def test_an_example_is_a_command_line(line: str) -> None:
+    _, name, *words = shlex.split(line)
+    verb = verb_named(name)
+    if name == "simulate":
+        assert words == []
+        return
+    parser = argparse.ArgumentParser(exit_on_error=False)
+    verb.add_arguments(parser)
+    given = parser.parse_intermixed_args(words)
+    if "message" in given:
+        assert given.message is None or in_parts(given.message, given.fields)[0].encode()
+    if isinstance(verb, MethodVerb):
+        assert all(each.encode() for each in verb.messages(given))
+
+
+def test_no_port_is_said_where_nothing_is_plugged_in(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", list)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", list)
+    assert main(["ports"]) == 0
+    assert capsys.readouterr() == ("", "no serial port is plugged in\n")
+
+
+def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As for a protocol whose question has more fields than its list."""
+    monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
+    assert main(["send", "--port", "loop://", "ServoPositionsRead"]) == 2
+    problem = "85 items are requested at once, and a reply has room for 84\n"
+    assert capsys.readouterr().err.endswith(problem)
+
+
+def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(send, "open_client", interrupted)
+    assert main(["send", "--port", "loop://", "ActionGroupStop"]) == 130
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_verb_can_be_run_from_any_thread() -> None:
+    """Signal are for the main thread alone, and SIGTERM is then left as it is."""
+    before = signal.getsignal(signal.SIGTERM)
+    with VirtualController("tcp") as board, ThreadPoolExecutor(1) as pool:
+        done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead", *PATIENT])
+        assert done.result(GENEROUS) == 0
+        assert board.accepted == 1
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for module in ("cli", "command"):
+        monkeypatch.delitem(sys.modules, f"busservo_simulator.{module}", raising=False)
+    monkeypatch.setitem(sys.modules, "signal", None)
+    with pytest.raises(ModuleNotFoundError, match="signal"):
+        simulate.hand_over([])

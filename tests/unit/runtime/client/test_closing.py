@@ -1,0 +1,1027 @@
+"""The end of a line: closed, lost, given up, forgotten; and its return."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor, wait
+from typing import TYPE_CHECKING, Any, Literal
+
+import pytest
+from busservo import (
+    ActionGroupStopped,
+    AsyncController,
+    ClosedError,
+    Controller,
+    DisconnectedError,
+    PortNotFoundError,
+    ServoUnload,
+    TransportError,
+    open_async_controller,
+    open_transport,
+)
+from busservo._client.async_opening import Opening
+from busservo_simulator import VirtualController
+
+from tests.lines.live_line import LiveLine, answered
+from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import GENEROUS, LIVE, await_that
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from busservo import Message
+
+
+def own_threads() -> list[str]:
+    return [each.name for each in threading.enumerate() if each.name.startswith("busservo on")]
+
+
+@pytest.fixture(autouse=True)
+def no_thread_is_of_another_test() -> Iterator[None]:
+    """Wait for threads of other tests: closing may not wait long enough on a busy machine."""
+    await_that(lambda: not own_threads())
+    yield
+    await_that(lambda: not own_threads())
+
+
+def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in ("client", "thread_client", "async_client", "line_threads"):
+        monkeypatch.setattr(f"busservo._client.{module}.DRAIN_TIMEOUT", 0.02)
+
+
+class Refusing(LiveLine):
+    """A line that takes no bytes."""
+
+    def write(self, _data: bytes) -> None:
+        raise DisconnectedError(self.name, "it takes no bytes", "plug it in again")
+
+
+class Unplugged(LiveLine):
+    """A line that comes back at the third attempt, and counts how often it was opened."""
+
+    attempts = 0
+
+    def reopen(self) -> LiveLine:
+        self.attempts += 1
+        if self.attempts < 3:
+            raise PortNotFoundError(self.name, "there is no such port", "plug it in")
+        return LiveLine()
+
+
+# -------------------------------------------------------------------- closed by several
+
+
+class SlowToClose(LiveLine):
+    """A line that is drained when the test allows it, and calls `meanwhile` before it waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.draining, self.go_on = threading.Event(), threading.Event()
+        self.meanwhile: Callable[[], object] = self.draining.set
+
+    def drain(self, _timeout: float) -> None:
+        self.meanwhile()
+        self.draining.set()
+        assert self.go_on.wait(GENEROUS)
+
+
+def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
+    line = SlowToClose()
+    with ThreadPoolExecutor() as pool:
+        controller = Controller(line)
+        first = pool.submit(controller.close)
+        assert line.draining.wait(GENEROUS)
+
+        def close_too() -> bool:
+            controller.close()
+            return line.closed
+
+        others = [pool.submit(close_too) for _ in range(3)]
+        done, _ = wait(others, timeout=0.05)
+        assert not done, "the line is not closed yet"
+        line.go_on.set()
+        assert [each.result(GENEROUS) for each in others] == [True] * 3
+        first.result(GENEROUS)
+
+
+def test_closing_while_closing_does_not_wait_for_itself() -> None:
+    """As a handler of signals may, which runs in the middle of anything."""
+    line = SlowToClose()
+    controller = Controller(line)
+    line.meanwhile = controller.close
+    line.go_on.set()
+    controller.close()
+    assert line.closed
+
+
+class Interrupted(LiveLine):
+    """A line whose writer is interrupted by a call of `meanwhile`, as by a signal handler."""
+
+    meanwhile: Callable[[], object]
+
+    def write(self, data: bytes) -> None:
+        self.meanwhile()
+        super().write(data)
+
+
+def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    close_in_a_hurry(monkeypatch)
+    line = Interrupted()
+    controller = Controller(line)
+    line.meanwhile = controller.close
+
+    def send() -> None:
+        with pytest.raises(ClosedError):
+            controller.stop_action_group()
+
+    # Not in a pool, which would wait for a thread that never ends.
+    sending = threading.Thread(target=send, daemon=True)
+    sending.start()
+    sending.join(GENEROUS)
+    assert not sending.is_alive()
+    assert line.closed
+
+
+def test_a_callback_may_close_while_another_thread_does() -> None:
+    line = SlowToClose()
+    notified, closed = threading.Event(), threading.Event()
+
+    def close_too(_report: Message) -> None:
+        notified.set()
+        assert line.draining.wait(GENEROUS)
+        controller.close()
+        closed.set()
+
+    with ThreadPoolExecutor() as pool:
+        controller = Controller(line)
+        controller.on_report(close_too)
+        line.say(ActionGroupStopped())
+        assert notified.wait(GENEROUS)
+        closing = pool.submit(controller.close)
+        assert line.draining.wait(GENEROUS)
+        assert closed.wait(GENEROUS), "it waits for nobody who may be waiting for it"
+        line.go_on.set()
+        closing.result(GENEROUS)
+
+
+def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
+    opening: Any = open_async_controller("/dev/nothing")
+    for name in ("on_report", "read_battery_voltage", "counters"):
+        with pytest.raises(
+            AttributeError, match=f"not open yet, and has no '{name}': .*async with"
+        ):
+            getattr(opening, name)
+    assert not hasattr(opening, "reports")
+    with pytest.raises(TypeError, match=r"not open yet: .*`async with`, or await it$"), opening:
+        pass
+
+
+# -------------------------------------------------------------------- forgotten
+
+
+def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: Path) -> None:
+    line, trace = LiveLine(), tmp_path / "line.log"
+    controller = Controller(line, **LIVE, trace=trace)
+    assert controller.read_battery_voltage() == 7500
+    assert len(own_threads()) == 1
+    # The thread that drops the last reference gets the warning, which need not be this one.
+    warned: list[str] = []
+    controller.__class__ = type("Watched", (Controller,), {"__del__": _watched(warned)})
+    del controller
+    await_that(lambda: line.closed)
+    await_that(lambda: not own_threads())
+    assert warned == ["live line was never closed: use the client in a `with`, or call close()"]
+    assert trace.read_text().count("\n") == 3
+
+
+def _watched(warned: list[str]) -> Callable[[Controller], None]:
+    def forget(controller: Controller) -> None:
+        def warn(text: str, kind: type[Warning], source: object) -> None:
+            assert kind is ResourceWarning
+            assert source is controller
+            warned.append(text)
+
+        Controller.__del__(controller, warn)
+
+    return forget
+
+
+def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_back() -> None:
+    line = LiveLine()
+    warned: list[str] = []
+
+    class Watched(AsyncController):
+        def __del__(self) -> None:  # type: ignore[override]
+            super().__del__(lambda text, *_, **__: warned.append(text))
+
+    async def work() -> None:
+        controller = Watched(line, **LIVE)
+        assert await controller.read_battery_voltage() == 7500
+        assert len(own_threads()) == 2
+
+    asyncio.run(work())
+    gc.collect()
+    await_that(lambda: line.closed)
+    await_that(lambda: not own_threads())
+    assert len(warned) == 1
+
+
+class ReadsOn(LiveLine):
+    """A line whose reads find nothing once it is closed, rather than say so."""
+
+    def read(self, timeout: float) -> bytes:
+        try:
+            return super().read(timeout)
+        except ClosedError:
+            time.sleep(min(timeout, 0.001))
+            return b""
+
+
+@pytest.mark.parametrize("line", [LiveLine, ReadsOn])
+def test_no_thread_reads_on_where_a_client_for_asyncio_is_closed(line: type[LiveLine]) -> None:
+    async def work() -> AsyncController:
+        async with AsyncController(line(), **LIVE) as controller:
+            assert await controller.read_battery_voltage() == 7500
+        return controller
+
+    controller = asyncio.run(work())
+    await_that(lambda: not own_threads())
+    assert controller.closed
+
+
+def test_the_warning_is_a_resource_warning() -> None:
+    controller = Controller(VirtualLine(), background=False)
+    with pytest.warns(ResourceWarning, match=r"virtual line was never closed: use .* a `with`"):
+        controller.__del__()
+    controller = Controller(VirtualLine(), background=False)
+    controller.close()
+    controller.__del__()  # and says nothing
+
+
+def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
+    for kind in (Controller, AsyncController):
+        with pytest.raises(ValueError, match="reply_timeout"):
+            kind(VirtualLine(), reply_timeout=0)
+    gc.collect()
+
+
+def test_no_thread_is_left_behind() -> None:
+    for _ in range(10):
+        with Controller(LiveLine(), **LIVE) as controller:
+            controller.read_battery_voltage()
+    await_that(lambda: not own_threads())
+
+
+# -------------------------------------------------------------------- a write that fails
+
+
+def test_a_command_that_the_port_does_not_take_fails_at_once() -> None:
+    with (
+        Controller(Refusing(), background=False) as controller,
+        pytest.raises(DisconnectedError, match="takes no bytes"),
+    ):
+        controller.stop_action_group()
+
+
+def test_a_command_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
+    async def work() -> None:
+        async with AsyncController(Refusing()) as controller:
+            with pytest.raises(DisconnectedError, match="takes no bytes"):
+                await asyncio.wait_for(controller.stop_action_group(), GENEROUS)
+
+    asyncio.run(work())
+
+
+def test_a_question_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
+    async def work() -> None:
+        async with AsyncController(Refusing(), **LIVE) as controller:
+            began = time.monotonic()
+            with pytest.raises(DisconnectedError, match="takes no bytes"):
+                await controller.read_battery_voltage()
+            assert time.monotonic() - began < GENEROUS / 2
+
+    asyncio.run(work())
+
+
+def test_a_command_counts_as_sent_only_when_the_port_has_taken_it() -> None:
+    taken = threading.Event()
+
+    class Slow(LiveLine):
+        def write(self, data: bytes) -> None:
+            time.sleep(0.05)
+            super().write(data)
+            taken.set()
+
+    async def work() -> None:
+        async with AsyncController(Slow()) as controller:
+            await controller.stop_action_group()
+            assert taken.is_set()
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- a transport of one's own
+
+
+class Broken(LiveLine):
+    """A transport with a bug."""
+
+    def read(self, timeout: float) -> bytes:
+        raise KeyError(timeout)
+
+
+def test_a_transport_with_a_bug_ends_in_an_error_that_says_so() -> None:
+    with Controller(Broken(), **LIVE) as controller:
+        for _ in range(3):
+            with pytest.raises(TransportError, match=r"failed .*KeyError.*; mend the transport"):
+                controller.read_battery_voltage()
+
+
+def test_what_a_transport_says_of_being_closed_is_no_bug(caplog: pytest.LogCaptureFixture) -> None:
+    class Touchy(LiveLine):
+        def read(self, timeout: float) -> bytes:
+            try:
+                return super().read(timeout)
+            except ClosedError:
+                raise ValueError("file descriptor cannot be a negative integer (-1)") from None
+
+    for _ in range(3):
+        with Controller(Touchy(), **LIVE) as controller:
+            assert controller.read_battery_voltage() == 7500
+    assert caplog.records == []
+
+
+# -------------------------------------------------------------------- closed
+
+
+def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
+    class Interrupted(VirtualLine):
+        def read(self, _timeout: float) -> bytes:
+            raise KeyboardInterrupt
+
+    line = Interrupted()
+    controller = Controller(line, background=False, clock=line.clock)
+    controller.move_servos([(servo, 500) for servo in range(60)], 100)
+    with pytest.raises(KeyboardInterrupt):
+        controller.close()
+    assert line.closed
+    with pytest.raises(ClosedError):
+        controller.stop_action_group()
+
+
+def test_close_that_is_cancelled_is_done_all_the_same() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        # The frame is on its way for longer than any machine pauses.
+        controller = AsyncController(line, baud=60)
+        await controller.move_servos([(servo, 500) for servo in range(80)], 100)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(controller.close(), 0.02)
+
+    # The loop ends while the frame is still on its way.
+    asyncio.run(work())
+    assert line.closed
+    await_that(lambda: not own_threads())
+
+
+def test_closing_from_within_a_callback_ends_all_the_same() -> None:
+    line = LiveLine()
+    controller = Controller(line)
+    controller.on_report(lambda _: controller.close())
+    line.say(ActionGroupStopped())
+    await_that(lambda: line.closed)
+    await_that(lambda: not own_threads())
+
+
+def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
+    class Once(VirtualLine):
+        interrupted = False
+
+        def read(self, timeout: float) -> bytes:
+            if not self.interrupted:
+                self.interrupted = True
+                raise KeyboardInterrupt
+            return super().read(timeout)
+
+    line = Once(lambda message: [(0.1, each) for each in answered(message)])
+    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
+        with pytest.raises(KeyboardInterrupt):
+            controller.read_battery_voltage()
+        assert controller.read_servo_positions([1]) == ((1, 10),)
+        assert controller.read_battery_voltage() == 7500
+        # The reply to the first came late, and was not taken for another's.
+        assert controller.counters.unsolicited == 1
+
+
+def test_ctrl_c_as_the_line_is_given_to_others_leaves_it_usable() -> None:
+    class Interrupting:
+        """The lock of a client; Ctrl-C comes as soon as it has been released to read."""
+
+        def __init__(self, lock: Any) -> None:
+            self._lock = lock
+            self.acquire = lock.acquire
+
+        def __enter__(self) -> object:
+            return self._lock.__enter__()
+
+        def __exit__(self, *error: object) -> None:
+            self._lock.__exit__(*error)
+
+        def release(self) -> None:
+            self._lock.release()
+            raise KeyboardInterrupt
+
+    line = VirtualLine(lambda message: [(0.1, each) for each in answered(message)])
+    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
+        whole = controller._lock
+        controller._lock = Interrupting(whole)  # type: ignore[assignment]
+        try:
+            with pytest.raises(KeyboardInterrupt):
+                controller.read_battery_voltage()
+        finally:
+            controller._lock = whole
+        with ThreadPoolExecutor() as pool:
+            # Also from another thread, which it would keep waiting.
+            assert pool.submit(controller.read_battery_voltage).result(GENEROUS) == 7500
+
+
+def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> None:
+    line = VirtualLine()
+    # Each look at the clock may be the one before which the machine pauses.
+    pauses = iter([0.0, 60.0])
+
+    def clock() -> float:
+        line.now += next(pauses, 0.0) if closing else 0.0
+        return line.clock()
+
+    closing = False
+    controller = Controller(line, background=False, clock=clock)
+    controller.move_servos([(servo, 500) for servo in range(60)], 100)
+    controller.send_latest(ServoUnload([7]))
+    assert len(line.received) == 1
+    closing = True
+    controller.close()
+    assert line.received[-1] == ServoUnload([7])
+
+
+@pytest.mark.parametrize("via", ["memory", "tcp"])
+def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> None:
+    with VirtualController(via, baud=9600) as board:
+        transport = board.transport if via == "memory" else open_transport(board.port)
+        began = time.monotonic()
+        with Controller(transport) as controller:
+            controller.unload_servos(range(1, 101))
+        assert time.monotonic() - began >= 105 / 960
+        await_that(lambda: board.accepted == 1)
+        assert board.rejects.total == 0
+
+
+# -------------------------------------------------------------------- opened again
+
+
+def test_a_line_that_does_not_come_back_says_why_until_it_does() -> None:
+    line = Unplugged()
+    with Controller(line, **LIVE) as controller:
+        line.unplug()
+        for _ in range(2):
+            with pytest.raises(PortNotFoundError, match="plug it in"):
+                controller.reconnect()
+            with pytest.raises(PortNotFoundError, match="plug it in"):
+                controller.read_battery_voltage()
+        controller.reconnect()
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_a_line_that_does_not_come_back_says_why_until_it_does_with_asyncio() -> None:
+    line = Unplugged()
+
+    async def work() -> None:
+        async with AsyncController(line, **LIVE) as controller:
+            line.unplug()
+            for _ in range(2):
+                with pytest.raises(PortNotFoundError, match="plug it in"):
+                    await controller.reconnect()
+                with pytest.raises(PortNotFoundError, match="plug it in"):
+                    await controller.read_battery_voltage()
+            await controller.reconnect()
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+
+
+class Counted(LiveLine):
+    """A line that takes a moment to open, and counts how many are and were open."""
+
+    open = made = 0
+
+    def __init__(self) -> None:
+        super().__init__()
+        Counted.open += 1
+        Counted.made += 1
+
+    def close(self) -> None:
+        if not self.closed:
+            Counted.open -= 1
+        super().close()
+
+    def reopen(self) -> LiveLine:
+        assert Counted.open == 0, "the port was opened twice"
+        time.sleep(0.05)
+        return Counted()
+
+
+class Held(Counted):
+    """A line that is reopened only when the test allows it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.begun, self.go_on = threading.Event(), threading.Event()
+
+    def reopen(self) -> LiveLine:
+        self.begun.set()
+        assert self.go_on.wait(GENEROUS)
+        return super().reopen()
+
+
+def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
+    Counted.open = 0
+    line = Counted()
+    with Controller(line, **LIVE) as controller, ThreadPoolExecutor(8) as pool:
+        line.unplug()
+        list(pool.map(lambda _: controller.reconnect(), range(8)))
+        assert controller.read_battery_voltage() == 7500
+        assert Counted.open == 1
+        await_that(lambda: len(own_threads()) == 1)
+    assert Counted.open == 0
+
+
+def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
+    Counted.open = 0
+    line = Counted()
+
+    async def work() -> None:
+        async with AsyncController(line, **LIVE) as controller:
+            line.unplug()
+            await asyncio.gather(*(controller.reconnect() for _ in range(20)))
+            assert await controller.read_battery_voltage() == 7500
+            assert Counted.open == 1
+            await_that(lambda: len(own_threads()) == 2)
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then() -> None:
+    Counted.open = 0
+    line = Held()
+    controller = Controller(line)
+    with ThreadPoolExecutor(2) as pool:
+        again = pool.submit(controller.reconnect)
+        assert line.begun.wait(GENEROUS)
+        closing = pool.submit(controller.close)
+        done, _ = wait([closing], timeout=0.05)
+        line.go_on.set()
+        assert not done, "the port may be open"
+        closing.result(GENEROUS)
+        assert Counted.open == 0
+        with pytest.raises(ClosedError):
+            again.result(GENEROUS)
+    assert Counted.open == 0
+
+
+def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    close_in_a_hurry(monkeypatch)
+    Counted.open = 0
+    line = Held()
+    controller = Controller(line)
+    with ThreadPoolExecutor(1) as pool:
+        again = pool.submit(controller.reconnect)
+        assert line.begun.wait(GENEROUS)
+        controller.close()
+        assert not again.done()
+        line.go_on.set()
+        with pytest.raises(ClosedError):
+            again.result(GENEROUS)
+    assert Counted.open == 0
+
+
+def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
+    Counted.open = Counted.made = 0
+    line = Held()
+
+    async def work() -> None:
+        async with AsyncController(line, **LIVE) as controller:
+            again = asyncio.ensure_future(controller.reconnect())
+            while not line.begun.is_set():
+                await asyncio.sleep(0.001)
+            again.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await again
+            line.go_on.set()
+            while Counted.made < 2 or Counted.open:
+                await asyncio.sleep(0.001)
+            await controller.reconnect()
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_reconnecting_from_within_a_callback() -> None:
+    line = LiveLine()
+    done = threading.Event()
+    with Controller(line, **LIVE) as controller:
+
+        def again(_: object) -> None:
+            controller.reconnect()
+            done.set()
+
+        controller.on_report(again)
+        line.say(ActionGroupStopped())
+        assert done.wait(GENEROUS)
+        assert controller.read_battery_voltage() == 7500
+        await_that(lambda: len(own_threads()) == 1)
+
+
+def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then_with_asyncio() -> None:
+    Counted.open = 0
+    line = Held()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        await controller.stop_action_group()
+        again = asyncio.ensure_future(controller.reconnect())
+        while not line.begun.is_set():
+            await asyncio.sleep(0.001)
+        closing = asyncio.ensure_future(controller.close())
+        done, _ = await asyncio.wait([closing], timeout=0.05)
+        line.go_on.set()
+        assert not done, "the port may be open"
+        await closing
+        assert Counted.open == 0
+        with pytest.raises(ClosedError):
+            await again
+        with pytest.raises(ClosedError):
+            await controller.reconnect()
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_asyncio(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    close_in_a_hurry(monkeypatch)
+    Counted.open = 0
+    line = Held()
+
+    async def work() -> None:
+        controller = AsyncController(line)
+        await controller.stop_action_group()
+        again = asyncio.ensure_future(controller.reconnect())
+        while not line.begun.is_set():
+            await asyncio.sleep(0.001)
+        await controller.close()
+        assert not again.done()
+        line.go_on.set()
+        with pytest.raises(ClosedError):
+            await again
+
+    asyncio.run(work())
+    assert Counted.open == 0
+
+
+def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    class Gone(LiveLine):
+        def reopen(self) -> LiveLine:
+            begun.set()
+            assert go_on.wait(GENEROUS)
+            raise PortNotFoundError(self.name, "there is no such port", "plug it in")
+
+    async def work() -> None:
+        errors: list[object] = []
+        asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
+        async with AsyncController(Gone()) as controller:
+            again = asyncio.ensure_future(controller.reconnect())
+            while not begun.is_set():
+                await asyncio.sleep(0.001)
+            again.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await again
+            go_on.set()
+            await asyncio.sleep(0.01)
+        assert errors == []
+
+    asyncio.run(work())
+
+
+class Stuck(LiveLine):
+    """A line whose reads end not when it is closed, but when the test allows it, by an error."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.let_go = threading.Event()
+        self.ended = threading.Event()
+
+    def read(self, _timeout: float) -> bytes:
+        assert self.let_go.wait(GENEROUS)
+        self.ended.set()
+        raise DisconnectedError(self.name, "the line was lost", "plug it in again")
+
+    def reopen(self) -> LiveLine:
+        return LiveLine()
+
+
+def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    close_in_a_hurry(monkeypatch)
+    line = Stuck()
+    with Controller(line, **LIVE) as controller:
+        controller.reconnect()
+        line.let_go.set()
+        await_that(lambda: len(own_threads()) == 1)
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    close_in_a_hurry(monkeypatch)
+    line = Stuck()
+
+    async def work() -> None:
+        async with AsyncController(line, **LIVE) as controller:
+            await controller.reconnect()
+            line.let_go.set()
+            await_that(lambda: len(own_threads()) == 2)
+            assert await controller.read_battery_voltage() == 7500
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- a driver that gives trouble
+
+
+class Troublesome(LiveLine):
+    """A line that can be used, but neither drained nor closed without an error."""
+
+    def drain(self, _timeout: float) -> None:
+        raise OSError("no status")
+
+    def close(self) -> None:
+        super().close()
+        raise OSError("it is gone")
+
+
+def test_what_cannot_be_drained_is_closed_all_the_same(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("DEBUG", "busservo")
+    lines = [Troublesome(), Troublesome()]
+    with Controller(lines[0]) as controller:
+        controller.stop_action_group()
+
+    async def work() -> None:
+        async with AsyncController(lines[1]) as controller:
+            await controller.stop_action_group()
+
+    asyncio.run(work())
+    assert all(line.closed and len(line.received) == 1 for line in lines)
+    assert caplog.text.count("live line could not be drained") == 2
+    assert caplog.text.count("live line could not be closed") == 2
+    await_that(lambda: not own_threads())
+
+
+def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing() -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        # On the wire, both take more than twice as long as anybody waits here.
+        controller = AsyncController(line, baud=40)
+        controller.send_latest(ServoUnload(range(250)))
+        controller.send_latest(ServoUnload(range(240)))
+        await_that(lambda: len(line.received) == 1)
+        closing = asyncio.ensure_future(controller.close())
+        await asyncio.sleep(0)
+        line.unplug()
+        await asyncio.wait_for(closing, GENEROUS)
+        assert repr(controller) == "<AsyncController on live line, closed>"
+
+    asyncio.run(work())
+    assert line.received == [ServoUnload(range(250))]
+    await_that(lambda: not own_threads())
+
+
+def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent() -> None:
+    line = LiveLine()
+    now = time.monotonic()
+
+    async def work() -> None:
+        nonlocal now
+        async with AsyncController(line, clock=lambda: now) as controller:
+            assert repr(controller) == "<AsyncController on live line, open>"
+            await controller.unload_servos(range(100))
+            pending = asyncio.ensure_future(controller.stop_action_group())
+            await asyncio.sleep(0)
+            # The loop stands still until it is the turn of the second command. When it goes on, the
+            # line is lost, as it learns only after that command has been handed over.
+            time.sleep(0.12)
+            now += 0.12
+            await asyncio.sleep(0)
+            line.unplug()
+            await_that(lambda: len(own_threads()) == 1)
+            with pytest.raises(DisconnectedError):
+                await pending
+            assert repr(controller) == "<AsyncController on live line, failed>"
+            assert controller.counters.sent == 2
+
+    asyncio.run(work())
+    assert line.received == [ServoUnload(range(100))]
+
+
+def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
+    class WithoutInput(Refusing):
+        reads = 0
+
+        def read(self, timeout: float) -> bytes:
+            self.reads += 1
+            return super().read(timeout)
+
+    line = WithoutInput()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            received: list[object] = []
+            controller.on_report(received.append)
+            controller.send_latest(ServoUnload([1]))
+            # The loop stands still: first it will learn that the write has failed, then of this.
+            await_that(lambda: len(own_threads()) == 1)
+            line.say(ActionGroupStopped())
+            before = line.reads
+            await_that(lambda: line.reads >= before + 2)
+            with pytest.raises(DisconnectedError, match="takes no bytes"):
+                await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+            await asyncio.sleep(0)
+            assert received == []
+            assert controller.counters.reports == 0
+
+    asyncio.run(work())
+
+
+# -------------------------------------------------------------------- a loop that is no more
+
+
+class Forgotten(AsyncController):
+    """A client whose warning is of no interest."""
+
+    def __del__(self) -> None:  # type: ignore[override]
+        super().__del__(lambda *_, **__: None)
+
+
+def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
+    line = LiveLine()
+
+    async def work() -> Forgotten:
+        controller = Forgotten(line)
+        await controller.stop_action_group()
+        return controller
+
+    controller = asyncio.run(work())
+    assert len(own_threads()) == 2
+    line.say(ActionGroupStopped())
+    await_that(lambda: len(own_threads()) == 1)
+    assert controller.counters.reports == 0
+    del controller
+    gc.collect()
+    await_that(lambda: not own_threads())
+    assert line.closed
+
+
+def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    class Slow(LiveLine):
+        def write(self, _data: bytes) -> None:
+            begun.set()
+            assert go_on.wait(GENEROUS)
+
+    line = Slow()
+
+    async def work() -> None:
+        controller = Forgotten(line, **LIVE)
+        asking = asyncio.ensure_future(controller.read_battery_voltage())
+        assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, GENEROUS)
+        asking.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await asking
+        del asking, controller
+        gc.collect()
+
+    asyncio.run(work())
+    gc.collect()
+    await_that(lambda: line.closed)
+    go_on.set()
+    # Nobody is left to notify that the question is written, and the thread that wrote it ends.
+    await_that(lambda: not own_threads())
+
+
+def test_what_a_loop_that_has_ended_left_unsent_is_sent_by_closing_in_another() -> None:
+    line = LiveLine()
+    commands = [ServoUnload(range(size)) for size in (3, 2, 1)]
+
+    async def use() -> AsyncController:
+        controller = AsyncController(line)
+        for each in commands:
+            controller.send_latest(each)
+        return controller
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    controller = asyncio.run(use())
+    for _ in range(2):
+        asyncio.run(close(controller))
+        assert line.closed
+    assert line.received == commands
+
+
+def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() -> None:
+    line = LiveLine(lambda _: [])
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    loop = asyncio.new_event_loop()
+    # That a task of it is never resumed is what is tried here.
+    loop.set_exception_handler(lambda *_: None)
+
+    async def ask() -> tuple[AsyncController, asyncio.Task[int]]:
+        controller = AsyncController(line, **LIVE)
+        asking = asyncio.ensure_future(controller.read_battery_voltage())
+        while not line.received:
+            await asyncio.sleep(0.001)
+        return controller, asking
+
+    controller, asking = loop.run_until_complete(ask())
+    loop.close()
+    asyncio.run(close(controller))
+    assert line.closed
+    assert not asking.done()
+
+
+def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() -> None:
+    line = SlowToClose()
+
+    async def begin() -> AsyncController:
+        controller = AsyncController(line)
+        await controller.stop_action_group()
+        asyncio.ensure_future(controller.close())  # noqa: RUF006 - the client keeps it
+        assert await asyncio.get_running_loop().run_in_executor(None, line.draining.wait, GENEROUS)
+        asyncio.get_running_loop().call_soon(line.go_on.set)
+        return controller
+
+    async def close(controller: AsyncController) -> None:
+        await controller.close()
+
+    controller = asyncio.run(begin())
+    assert line.closed
+    asyncio.run(close(controller))
+
+
+# -------------------------------------------------------------------- a port that opens too late
+
+
+def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
+    line = LiveLine()
+    begun, go_on = threading.Event(), threading.Event()
+
+    def open_late() -> Any:
+        begun.set()
+        assert go_on.wait(GENEROUS)
+        return line
+
+    async def open_it() -> None:
+        await Opening(open_late, AsyncController)
+
+    async def work() -> None:
+        opening = asyncio.ensure_future(open_it())
+        while not begun.is_set():
+            await asyncio.sleep(0.001)
+        opening.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await opening
+        go_on.set()
+        while not line.closed:
+            await asyncio.sleep(0.001)
+
+    asyncio.run(asyncio.wait_for(work(), GENEROUS))

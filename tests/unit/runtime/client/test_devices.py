@@ -1,0 +1,245 @@
+"""Devices that share a line: whose reply is whose, one that is dead, all at once, and the echo."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import lxservo
+import pytest
+from busservo_simulator.virtual_loop import run_virtual
+
+from tests.lines.scripted_line import ScriptedLine
+from tests.lines.servo_bus import MOVE, READ_POSITION, ServoBus, frame
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# A question and its reply on the wire, with what a servo takes to begin.
+TRIP = 14 * 10 / 115200 + 0.001
+
+
+@contextmanager
+def client(line: ServoBus, **settings: Any) -> Iterator[Any]:
+    settings = {"settle": 0, **settings}
+    with lxservo.Controller(line, background=False, clock=line.clock.now, **settings) as bus:
+        yield bus
+
+
+def took(line: ServoBus, call: Any) -> float:
+    began = line.clock.now()
+    call()
+    return float(line.clock.now() - began)
+
+
+# ------------------------------------------------------------------ one device of many
+
+
+def test_a_servo_is_named_by_its_number_or_asked_as_a_device() -> None:
+    with client(ServoBus(1, 3)) as bus:
+        assert bus.read_position(servo_id=3) == 3001
+        third = bus.device(3)
+        assert (third.address, third.read_position()) == (3, 3002)
+        assert bus.device(1).read_position() == 1001
+
+
+def test_a_device_has_each_method_that_is_for_one() -> None:
+    named = {name for name in vars(lxservo.Controller) if not name.startswith("_")}
+    for kind in (lxservo.OneDevice, lxservo.AllDevices):
+        own = {name for name in vars(kind) if not name.startswith("_")} - {"address"}
+        assert own == named - {"device", "broadcast", "gather"}
+
+
+def test_a_command_goes_to_its_servo_alone() -> None:
+    line = ServoBus(1, 2)
+    with client(line) as bus:
+        bus.device(2).move(500, time_ms=10).wait()
+    assert [len(servo.moves) for servo in line.servos.values()] == [0, 1]
+
+
+def test_a_reply_of_another_servo_answers_nothing() -> None:
+    line = ServoBus(1, 2)
+    with client(line) as bus:
+        line.servos[2].delay = 0.15  # later than the client waits: it comes when another is asked
+        with pytest.raises(lxservo.NoReplyError):
+            bus.read_position(2)
+        assert bus.read_position(1) == 1001
+        line.servos[2].delay = 0.001
+        assert bus.read_position(2) == 2002
+        assert bus.counters.unsolicited == 1
+
+
+# ------------------------------------------------------------------ a dead servo
+
+
+def test_a_dead_servo_delays_no_question_to_another() -> None:
+    line = ServoBus(1, 2, 3)
+    line.servos[2].dead = True
+    with client(line) as bus:
+        for _ in range(5):
+            with pytest.raises(lxservo.NoReplyError):
+                bus.read_position(2)
+            assert took(line, lambda: bus.read_position(1)) < 3 * TRIP
+            assert took(line, lambda: bus.read_position(3)) < 3 * TRIP
+
+
+def test_others_are_asked_while_a_dead_servo_is_still_waited_for() -> None:
+    line = ServoBus(1, 2, 3)
+
+    async def ask() -> float:
+        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
+        async with controller as bus:
+            for number in (1, 2, 3):
+                await bus.device(number).read_position()
+            line.servos[2].dead = True
+            began = line.clock.now()
+            dead = asyncio.ensure_future(bus.read_position(servo_id=2))
+            await asyncio.sleep(0)
+            assert await bus.read_position(servo_id=3) == 3002
+            assert await bus.read_position(servo_id=1) == 1002
+            await bus.device(3).move(500, 20)
+            ended = line.clock.now()
+            with pytest.raises(lxservo.NoReplyError):
+                await dead
+        return float(ended - began)
+
+    assert run_virtual(ask(), line.clock) < 0.1
+    assert line.collisions == 0
+
+
+def test_nothing_is_sent_while_a_servo_may_answer() -> None:
+    line = ServoBus(1, 2)
+
+    async def ask() -> None:
+        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
+        async with controller as bus:
+            for _ in range(20):
+                asked = [asyncio.ensure_future(bus.read_position(each)) for each in (1, 2)]
+                await asyncio.sleep(0.0015)  # now the first begins to answer
+                await bus.move(1, position=500, time_ms=10)
+                await asyncio.gather(*asked)
+
+    run_virtual(ask(), line.clock)
+    assert line.collisions == 0
+    assert len(line.servos[1].moves) == 20
+
+
+def test_a_late_reply_holds_up_its_own_servo_only() -> None:
+    line = ServoBus(1, 2)
+    with client(line) as bus:
+        line.servos[2].delay = 0.2
+        with pytest.raises(lxservo.NoReplyError):
+            bus.read_position(2)
+        line.servos[2].delay = 0.001
+        assert bus.read_position(1) == 1001
+        assert bus.read_position(2) == 2002  # and not 2001, which came late
+
+
+def test_a_reply_that_comes_twice_never_answers_the_next_question() -> None:
+    line = ServoBus(1, 2)
+    line.servos[1].copies = 2
+    with client(line) as bus:
+        for count in range(1, 20):
+            assert bus.read_position(2) == 2000 + count
+            assert bus.read_position(1) == 1000 + count
+
+
+# ------------------------------------------------------------------ all at once
+
+
+def test_nobody_is_awaited_who_never_answers() -> None:
+    line = ServoBus(1, 2)
+    with client(line) as bus:
+        with pytest.raises(
+            lxservo.EncodeError, match=r"servo_id: 254 \(all\) is answered by nobody"
+        ):
+            bus.read_position(254)
+        with pytest.raises(lxservo.EncodeError, match=r"`broadcast\(\)`"):
+            bus.request(lxservo.PositionRead(254))
+        assert line.commands == []
+
+
+def test_a_command_goes_to_all_at_once() -> None:
+    line = ServoBus(1, 2, 3)
+    with client(line) as bus:
+        assert took(line, lambda: bus.broadcast().move(500, 20)) < 0.01
+    assert line.commands == [(254, MOVE)]
+    assert [len(servo.moves) for servo in line.servos.values()] == [1, 1, 1]
+
+
+def test_a_question_to_all_gathers_who_answers_in_time() -> None:
+    line = ServoBus(1, 2, 3)
+    line.servos[2].dead = True
+    with client(line) as bus:
+        there = bus.broadcast().read_servo_id(within=0.05)
+        assert [(each.servo_id, each.own_id) for each in there] == [(1, 1), (3, 3)]
+        assert bus.broadcast().read_servo_id(within=0) == []
+        for wrong in (-1, float("inf"), float("nan")):
+            with pytest.raises(ValueError, match="must be 0 seconds or more, and not endless"):
+                bus.broadcast().read_servo_id(within=wrong)
+
+
+def test_who_answers_all_too_late_does_not_answer_what_is_asked_next() -> None:
+    line = ServoBus(1)
+    with client(line) as bus:
+        line.servos[1].delay = 0.06
+        assert bus.broadcast().read_servo_id(within=0.05) == []
+        line.servos[1].delay = 0.001
+        assert bus.read_servo_id(1) == 1
+        assert bus.counters.unsolicited == 1
+
+
+def test_all_are_asked_with_asyncio() -> None:
+    line = ServoBus(1, 2)
+
+    async def ask() -> Any:
+        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
+        async with controller as bus:
+            await bus.broadcast().move(500, 20)
+            return await bus.broadcast().read_servo_id(within=0.05)
+
+    assert [each.own_id for each in run_virtual(ask(), line.clock)] == [1, 2]
+
+
+# ------------------------------------------------------------------ a line with an echo
+
+
+def test_the_echo_is_dropped_where_the_line_is_said_to_have_one() -> None:
+    line = ServoBus(1, 2, echo=True)
+    line.servos[2].dead = True
+    with client(line, local_echo=True) as bus:
+        for count in range(1, 6):
+            assert bus.read_position(1) == 1000 + count
+            bus.move(1, position=5, time_ms=1)
+            with pytest.raises(lxservo.NoReplyError):
+                bus.read_position(2)
+        assert bus.counters.echoes == 15
+        assert bus.counters.noise == 0
+
+
+def test_nothing_answers_a_question_that_has_not_come_back_yet() -> None:
+    """On a line of no rate, a reply that comes twice would look like the next one."""
+    replies = [frame(1, READ_POSITION, number, 0) for number in range(20)]
+
+    def answer(question: bytes) -> bytes:
+        number = len(line.written)
+        return replies[number - 1] + question + replies[number]
+
+    line = ScriptedLine(lambda question: question + replies[1])
+    with lxservo.Controller(
+        line, background=False, clock=line.clock, settle=0, local_echo=True, baud=float("inf")
+    ) as bus:
+        assert bus.read_position(1) == 1
+        line.answer = answer
+        for number in range(2, 20):
+            assert bus.read_position(1) == number
+        assert (bus.counters.unsolicited, bus.counters.echoes) == (18, 19)
+
+
+def test_an_echo_that_nobody_spoke_of_is_noise() -> None:
+    line = ServoBus(1, echo=True)
+    with client(line) as bus:
+        assert bus.read_position(1) == 1001
+        assert line.commands == [(1, READ_POSITION)]
+        assert bus.counters.noise == 6

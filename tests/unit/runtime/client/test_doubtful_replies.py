@@ -1,0 +1,260 @@
+"""Of two replies that differ, none is chosen: the question is asked again, or ends with both."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+from busservo import (
+    AsyncController,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    Controller,
+    DoubtfulReplyError,
+    Message,
+    NoReplyError,
+    ServoPositions,
+    ServoPositionsRead,
+)
+from busservo._client.exchange import Exchange
+from busservo._client.exchanges import EXCHANGES
+from busservo._client.session import Session
+from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator.virtual_loop import run_virtual
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.lines.virtual_line import VirtualLine
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from busservo._client.request import Request
+
+REPLY_TIMEOUT = 0.25
+# Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.
+TRIP = 10 / 960
+TOO_SOON, IN_TIME = 0.94 * TRIP, 0.96 * TRIP
+# As soon as the late reply to a question that has timed out is overdue, the next is sent.
+OVERDUE = 2 * (TRIP + REPLY_TIMEOUT)
+
+
+# ---------------------------------------------------------------- a value that only rises
+
+
+def rising(line: VirtualLine, late: dict[int, float]) -> Callable[[Message], Iterator[object]]:
+    """Return a board whose servo only rises; some replies, by their number, come late."""
+    asked = 0
+
+    def answer(message: Message) -> Iterator[tuple[float, bytes]]:
+        nonlocal asked
+        if isinstance(message, ServoPositionsRead):
+            position = int(line.now * 1000)
+            reply = ServoPositions([(servo, position) for servo in message.servo_ids])
+            size = len(message.encode()) + len(reply.encode())
+            yield size / 960 + late.get(asked, 0.0), reply.encode()
+            asked += 1
+
+    return answer
+
+
+class OvertakingLine(VirtualLine):
+    """A line on which a late reply is overtaken by the one to the next question."""
+
+    def say(self, data: bytes | Message, delay: float = 0.0) -> None:
+        self._last = 0.0
+        super().say(data, delay)
+
+
+@given(
+    st.floats(0.5, 0.9),
+    st.integers(0, 12),
+    st.lists(st.integers(1, 9), min_size=1, max_size=6, unique=True),
+    st.integers(0, 2),
+)
+def test_a_servo_that_only_rises_is_never_read_going_down(
+    late_by: float, place: int, servos: list[int], retries: int
+) -> None:
+    line = OvertakingLine()
+    line.answer = rising(line, {place: late_by})  # type: ignore[assignment]
+    client = Controller(
+        line,
+        baud=9600,
+        reply_timeout=REPLY_TIMEOUT,
+        retries=retries,
+        background=False,
+        clock=line.clock,
+    )
+    read = []
+    for _ in range(place + 8):
+        began = line.now
+        try:
+            read.append(client.read_servo_positions(servos)[0].position)
+        except NoReplyError:
+            continue
+        finally:
+            assert line.now - began < 6 * REPLY_TIMEOUT
+    assert read == sorted(read)
+    assert len(read) >= place + 7  # only the late one may have failed
+    client.close()
+
+
+def test_the_same_holds_for_asyncio() -> None:
+    clock = VirtualClock()
+
+    async def work(board: VirtualController) -> list[int]:
+        read: list[int] = []
+        async with AsyncController(
+            board.transport, reply_timeout=REPLY_TIMEOUT, background=False, clock=clock.now
+        ) as controller:
+            await controller.move_servos([(1, 1000)], time_ms=5000)
+            for number in range(12):
+                board.faults = Faults(late=float(number == 3), late_by=0.6)
+                try:
+                    read.append((await controller.read_servo_positions([1]))[0].position)
+                except NoReplyError:
+                    assert number == 3
+        return read
+
+    with VirtualController(clock=clock, baud=9600) as board:
+        read = run_virtual(work(board), clock)
+    assert (len(read), read) == (11, sorted(read))
+
+
+# ---------------------------------------------------------------- what is in doubt, and what not
+
+
+class Doubt(NamedTuple):
+    """A question at 0 s, the replies to it, and its answer; None where it is asked again.
+
+    `lost` says that the one before it got no reply, `healthy` how many before that were answered.
+    """
+
+    replies: list[tuple[float, int]]
+    answer: int | None
+    healthy: int = 8
+    lost: bool = False
+    baud: float = 9600
+
+
+OWN, OTHER = 2, 1
+DOUBTS = {
+    "the late one behind its own": Doubt([(IN_TIME, OWN), (0.08, OTHER)], None, lost=True),
+    "the late one before its own": Doubt([(IN_TIME, OTHER), (0.03, OWN)], None, lost=True),
+    "both say the same": Doubt([(IN_TIME, OWN), (0.08, OWN)], OWN, lost=True),
+    "both at once": Doubt([(0.1, OTHER), (0.1, OWN)], None),
+    "three at once, two of them the same": Doubt([(0.1, OWN), (0.1, OTHER), (0.1, OWN)], None),
+    "both at once, and the same": Doubt([(0.1, OWN), (0.1, OWN)], OWN),
+    "the first is too soon": Doubt([(TOO_SOON, OTHER), (0.03, OWN)], OWN),
+    "the first is too soon, behind one that was lost": Doubt(
+        [(TOO_SOON, OTHER), (0.03, OWN)], OWN, lost=True
+    ),
+    "the first is too soon, on a line of which nothing is known": Doubt(
+        [(TOO_SOON, OTHER), (0.03, OWN)], None, healthy=0
+    ),
+    "both at once, on a line without a pace": Doubt([(0, OTHER), (0, OWN)], None, baud=math.inf),
+}
+
+
+def ask(line: Session, now: float) -> Request:
+    request = line.submit(BatteryVoltageRead())
+    assert line.outgoing(now)
+    line.written(request, now)
+    return request
+
+
+def say(line: Session, now: float, *voltages: int) -> None:
+    line.receive(b"".join(BatteryVoltage(each).encode() for each in voltages), now)
+
+
+def prepared(healthy: int, *, lost: bool = False, baud: float = 9600) -> Session:
+    """Return a line on which questions were answered in time, and the last was lost perhaps."""
+    line = Session(baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+    for number in range(healthy):
+        ask(line, number - 20.0)
+        say(line, number - 20.0 + TRIP, 7500)
+    if lost:
+        request = ask(line, -OVERDUE)
+        line.tick(-OVERDUE + TRIP + REPLY_TIMEOUT)
+        assert isinstance(request.error, NoReplyError)
+    return line
+
+
+def replied(line: Session, now: float, replies: list[tuple[float, int]]) -> None:
+    for at in dict.fromkeys(at for at, _ in replies):
+        say(line, now + at, *(voltage for when, voltage in replies if when == at))
+
+
+@pytest.mark.parametrize("name", DOUBTS)
+def test_a_question_in_doubt_is_asked_again(name: str) -> None:
+    doubt = DOUBTS[name]
+    line = prepared(doubt.healthy, lost=doubt.lost, baud=doubt.baud)
+    request = ask(line, 0.0)
+    replied(line, 0.0, doubt.replies)
+    if doubt.answer is not None:
+        assert request.reply == BatteryVoltage(doubt.answer)
+        return
+    assert not request.done
+    now = max(at for at, _ in doubt.replies)
+    assert line.outgoing(now) == [BatteryVoltageRead().encode()]
+    line.written(request, now)
+    say(line, now + TRIP, 3)
+    assert request.reply == BatteryVoltage(3)
+    # All that may come has come: nothing is waited for.
+    ask(line, now + TRIP)
+
+
+def test_an_only_reply_as_late_as_the_lost_one_is_not_believed() -> None:
+    line = prepared(8, lost=True)
+    request = ask(line, 0.0)
+    say(line, 0.08, OTHER)
+    line.tick(TRIP + REPLY_TIMEOUT)
+    assert line.outgoing(TRIP + REPLY_TIMEOUT) == [BatteryVoltageRead().encode()]
+    line.written(request, TRIP + REPLY_TIMEOUT)
+    say(line, 2 * TRIP + REPLY_TIMEOUT, OWN)
+    line.tick(2 * OVERDUE)
+    assert request.reply == BatteryVoltage(OWN)
+
+
+# ---------------------------------------------------------------- how it ends
+
+
+def always_in_doubt(line: Session) -> Request:
+    request, now = ask(line, 0.0), 0.0
+    while not request.done:
+        say(line, now + 0.1, OTHER, OWN)
+        now += 0.1
+        if line.outgoing(now):
+            line.written(request, now)
+    return request
+
+
+def test_a_question_that_stays_in_doubt_ends_with_all_that_came() -> None:
+    request = always_in_doubt(prepared(8))
+    error = request.error
+    assert isinstance(error, DoubtfulReplyError)
+    assert error.replies == (BatteryVoltage(OTHER), BatteryVoltage(OWN))
+    assert (error.request, error.attempts) == (BatteryVoltageRead(), 3)
+    assert str(error) == (
+        "BatteryVoltage(voltage_mv=1) and BatteryVoltage(voltage_mv=2) came within 0.300 s to "
+        "3 requests of BatteryVoltageRead(), and nothing shows which is the answer; one may be "
+        "late, or two devices answer: ask again"
+    )
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
+    assert (type(again), str(again), again.replies) == (type(error), str(error), error.replies)
+
+
+def test_what_is_only_confirmed_is_not_done_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(EXCHANGES[BatteryVoltageRead], "is_query", False)
+    request = always_in_doubt(prepared(8))
+    assert isinstance(request.error, DoubtfulReplyError)
+    assert request.attempts == 1
+
+
+def test_a_reply_that_repeats_its_request_confirms_it_alone() -> None:
+    asked = Exchange("ask", (), reply=BatteryVoltage)
+    told = Exchange("tell", (), reply=BatteryVoltage, echoed=(("voltage_mv", "voltage_mv"),))
+    parts = EXCHANGES[ServoPositionsRead]
+    assert (asked.is_query, told.is_query, parts.is_query) == (True, False, True)

@@ -1,0 +1,283 @@
+"""Lines that return what is sent: expected, compared and dropped; or noticed, and reported."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import math
+from typing import TYPE_CHECKING
+
+import pytest
+from busservo import (
+    ActionGroupRun,
+    ActionGroupStarted,
+    ActionGroupStop,
+    ActionGroupStopped,
+    AsyncController,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    Controller,
+    EchoError,
+    Message,
+    ServoMove,
+    TransportError,
+)
+from busservo._client.exchanges import EXCHANGES
+from busservo._client.local_echo import LocalEcho
+from busservo._client.request import Request
+from busservo._client.session import Session
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.lines.live_line import LiveLine, answered
+from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import GENEROUS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    Incoming = Iterable[tuple[float, bytes | Message]]
+
+STARTED = ActionGroupStarted(8, 1)
+
+
+def wire(message: Message) -> float:
+    return len(message.encode()) / 960
+
+
+def echoing(message: Message) -> Incoming:
+    """Yield the echo of a half-duplex adapter, and the replies of a board with a voltage only."""
+    yield wire(message), message.encode()
+    if isinstance(message, BatteryVoltageRead):
+        yield wire(message) + 0.02, BatteryVoltage(7500)
+
+
+def one_that_starts(message: Message) -> Incoming:
+    yield from echoing(message)
+    if isinstance(message, ActionGroupRun):
+        yield wire(message) + 0.02, STARTED
+
+
+def in_pieces(message: Message) -> Incoming:
+    """Yield the echo byte by byte, with a report in front of it."""
+    yield 0.0, STARTED
+    for number, byte in enumerate(message.encode()):
+        yield number / 960, bytes([byte])
+    if isinstance(message, BatteryVoltageRead):
+        yield wire(message) + 0.02, BatteryVoltage(7500)
+
+
+def silent(_message: Message) -> Incoming:
+    return ()
+
+
+def without(message: Message) -> Incoming:
+    return [each for each in echoing(message) if each[1] != message.encode()]
+
+
+def changed(message: Message) -> Incoming:
+    frame = bytearray(message.encode())
+    frame[-1] ^= 1
+    yield wire(message), bytes(frame)
+
+
+def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -> Controller:
+    line = VirtualLine(answer)
+    return Controller(line, background=False, clock=line.clock, settle=0, local_echo=local_echo)
+
+
+@pytest.mark.parametrize("answer", [echoing, in_pieces])
+def test_what_was_sent_comes_back_and_is_dropped(answer: Callable[[Message], Incoming]) -> None:
+    with virtual(answer) as controller:
+        assert controller.read_battery_voltage() == 7500
+        controller.stop_action_group()
+        controller.run_action_group(8, times=1)
+        received = [STARTED] * 3 if answer is in_pieces else []
+        assert list(controller.reports(timeout=1)) == received
+        assert controller.counters.echoes == 3
+        assert controller.counters.noise == 0
+
+
+def test_a_report_like_the_command_is_distinguished_from_its_echo() -> None:
+    with virtual(one_that_starts) as controller:
+        controller.run_action_group(8, times=1)
+        assert list(controller.reports(timeout=1)) == [STARTED]
+
+
+def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
+    line = Session(baud=9600, reply_timeout=0.25, report_limit=16, local_echo=True)
+    first, second = line.submit(ActionGroupStop()), line.submit(ActionGroupRun(8, 1))
+    assert len(line.outgoing(0.0)) == 1
+    assert len(line.outgoing(0.01)) == 1
+    line.receive(second.message.encode(), 0.02)
+    assert isinstance(first.error, EchoError)
+    assert (first.sent, second.error) == (None, None)
+    assert second.sent is not None
+    assert line.idle
+
+
+@pytest.mark.parametrize("answer", [silent, without, changed])
+def test_a_missing_echo_is_an_error(answer: Callable[[Message], Incoming]) -> None:
+    with virtual(answer) as controller:
+        with pytest.raises(EchoError, match="leave out local_echo") as caught:
+            controller.move_servos([(1, 500)], time_ms=0)
+        assert isinstance(caught.value, TransportError)
+        with pytest.raises(EchoError):
+            controller.read_battery_voltage()
+
+
+def test_after_a_missing_echo_the_line_goes_on() -> None:
+    answers = [silent, echoing]
+
+    def answer(message: Message) -> Incoming:
+        return answers[0](message)
+
+    with virtual(answer) as controller:
+        with pytest.raises(EchoError):
+            controller.stop_action_group()
+        del answers[0]
+        assert controller.read_battery_voltage() == 7500
+        assert list(controller.reports(timeout=1)) == []
+
+
+def test_a_motion_that_nobody_waits_for_says_so_in_the_log(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with virtual(silent) as controller:
+        controller.send_latest(ServoMove(0, [(1, 500)]))
+        assert list(controller.reports(timeout=1)) == []
+    assert "has not come back" in caplog.text
+
+
+def test_closing_waits_for_the_last_echo() -> None:
+    controller = virtual(echoing)
+    controller.send_latest(ServoMove(0, [(1, 500)]))
+    controller.close()
+    assert controller.counters.echoes == 1
+
+
+class Echoing(LiveLine):
+    def write(self, data: bytes) -> None:
+        with self._changed:
+            self._arrived += data
+        super().write(data)
+
+
+@pytest.mark.parametrize("answer", [answered, lambda _: []])
+def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Message]]) -> None:
+    line = Echoing(answer)
+    with Controller(
+        line, local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
+    ) as controller:
+        controller.stop_action_group()
+        if answer is answered:
+            assert controller.read_battery_voltage() == 7500
+        assert list(controller.reports(timeout=0.05)) == []
+
+
+def test_the_same_in_real_time_for_asyncio() -> None:
+    async def work() -> None:
+        async with AsyncController(
+            Echoing(), local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
+        ) as controller:
+            await controller.stop_action_group()
+            assert await controller.read_battery_voltage() == 7500
+            assert [report async for report in controller.reports(timeout=0.05)] == []
+        async with AsyncController(LiveLine(), local_echo=True, settle=0) as controller:
+            with pytest.raises(EchoError):
+                await controller.stop_action_group()
+
+    asyncio.run(work())
+
+
+# ---------------------------------------------------------------- unless it is said
+
+
+def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with caplog.at_level(logging.WARNING), virtual(echoing, local_echo=False) as controller:
+        for _ in range(3):
+            assert controller.read_battery_voltage() == 7500
+        assert controller.counters.echoes == 3
+    (said,) = [each for each in caplog.records if "local_echo=True" in each.getMessage()]
+    assert "gives back what is sent" in said.getMessage()
+
+
+@pytest.mark.parametrize(
+    "message",
+    [ActionGroupRun(8, 1), ActionGroupStop()],
+)
+def test_a_report_like_a_command_is_no_sign_of_an_echo(message: Message) -> None:
+    with virtual(echoing, local_echo=False) as controller:
+        controller.send(message)
+        reported = [STARTED] if isinstance(message, ActionGroupRun) else [ActionGroupStopped()]
+        assert list(controller.reports(timeout=1)) == reported
+        assert controller.counters.echoes == 0
+
+
+@pytest.mark.parametrize("message", [ServoMove(0, [(1, 500)]), ActionGroupStop()])
+def test_noise_is_no_echo(message: Message) -> None:
+    with virtual(lambda _: [(0.01, b"\x00\x55\x55\x02")], local_echo=False) as controller:
+        controller.send(message)
+        assert list(controller.reports(timeout=1)) == []
+        assert controller.counters.echoes == 0
+        assert controller.counters.noise == 4
+
+
+# ---------------------------------------------------------------- the filter alone
+
+
+def request(message: Message) -> Request:
+    return Request(message, EXCHANGES[type(message)])
+
+
+@given(
+    st.lists(
+        st.sampled_from(
+            [
+                ActionGroupStop(),
+                ActionGroupRun(8, 1),
+                BatteryVoltageRead(),
+                ServoMove(0, [(85, 85)]),
+            ]
+        ),
+        max_size=4,
+    ),
+    st.lists(st.sampled_from([b"", STARTED.encode(), b"\x00", b"\x13"]), min_size=5, max_size=5),
+    st.data(),
+)
+def test_all_that_others_send_comes_through_however_it_is_cut(
+    sent: list[Message], others: list[bytes], data: st.DataObject
+) -> None:
+    # Reports that look like an echo come behind it, as on a line where nobody talks at once.
+    if any(isinstance(each, ActionGroupRun) for each in sent):
+        others = [each if each != STARTED.encode() else b"" for each in others]
+    echo = LocalEcho()
+    requests = [request(each) for each in sent]
+    for each in requests:
+        echo.sent(each, each.message.encode(), 1.0)
+    pairs = zip(others, [*(each.encode() for each in sent), b""], strict=False)
+    line = b"".join(other + frame for other, frame in pairs)
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(line)), max_size=5)))
+    found, came = b"", []
+    for start, end in zip([0, *cuts], [*cuts, len(line)], strict=True):
+        for rest, back, lost in echo.take_out(line[start:end]):
+            found += rest
+            came += [] if back is None else [back]
+            assert lost == []
+    assert found == b"".join(others[: len(sent) + 1])
+    assert came == requests
+    assert echo.due is None
+
+
+def test_what_is_forgotten_is_no_longer_expected_and_everything_else_is() -> None:
+    echo = LocalEcho()
+    first, second = request(ActionGroupStop()), request(BatteryVoltageRead())
+    for each in (first, second):
+        echo.sent(each, each.message.encode(), 1.0)
+    echo.forget(first)
+    assert not echo.expects(first)
+    assert echo.expects(second)
+    frames = ActionGroupStop().encode() + BatteryVoltageRead().encode()
+    assert [*echo.take_out(frames)] == [(ActionGroupStop().encode(), second, []), (b"", None, [])]

@@ -1,0 +1,540 @@
+"""What becomes of what moves, as a client is closed: it is held, released, or left to itself."""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+import math
+import pickle
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import lxservo
+import pytest
+from busservo import (
+    AsyncController,
+    ClosedError,
+    Controller,
+    DisconnectedError,
+    NoReplyError,
+    NotHeldError,
+    ServoMove,
+    ServoPositions,
+    ServoPositionsRead,
+    ServoUnload,
+    open_async_controller,
+)
+from busservo._client.line_threads import LineThreads
+from busservo_simulator import VirtualController
+
+from tests.factories import DEMO, data_of, files_of, library
+from tests.lines.device_line import client_of
+from tests.lines.live_line import LiveLine
+from tests.lines.loop_line import LoopLine, client, run
+from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import GENEROUS, LIVE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from busservo import Message
+
+# Where the servos are: on their way, outside the limits, or off.
+THERE = {1: 433, 2: 612, 3: 1500, 4: 65535}
+LONG = 5000
+
+
+def where(message: Message) -> list[Message]:
+    if isinstance(message, ServoPositionsRead):
+        return [ServoPositions([(each, THERE[each]) for each in message.servo_ids])]
+    return []
+
+
+def nothing(_message: Message) -> list[Message]:
+    return []
+
+
+class Stopped(BaseException):
+    """What ends a body, as Ctrl-C does."""
+
+
+Step = Any  # of a body: what is done with the controller and the line, to be awaited or not
+
+
+def move(*servos: int, **how: bool) -> Step:
+    return lambda controller, _: controller.move_servos([(n, 900) for n in servos], LONG, **how)
+
+
+def release(*servos: int) -> Step:
+    return lambda controller, _: controller.unload_servos(servos)
+
+
+def lose(_controller: object, line: Any) -> None:
+    if isinstance(line, LoopLine):
+        line.unplug()
+    else:
+        line.error = DisconnectedError(line.name, "the line was lost", "plug it in again")
+
+
+def stop(*_: object) -> None:
+    raise Stopped
+
+
+def held(*targets: tuple[int, int], asked: tuple[int, ...] | None = None) -> list[Message]:
+    asked = tuple(number for number, _ in targets) if asked is None else asked
+    return [ServoPositionsRead(asked), ServoMove(100, targets)]
+
+
+@dataclass
+class Case:
+    """A body, what is sent after it, and whom the error names."""
+
+    about: str
+    body: list[Step]
+    sent: Sequence[Message]
+    left: dict[int, str] | None = None
+    on_exit: str | None = "hold"
+    answer: Callable[[Message], list[Message]] = where
+    given: dict[str, Any] = field(default_factory=dict)
+    cause: type[Exception] | None = None
+
+
+NO_ANSWER = [ServoPositionsRead([1])] * 3
+CASES = [
+    Case("what was moved is held where it is", [move(1, 2)], held((1, 433), (2, 612))),
+    Case("nothing was moved, so nothing is sent", [], []),
+    Case("whoever is not to be held goes on", [move(1)], [], on_exit=None),
+    Case("what was moved is released", [move(1, 2)], [ServoUnload([1, 2])], on_exit="unload"),
+    Case("what is released already stays so", [move(1, 2), release(1)], held((2, 612))),
+    Case("it is released no second time", [move(1), release(1)], [], on_exit="unload"),
+    Case("it is held if moved again", [release(1), move(1)], held((1, 433))),
+    Case(
+        "what another program may have moved is held if it is named",
+        [move(1)],
+        held((2, 612), (1, 433)),
+        given={"ids": (2, 1)},
+    ),
+    Case("it needs no move", [], held((2, 612)), given={"ids": (2,)}),
+    Case(
+        "the last of a stream goes before",
+        [move(1, latest=True)] * 5,
+        [ServoMove(LONG, [(1, 900)]), *held((1, 433))],
+    ),
+    Case(
+        "those outside the limits are named, the others held",
+        [move(3, 1)],
+        held((1, 433), asked=(3, 1)),
+        {3: "1500 is outside the limits"},
+    ),
+    Case(
+        "each has its own limits",
+        [move(3, 1)],
+        held((3, 1500), (1, 433)),
+        given={"limits": {3: (500, 2500)}},
+    ),
+    Case("one that is off is named", [move(4, 2)], held((2, 612), asked=(4, 2)), {4: "no answer"}),
+    Case("all may be off", [move(4)], [ServoPositionsRead([4])], {4: "no answer"}),
+    Case(
+        "nobody can be asked under an address of many",
+        [move(254, 1)],
+        held((1, 433)),
+        {254: "it is outside 1..253"},
+    ),
+    Case("and of these alone, none is", [move(254)], [], {254: "it is outside 1..253"}),
+    Case(
+        "it is asked three times",
+        [move(1)],
+        NO_ANSWER,
+        {1: "no answer"},
+        answer=nothing,
+        cause=NoReplyError,
+    ),
+    Case(
+        "it does not take for ever",
+        [move(1)],
+        NO_ANSWER[:1],
+        {1: "there was no time"},
+        answer=nothing,
+        given={"reply_timeout": 60.0},
+    ),
+    Case(
+        "a lost line",
+        [move(1, 2), lose],
+        [],
+        dict.fromkeys((1, 2), "the line was lost"),
+        cause=DisconnectedError,
+    ),
+    Case(
+        "a lost line releases nobody",
+        [move(1), lose],
+        [],
+        {1: "the line was lost"},
+        on_exit="unload",
+        cause=DisconnectedError,
+    ),
+]
+
+
+@dataclass
+class Outcome:
+    """What was sent after the body, how long leaving took, and the error that came out."""
+
+    sent: list[Message]
+    seconds: float
+    error: BaseException | None
+
+
+def by_threads(case: Case) -> Outcome:
+    line = VirtualLine(lambda message: [(0.0, each) for each in case.answer(message)])
+    given = {"settle": 0, "on_exit": case.on_exit, **case.given}
+    error, count, began = None, 0, 0.0
+    try:
+        with Controller(line, background=False, clock=line.clock, **given) as controller:
+            try:
+                for step in case.body:
+                    step(controller, line)
+            finally:
+                count, began = len(line.received), line.now
+    except (Stopped, NotHeldError) as raised:
+        error = raised
+    assert line.closed
+    return Outcome(line.received[count:], line.now - began, error)
+
+
+def by_tasks(case: Case) -> Outcome:
+    line = LoopLine(case.answer)
+    given = {"settle": 0, "on_exit": case.on_exit, **case.given}
+    error, count, began = None, 0, 0.0
+
+    async def work() -> None:
+        nonlocal count, began
+        async with client(line, **given) as controller:
+            try:
+                for step in case.body:
+                    awaited = step(controller, line)
+                    if inspect.isawaitable(awaited):
+                        await awaited
+            finally:
+                count, began = len(line.received), line.clock.now()
+
+    try:
+        run(work(), line)
+    except (Stopped, NotHeldError) as raised:
+        error = raised
+    assert line.closed
+    return Outcome(line.received[count:], line.clock.now() - began, error)
+
+
+both = pytest.mark.parametrize("carry_out", [by_threads, by_tasks])
+
+
+@both
+def test_what_was_moved_is_held_or_released_last_of_all(
+    carry_out: Callable[[Case], Outcome], caplog: pytest.LogCaptureFixture
+) -> None:
+    for case in CASES:
+        done = carry_out(case)
+        assert done.sent == [*case.sent], case.about
+        assert done.seconds < 2.2, case.about
+        error = done.error
+        assert (error is None) == (case.left is None), case.about
+        if isinstance(error, NotHeldError) and case.left is not None:
+            assert error.left.keys() == case.left.keys(), case.about
+            for number, why in case.left.items():
+                assert why in error.left[number], case.about
+            assert isinstance(error.__cause__, case.cause or type(None)), case.about
+    assert not caplog.records
+
+
+@both
+def test_an_exception_that_is_under_way_wins(
+    carry_out: Callable[[Case], Outcome], caplog: pytest.LogCaptureFixture
+) -> None:
+    for case in CASES:
+        caplog.clear()
+        done = carry_out(Case(**{**vars(case), "body": [*case.body, stop]}))
+        assert isinstance(done.error, Stopped), case.about
+        assert done.sent == [*case.sent], case.about
+        notes = getattr(done.error, "__notes__", [])
+        shown = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
+        assert len(shown) == (case.left is not None), case.about
+        if sys.version_info >= (3, 11):
+            assert [each.partition(": ")[2] for each in shown] == notes, case.about
+
+
+def test_the_error_says_who_and_why() -> None:
+    error = NotHeldError("servos not held", {3: "no answer", 1: "too far", 4: "no answer"})
+    assert str(error) == "servos not held: 3, 4 (no answer); 1 (too far)"
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
+    assert (again.left, str(again)) == (error.left, str(error))
+
+
+# -------------------------------------------------------------------- Ctrl-C
+
+
+class Pressed(VirtualLine):
+    """A line whose reads are interrupted at these times, as Ctrl-C does it."""
+
+    def __init__(self, *times: float) -> None:
+        super().__init__(lambda message: [(0.05, each) for each in where(message)])
+        self.times = [*times]
+
+    def read(self, timeout: float) -> bytes:
+        if self.times and self.now + timeout >= self.times[0]:
+            self.now = self.times.pop(0)
+            raise KeyboardInterrupt
+        return super().read(timeout)
+
+
+@pytest.mark.parametrize(
+    ("times", "sent"),
+    [((1.0,), held((1, 433))), ((1.0, 1.001), [ServoPositionsRead([1])])],
+    ids=["once", "twice"],
+)
+def test_ctrl_c_stops_a_motion_that_is_waited_for_and_a_second_one_just_leaves(
+    times: tuple[float, ...], sent: list[Message], caplog: pytest.LogCaptureFixture
+) -> None:
+    line = Pressed(*times)
+    with (
+        pytest.raises(KeyboardInterrupt),
+        Controller(line, background=False, clock=line.clock, on_exit="hold", settle=0) as arm,
+    ):
+        arm.move_servos([(1, 900)], LONG).wait()
+    assert line.received == [ServoMove(LONG, [(1, 900)]), *sent]
+    assert line.closed
+    assert line.now < 1.2
+    assert ["not held: 1" in each.getMessage() for each in caplog.records] == [True] * (
+        len(times) - 1
+    )
+
+
+def test_a_task_that_is_cancelled_holds_and_one_that_is_cancelled_twice_just_leaves(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async def work(line: LoopLine, cancels: int) -> float:
+        async def motion() -> None:
+            async with client(line, on_exit="hold", settle=0) as arm:
+                await (await arm.move_servos([(1, 900)], LONG)).wait()
+
+        task = asyncio.ensure_future(motion())
+        for _ in range(cancels):
+            await asyncio.sleep(0.1)
+            task.cancel()
+        began = line.clock.now()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+        while not line.closed:
+            await asyncio.sleep(0.01)
+        return line.clock.now() - began
+
+    line = LoopLine(where)
+    run(work(line, 1), line)
+    assert line.received == [ServoMove(LONG, [(1, 900)]), *held((1, 433))]
+    assert not caplog.records
+    line = LoopLine(nothing)
+    assert run(work(line, 2), line) < 0.1
+    assert line.received == [ServoMove(LONG, [(1, 900)]), ServoPositionsRead([1])]
+    [record] = caplog.records
+    assert record.getMessage() == "loop line: servos not held: 1 (no answer)"
+
+
+class Failing(LiveLine):
+    """A line that is lost at the command which holds, once it may be."""
+
+    def __init__(self) -> None:
+        super().__init__(where)
+        self.go_on = threading.Event()
+
+    def write(self, data: bytes) -> None:
+        if data == ServoMove(100, [(1, 433)]).encode():
+            assert self.go_on.wait(GENEROUS)
+            self.unplug()
+        super().write(data)
+
+
+def test_a_line_that_is_lost_while_it_carries_the_last_command_has_held_nobody(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shut = LineThreads.shut
+
+    def shut_late(threads: LineThreads, drain: float) -> None:
+        lines[0].go_on.set()
+        shut(threads, drain)
+
+    async def work() -> None:
+        async with AsyncController(lines[0], on_exit="hold", **LIVE) as arm:
+            await arm.move_servos([(1, 900)], LONG)
+
+    # The last command is handed over, and the port takes it only as the line is closed.
+    monkeypatch.setattr(LineThreads, "shut", shut_late)
+    lines = [Failing(), Failing()]
+    problem = r"servos not held: 1 \(live line: the line was lost; plug it in again\)"
+    with pytest.raises(NotHeldError, match=problem):
+        asyncio.run(work())
+    lines[1].go_on.set()
+    with (
+        pytest.raises(NotHeldError, match=problem),
+        Controller(lines[1], on_exit="hold", **LIVE) as arm,
+    ):
+        arm.move_servos([(1, 900)], LONG)
+
+
+# -------------------------------------------------------------------- closed by hand
+
+
+def test_closing_by_hand_holds_as_well_and_lets_an_exception_go_on() -> None:
+    def closed(under_way: bool) -> None:
+        line = VirtualLine()
+        controller = Controller(line, background=False, clock=line.clock, on_exit="hold")
+        try:
+            controller.move_servos([(1, 900)], LONG)
+            if under_way:
+                raise Stopped
+        finally:
+            controller.close()
+            assert line.closed
+
+    with pytest.raises(NotHeldError, match=r"servos not held: 1 \(no answer\)"):
+        closed(under_way=False)
+    with pytest.raises(Stopped):
+        closed(under_way=True)
+
+
+def test_a_client_for_asyncio_holds_what_it_is_told_to_without_having_done_anything() -> None:
+    async def work() -> None:
+        await client(line, on_exit="hold", ids=(2,), settle=0).close()
+
+    line = LoopLine(where)
+    run(work(), line)
+    assert line.received == held((2, 612))
+
+
+def test_closing_in_another_thread_holds_while_a_motion_is_waited_for() -> None:
+    line = LiveLine(where)
+    with ThreadPoolExecutor() as pool:
+        arm = Controller(line, on_exit="hold", **LIVE)
+        motion = arm.move_servos([(1, 900)], 60_000)
+        pending = pool.submit(motion.wait)
+        pool.submit(arm.close).result(GENEROUS)
+        with pytest.raises(ClosedError):
+            pending.result(GENEROUS)
+    assert line.received[1:] == held((1, 433))
+    assert line.closed
+
+
+class Interrupted(LiveLine):
+    """A line that calls `meanwhile` in the middle of a read, as a signal handler is called.
+
+    It can be read by one call at a time, as a port of the system can.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(where)
+        self.meanwhile: list[Callable[[], None]] = []
+        self.reading = threading.Lock()
+
+    def read(self, timeout: float) -> bytes:
+        assert self.reading.acquire(timeout=GENEROUS), "the read that it waits for is its own"
+        try:
+            if self.meanwhile:
+                self.meanwhile.pop()()
+            return super().read(timeout)
+        finally:
+            self.reading.release()
+
+
+@pytest.mark.parametrize("ask", [False, True], ids=["while it waits", "while it asks"])
+@pytest.mark.parametrize("leave", [False, True], ids=["and goes on", "and ends the program"])
+def test_a_signal_handler_may_close_in_the_middle_of_a_call(ask: bool, leave: bool) -> None:
+    line = Interrupted()
+    arm = Controller(line, background=False, on_exit="hold", **LIVE)
+    motion = arm.move_servos([(1, 900)], 60_000)
+
+    def handle() -> None:
+        arm.unload_servos([7])
+        arm.close()
+        if leave:
+            raise SystemExit
+
+    line.meanwhile.append(handle)
+    with pytest.raises(SystemExit if leave else ClosedError):
+        arm.read_battery_voltage() if ask else motion.wait()
+    assert line.closed
+    assert line.received[-3:] == [ServoUnload([7]), *held((1, 433))]
+    arm.close()
+
+
+def test_a_signal_handler_may_close_while_a_stream_of_commands_is_sent() -> None:
+    line = LiveLine(where)
+    write = line.write
+
+    def interrupted(data: bytes) -> None:
+        line.write = write  # type: ignore[method-assign]
+        arm.close()
+        write(data)
+
+    arm = Controller(line, background=False, on_exit="hold", **LIVE)
+    arm.move_servos([(2, 900)], LONG)
+    line.write = interrupted  # type: ignore[method-assign]
+    arm.move_servos([(1, 900)], LONG, latest=True)
+    assert line.received[1:] == [ServoMove(LONG, [(1, 900)]), *held((2, 612), (1, 433))]
+    assert line.closed
+
+
+# -------------------------------------------------------------------- what it may be
+
+
+def test_what_is_nothing_to_do_on_exit_is_refused() -> None:
+    wrong: Any
+    for kind in (Controller, AsyncController):
+        for wrong in ("stop", "", True):
+            with pytest.raises(ValueError, match=r"on_exit is .*must be 'hold', 'unload' or None$"):
+                kind(VirtualLine(), on_exit=wrong)
+    for other in (lxservo.Controller, lxservo.AsyncController):
+        with pytest.raises(ValueError, match="'hold', and this protocol has no positions to hold"):
+            other(VirtualLine(), on_exit="hold")
+
+
+def test_other_protocols_hold_and_release_in_words_of_their_own() -> None:
+    with library(files_of(data_of(DEMO.with_name("blinds.yaml")))) as blinds:
+        rolled: list[Any] = []
+
+        class Motor(blinds.Device):  # type: ignore[misc, name-defined]
+            def on_blinds_read(self, message: Any) -> Any:
+                return blinds.BlindsState([(each, 7) for each in message.blind_ids if each != 9])
+
+            def on_blinds_roll(self, message: Any) -> None:
+                rolled.append([tuple(each) for each in message.heights])
+
+            def on_blinds_release(self, message: Any) -> None:
+                rolled.append(message.blind_ids)
+
+        problem = r"^blinds not held: 9 \(no answer\)$"
+        with (
+            pytest.raises(blinds.NotHeldError, match=problem),
+            client_of(Motor(), on_exit="hold") as hub,
+        ):
+            hub.roll([(4, 50), (9, 50)], roll_ms=3000)
+        with client_of(Motor(), on_exit="release", ids=(5,)):
+            pass
+        assert rolled == [[(4, 50), (9, 50)], [(4, 7)], (5,)]
+        with pytest.raises(ValueError, match="must be 'hold', 'release' or None"):
+            client_of(Motor(), on_exit="unload")
+
+
+def test_a_port_that_is_opened_for_asyncio_is_left_in_the_same_way() -> None:
+    async def work(port: str, error: BaseException | None) -> None:
+        async with open_async_controller(port, baud=math.inf, on_exit="hold") as arm:
+            await arm.move_servos([(1, 900), (99, 900)], 60_000)
+            if error is not None:
+                raise error
+
+    with VirtualController("tcp") as board:
+        with pytest.raises(NotHeldError, match=r"servos not held: 99 \(no answer\)"):
+            asyncio.run(work(board.port, None))
+        with pytest.raises(Stopped):
+            asyncio.run(work(board.port, Stopped()))
+        assert board.servos[1].position < 600

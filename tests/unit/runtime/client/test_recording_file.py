@@ -1,0 +1,131 @@
+"""The recordings of a client and a monitor: their form, and that no byte is lost."""
+
+import math
+import os
+import re
+import stat
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from busservo import ActionGroupStopped, Controller, NoReplyError, open_controller
+from busservo._cli import main
+from busservo._cli.recorder import Recorder
+from busservo._recording.file import RecordingFile
+
+from tests.lines.virtual_line import VirtualLine
+
+RECORDED = "55 55 02 0F  # 0 s, host: BatteryVoltageRead()\n"
+
+
+def recorded_by_a_client(path: Path) -> None:
+    with Controller(VirtualLine(lambda _: []), trace=path):
+        pass
+
+
+def recorded_by_a_client_with_a_port(path: Path) -> None:
+    with open_controller("loop://", trace=path):
+        pass
+
+
+def recorded_by_a_monitor(path: Path) -> None:
+    assert main(["monitor", "--port", "loop://", "--log", str(path)]) == 2
+    raise FileExistsError
+
+
+@pytest.mark.parametrize(
+    "record", [recorded_by_a_client, recorded_by_a_client_with_a_port, recorded_by_a_monitor]
+)
+def test_a_recording_is_never_overwritten(record: Callable[[Path], None], tmp_path: Path) -> None:
+    path = tmp_path / "line.hex"
+    path.write_text(RECORDED)
+    with pytest.raises(FileExistsError):
+        record(path)
+    assert path.read_text() == RECORDED
+
+
+def test_an_existing_recording_is_refused_with_advice(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "line.hex"
+    path.write_text(RECORDED)
+    problem = (
+        f"it holds {len(RECORDED)} bytes, and a recording is never overwritten; "
+        "give another name, or remove it"
+    )
+    with pytest.raises(FileExistsError, match=problem) as caught:
+        RecordingFile(path)
+    assert caught.value.filename == str(path)
+    assert main(["monitor", "--port", "loop://", "--log", str(path)]) == 2
+    assert capsys.readouterr().err == f"busservo: error: {path} cannot be written: {problem}\n"
+
+
+def test_an_empty_file_is_accepted(tmp_path: Path) -> None:
+    path = tmp_path / "line.hex"
+    path.touch()
+    file = RecordingFile(path)
+    file.write(b"\x55", 1.5, "noise", "too short")
+    file.close()
+    assert path.read_text() == "55  # 1.500000 s, noise: too short\n"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="only POSIX has these")
+def test_a_device_or_a_fifo_is_accepted(tmp_path: Path) -> None:
+    for _ in range(2):
+        with Recorder(Path(os.devnull)) as recorder:
+            recorder.begin("COM7", 0.0)
+    fifo = tmp_path / "fifo"
+    os.mkfifo(fifo)
+    assert stat.S_ISFIFO(fifo.stat().st_mode)
+    read: list[str] = []
+    reader = threading.Thread(target=lambda: read.append(fifo.read_text()))
+    reader.start()
+    file = RecordingFile(fifo)
+    file.quiet()
+    file.close()
+    reader.join()
+    assert read == ["# quiet\n"]
+
+
+def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: Path) -> None:
+    line, path = VirtualLine(lambda _: []), tmp_path / "line.hex"
+    with Controller(
+        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
+    ) as controller:
+        line.say(bytes.fromhex("55 55 05 08"))
+        with pytest.raises(NoReplyError):
+            controller.read_battery_voltage()
+    first, *lines = path.read_text().splitlines()
+    assert re.fullmatch(
+        r"# recorded of 'virtual line' from \d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{6} [+-]\d{4} on",
+        first,
+    )
+    assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in lines] == [
+        "55 55 02 0F  # T s, host: BatteryVoltageRead()",
+        "55 55 05 08  # T s, noise: too short",
+        "# quiet",
+    ]
+
+
+def test_what_has_begun_to_arrive_when_it_is_closed_is_recorded(tmp_path: Path) -> None:
+    line, path = VirtualLine(), tmp_path / "line.hex"
+    with Controller(
+        line, trace=path, background=False, clock=line.clock, baud=math.inf, settle=0
+    ) as controller:
+        line.say(ActionGroupStopped().encode() + bytes.fromhex("55 55 04"))
+        assert controller.wait_for(ActionGroupStopped, timeout=1.0) == ActionGroupStopped()
+    assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in path.read_text().splitlines()[1:]] == [
+        "55 55 02 07  # T s, controller: ActionGroupStopped()",
+        "55 55 04  # T s, noise: too short",
+        "# quiet",
+    ]
+
+
+def test_names_cannot_break_a_recording(tmp_path: Path) -> None:
+    path = tmp_path / "line.hex"
+    file = RecordingFile(path)
+    file.begin("/dev/tty\n55 55 02 07 \N{SNOWMAN}")
+    file.close()
+    (line,) = path.read_text(encoding="ascii").splitlines()
+    assert line.startswith(r"# recorded of '/dev/tty\n55 55 02 07 \u2603' from ")

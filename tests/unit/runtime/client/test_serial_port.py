@@ -1,0 +1,708 @@
+"""Real ports: pseudo-terminals and sockets through pyserial, and their failures."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import select
+import socket
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor, wait
+from typing import TYPE_CHECKING
+
+import pytest
+import serial
+from busservo import (
+    ActionGroupStopped,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    ClosedError,
+    Direction,
+    DisconnectedError,
+    Noise,
+    PortAddressError,
+    PortBusyError,
+    PortNotFoundError,
+    PortPermissionError,
+    StreamDecoder,
+    TransportError,
+    WriteStuckError,
+    open_async_controller,
+    open_controller,
+    open_transport,
+)
+from busservo._codec.rejects import Rejects
+from busservo._serial import serial_port
+from busservo._serial.hid_port import HidPort
+from busservo._serial.port_errors import not_opened
+from busservo._serial.serial_port import SerialPort
+
+from tests.lines.live_line import answered
+from tests.timeouts import GENEROUS, LIVE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
+import tty  # noqa: E402 - as pty
+
+
+class Board:
+    """A board that answers at the other end of something that can be read and written."""
+
+    def __init__(self, read: Callable[[], bytes], write: Callable[[bytes], object]) -> None:
+        self.write = write
+        self.mute = False
+        self.received = threading.Event()
+        # No client may ever make this count: see tests/conftest.py.
+        self.rejects = Rejects()
+        self._read = read
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self) -> None:
+        decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
+        while True:
+            try:
+                data = self._read()
+            except OSError:
+                return
+            if not data:
+                return
+            for event in decoder.feed(data):
+                self.received.set()
+                if isinstance(event, Noise):
+                    self.rejects.add(event)
+                    continue
+                for answer in [] if self.mute else answered(event):
+                    try:
+                        self.write(answer.encode())
+                    except OSError:  # nobody is there any more
+                        return
+
+    def join(self) -> None:
+        self._thread.join(GENEROUS)
+
+
+class PtyBoard(Board):
+    """A board at one end of a pseudo-terminal; `port` is a link to the other.
+
+    The system soon gives the name of a pseudo-terminal that is closed to another one, which any
+    process may have; a link of our own leads nowhere then.
+    """
+
+    def __init__(self, link: Path) -> None:
+        self.gone = False
+        self._ends = pty.openpty()
+        tty.setraw(self._ends[1])
+        link.symlink_to(os.ttyname(self._ends[1]))
+        self._link = link
+        self.port = str(link)
+        super().__init__(self._some, lambda data: os.write(self._ends[0], data))
+
+    def _some(self) -> bytes:
+        # Never blocked in a read: a descriptor that is being read is not closed by closing it.
+        while not self.gone:
+            if select.select([self._ends[0]], [], [], 0.01)[0]:
+                return os.read(self._ends[0], 256)
+        return b""
+
+    def unplug(self) -> None:
+        """Close both ends, after which whoever has the port open finds it gone."""
+        if not self.gone:
+            self.gone = True
+            self.join()
+            self._link.unlink()
+            for end in self._ends:
+                os.close(end)
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[PtyBoard]:
+    made = PtyBoard(tmp_path / "port")
+    yield made
+    made.unplug()
+
+
+@pytest.fixture
+def tcp() -> Iterator[tuple[str, list[socket.socket]]]:
+    listener = socket.create_server(("127.0.0.1", 0))
+    accepted: list[socket.socket] = []
+
+    def serve() -> None:
+        try:
+            connection, _ = listener.accept()
+        except OSError:
+            return
+        accepted.append(connection)
+        Board(lambda: connection.recv(256), connection.sendall)
+
+    thread = threading.Thread(target=serve, daemon=True)
+    thread.start()
+    yield f"socket://127.0.0.1:{listener.getsockname()[1]}", accepted
+    # Whoever has called is let in first, so that both ends of the call are closed.
+    thread.join(GENEROUS)
+    listener.close()
+    for each in accepted:
+        each.close()
+
+
+def test_a_session_over_a_pseudo_terminal(board: PtyBoard) -> None:
+    with open_controller(board.port, **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500
+        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
+        board.write(ActionGroupStopped().encode())
+        assert next(controller.reports(timeout=GENEROUS)) == ActionGroupStopped()
+    assert controller.closed
+
+
+def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
+    with open_controller(tcp[0], **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500
+        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
+
+
+def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sent = bytes(range(256)) * 8
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        transport = open_transport(f"socket://127.0.0.1:{listener.getsockname()[1]}")
+        assert isinstance(transport, SerialPort)
+        pieces: list[bytes] = []
+        read = transport._port.read
+
+        def noted(size: int) -> bytes:
+            pieces.append(read(size))
+            return pieces[-1]
+
+        monkeypatch.setattr(transport._port, "read", noted)
+        other_end, _ = listener.accept()
+        with other_end:
+            other_end.sendall(sent)
+            while sum(map(len, pieces)) < len(sent):
+                transport.read(5)
+            transport.close()
+    assert b"".join(pieces) == sent
+    assert len(pieces) < 10
+
+
+def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
+    transport = open_transport(tcp[0])
+    assert isinstance(transport, SerialPort)
+    assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    transport.close()
+
+
+def test_a_session_with_asyncio(board: PtyBoard) -> None:
+    async def work() -> None:
+        async with open_async_controller(board.port, **LIVE) as controller:
+            assert await controller.read_battery_voltage() == 7500
+        awaited = await open_async_controller(board.port, **LIVE)
+        assert await awaited.read_servo_positions([3]) == ((3, 30),)
+        await awaited.close()
+        with pytest.raises(PortNotFoundError):
+            async with open_async_controller(f"{board.port}0000"):
+                pass
+
+    asyncio.run(work())
+
+
+def test_a_port_of_pyserial_that_answers_itself() -> None:
+    # What is sent comes back: it is the host's own, and no reply.
+    with open_controller("loop://", reply_timeout=0.01) as controller, pytest.raises(TimeoutError):
+        controller.read_battery_voltage()
+
+
+def test_a_port_is_exclusive_by_default(board: PtyBoard) -> None:
+    with open_controller(board.port, **LIVE) as first:
+        with pytest.raises(PortBusyError, match="it is in use; close the other program"):
+            open_controller(board.port)
+        assert first.read_battery_voltage() == 7500
+    with open_controller(board.port, exclusive=False) as one:
+        with open_controller(board.port, exclusive=False):
+            pass
+        assert not one.closed
+
+
+REFUSED_NAMES = {
+    "": "^'': this is no name; name a port",
+    " ": "^' ': this is no name; name a port",
+    "hwgrep://CH340(": r"'CH340\(' is no regular expression .*, such as hwgrep://CH340$",
+    "hwgrep://": "it does not say what to look for; write .*, such as hwgrep://CH340$",
+    "hwgrep://CH340&n=one": "'n=one' is no option of hwgrep://; its options are n=2 .* skip_busy$",
+    "hwgrep://CH340&n=1": "'n=1' is no option of hwgrep://",
+    "loop://?logging=loud": "'logging=loud' is no option of loop://; its options are logging=",
+    "socket://board:1?logging=loud": "'logging=loud' is no option of socket://",
+    "rfc2217://board:1?timeout=inf": "'timeout=inf' is no option of rfc2217://; .* timeout=5 and",
+    "rfc2217://board:1?poll_modem&x": "'x' is no option of rfc2217://",
+    "carrier-pigeon://coop": "nothing is known that begins with carrier-pigeon://; name a port",
+    "spy://loop://?file=all.log": "would write to any file .*; name the port alone, and record it",
+    "socket://": "it names no host; write socket://HOST:PORT",
+    "socket://:4000": "it names no host; write socket://HOST:PORT",
+    "socket://a..b:4000": r"'a\.\.b' is no host name; write socket://HOST:PORT",
+    "socket://board": "it names no TCP port; write socket://HOST:PORT",
+    "socket://[::1]": "it names no TCP port; write socket://HOST:PORT",
+    "socket://board:": "it names no TCP port; write socket://HOST:PORT",
+    "socket://[::1": "it is no address .*; write socket://HOST:PORT",
+    "socket://board:http": "'http' is no TCP port, which is a number; write",
+    "socket://board:99999": "99999 is no TCP port, which is 1 to 65535; write socket://HOST:PORT",
+    "socket://board:0": "0 is no TCP port, which is 1 to 65535",
+    "rfc2217://board:99999": "99999 is no TCP port, which is 1 to 65535; write rfc2217://HOST:PORT",
+    f"socket://board:{'9' * 5000}": "is no TCP port, which is 1 to 65535",
+}
+
+
+@pytest.mark.parametrize(
+    ("port", "error", "advice"),
+    [
+        ("/dev/ttyNoSuchPort", PortNotFoundError, "exist|plugged in"),
+        ("COM999", PortNotFoundError, "exist|plugged in"),
+        ("hwgrep://no such adapter", PortNotFoundError, "'no such adapter' in its description"),
+        ("socket://127.0.0.1:1", PortNotFoundError, r"reached \(.*\); see that .* and listening"),
+        ("SOCKET://127.0.0.1:1?logging=error", PortNotFoundError, "there and listening"),
+        ("hwgrep://.*&n=99", PortNotFoundError, "in its description, or none that 'n=99' leaves;"),
+        (" /dev/ttyUSB0", PortNotFoundError, "its name begins or ends with a blank"),
+        ("socket:board:4000", PortNotFoundError, "and an address begins with socket://"),
+        ("/", PortAddressError, "it is there, and is no serial port"),
+        (__file__, PortAddressError, "it is there, and is no serial port"),
+        ("bad\0name", PortAddressError, "name a port"),
+        (None, PortAddressError, "name a port"),
+        (7, PortAddressError, "name a port"),
+        *((name, PortAddressError, expected) for name, expected in REFUSED_NAMES.items()),
+    ],
+)
+def test_what_is_no_port_is_refused_with_advice(
+    port: str, error: type[Exception], advice: str
+) -> None:
+    with pytest.raises(error, match=advice) as caught:
+        open_transport(port)
+    assert isinstance(caught.value, TransportError)
+    assert caught.value.port == (str(port) if str(port).strip() else repr(port))
+
+
+@pytest.mark.parametrize(
+    ("port", "platform", "expected"),
+    [
+        ("COM5", "linux", "that is how Windows names ports, and this is Linux"),
+        ("com12", "darwin", "that is how Windows names ports, and this is macOS"),
+        ("/dev/ttyUSB0", "win32", "that is how Linux names ports, and this is Windows"),
+        ("/dev/ttyACM0", "darwin", "that is how Linux names ports, and this is macOS"),
+        ("/dev/cu.usbserial-1410", "linux", "that is how macOS names ports, and this is Linux"),
+        ("COM5", "win32", "there is no such port"),
+        ("/dev/ttyUSB0", "linux", "there is no such port"),
+        ("/dev/cu.usbserial-1410", "darwin", "there is no such port"),
+        ("COMMUNE", "linux", "there is no such port"),
+    ],
+)
+def test_a_port_name_of_another_system_is_recognized(
+    port: str, platform: str, expected: str
+) -> None:
+    absent = serial.SerialException(2, f"could not open port {port}")
+    error = not_opened(port, absent, lambda: "no serial port is plugged in", platform=platform)
+    assert str(error) == f"{port}: {expected}; no serial port is plugged in"
+
+
+@pytest.mark.parametrize("baud", [0, -9600, float("nan"), 2**31])
+def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
+    with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
+        open_controller("loop://", baud=baud)
+
+
+@pytest.mark.parametrize(
+    ("error", "expected"),
+    [
+        (ValueError("Failed to set custom baud rate (77): [Errno 22] no"), "set to that rate (no)"),
+        (serial.SerialException(36, "could not open port x: [Errno 36]"), os.strerror(36)),
+        (serial.SerialException("Could not configure port: (5, 'no input')"), "opened (no input)"),
+        (
+            serial.SerialException("could not open port 'x': OSError(22, \"n'est pas\", None, 87)"),
+            "it cannot be opened (n'est pas)",
+        ),
+        (serial.SerialException("it is too late"), "it cannot be opened (it is too late)"),
+    ],
+)
+def test_an_error_has_the_words_of_the_system_and_not_those_of_pyserial(
+    error: Exception, expected: str
+) -> None:
+    refused = str(not_opened("x", error, lambda: "these exist: y"))
+    assert expected in refused
+    assert not any(word in refused for word in ("could not", "Could not", "Errno", "Failed"))
+
+
+def test_a_scheme_may_be_written_in_capitals(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked_for: list[str] = []
+
+    def grep(pattern: str) -> list[object]:
+        looked_for.append(pattern)
+        return []
+
+    monkeypatch.setattr("serial.tools.list_ports.grep", grep)
+    with pytest.raises(PortNotFoundError):
+        open_transport("HWGREP://CH340")
+    assert looked_for == ["CH340"]
+
+
+def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise serial.SerialException(13, "could not open port /dev/ttyUSB0: Permission denied")
+
+    monkeypatch.setattr(serial, "serial_for_url", refuse)
+    with pytest.raises(PortPermissionError, match="dialout"):
+        open_controller("/dev/ttyUSB0")
+
+
+def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
+    board.mute = True
+    with open_controller(board.port, **LIVE) as controller:
+
+        def half() -> None:
+            board.received.wait(GENEROUS)
+            board.write(BatteryVoltage(7500).encode()[:4])
+            board.unplug()
+
+        thread = threading.Thread(target=half)
+        thread.start()
+        with pytest.raises(DisconnectedError, match=r"the line was lost .*; check the cable"):
+            controller.read_battery_voltage()
+        thread.join()
+        with pytest.raises(DisconnectedError):
+            controller.stop_action_group()
+        with pytest.raises(TransportError):
+            controller.reconnect()
+
+
+def test_hung_up_by_the_other_end(tcp: tuple[str, list[socket.socket]]) -> None:
+    url, accepted = tcp
+    with open_controller(url, **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500
+        accepted[0].shutdown(socket.SHUT_RDWR)
+        with pytest.raises(DisconnectedError):
+            controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+
+
+def test_reconnecting_to_the_same_port(board: PtyBoard) -> None:
+    with open_controller(board.port, **LIVE) as controller:
+        controller.reconnect()
+        assert controller.read_battery_voltage() == 7500
+
+
+def test_nothing_of_the_last_frame_is_cut_off(board: PtyBoard) -> None:
+    board.mute = True
+    with open_controller(board.port) as controller:
+        controller.unload_servos(range(1, 253))
+    assert board.received.wait(GENEROUS)
+
+
+def test_a_transport_on_its_own(board: PtyBoard) -> None:
+    transport = open_transport(board.port)
+    assert transport.name == board.port
+    assert transport.read(0.0) == b""
+    transport.write(BatteryVoltageRead().encode())
+    transport.drain(1)
+    data = b""
+    while len(data) < 6:
+        data += transport.read(GENEROUS)
+    assert data == BatteryVoltage(7500).encode()
+    transport.close()
+    transport.close()
+    with pytest.raises(ClosedError):
+        transport.read(1)
+    with pytest.raises(ClosedError):
+        transport.write(b"\x55")
+
+
+@pytest.mark.parametrize("port", ["a pseudo-terminal", "loop://"])
+@pytest.mark.parametrize("timeout", [0.0, 0.01, 0.12])
+def test_a_read_waits_for_its_timeout(board: PtyBoard, port: str, timeout: float) -> None:
+    transport = open_transport(port if "://" in port else board.port)
+    first = time.monotonic()
+    taken = GENEROUS
+    # A busy machine may be late at any time, but not each time.
+    while taken >= timeout + 0.03 + timeout / 2:
+        began = time.monotonic()
+        assert began - first < GENEROUS, f"the shortest read took {taken} s"
+        assert transport.read(timeout) == b""
+        took = time.monotonic() - began
+        assert took >= timeout
+        taken = min(taken, took)
+    transport.close()
+
+
+def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:
+    board.mute = True
+    transport = open_transport(board.port)
+    ended = threading.Event()
+
+    def read() -> None:
+        with pytest.raises(ClosedError):
+            transport.read(2 * GENEROUS)
+        ended.set()
+
+    thread = threading.Thread(target=read)
+    thread.start()
+    transport.close()
+    assert ended.wait(GENEROUS)
+    thread.join()
+
+
+def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(board: PtyBoard) -> None:
+    with pytest.raises(ValueError, match="reply_timeout"):
+        open_controller(board.port, reply_timeout=0)
+
+    async def work() -> None:
+        with pytest.raises(ValueError, match="reply_timeout"):
+            await open_async_controller(board.port, reply_timeout=0)
+
+    asyncio.run(work())
+    # Nobody has it: it can be had exclusively.
+    with open_controller(board.port, **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500
+
+
+# ------------------------------------------------------------- drivers that cannot be had here
+
+
+class Driver:
+    """The part of a pyserial port that a test needs; its attributes say what it does."""
+
+    in_waiting = 0
+
+    def __init__(self, error: Exception | None = None) -> None:
+        self.error = error
+        self.closed = False
+        self.left = 0
+
+    @property
+    def out_waiting(self) -> int:
+        if self.error is not None:
+            raise self.error
+        self.left = max(0, self.left - 1)
+        return self.left
+
+    def write(self, data: bytes) -> int:
+        if self.error is not None:
+            raise self.error
+        return len(data)
+
+    def cancel_read(self) -> None:
+        if self.error is not None:
+            raise self.error
+
+    def close(self) -> None:
+        self.closed = True
+        if self.error is not None:
+            raise self.error
+
+
+def driven_by(driver: Driver) -> SerialPort:
+    def never() -> SerialPort:
+        raise NotImplementedError
+
+    return SerialPort("COM7", driver, never)
+
+
+def test_an_adapter_that_takes_no_more_bytes_is_reported_with_advice() -> None:
+    port = driven_by(Driver(serial.SerialTimeoutException("Write timeout")))
+    with pytest.raises(WriteStuckError, match="has taken no bytes for 1 s; unplug and replug"):
+        port.write(b"UU")
+
+
+class Paused(Driver):
+    """A port whose process stands still during each write, for longer than its timeout."""
+
+    def __init__(self, handle: int, most: int, clock: list[float]) -> None:
+        super().__init__()
+        self.handle = handle
+        self.most = most
+        self.clock = clock
+        self.taken = b""
+        self.write_timeout: float | None = 1.0
+
+    def fileno(self) -> int:
+        return self.handle
+
+    def write(self, data: bytes) -> int:
+        self.taken += data[: self.most]
+        self.clock[0] += 5.0
+        if self.write_timeout:  # as pyserial, which looks at the clock before it looks at the port
+            raise serial.SerialTimeoutException("Write timeout")
+        return min(len(data), self.most)
+
+
+@pytest.mark.parametrize("most", [1, 2, 100])
+def test_a_pause_of_the_process_is_no_adapter_that_takes_no_bytes(
+    monkeypatch: pytest.MonkeyPatch, most: int
+) -> None:
+    clock = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: clock[0])
+    one, other = socket.socketpair()
+    with one, other:
+        driver = Paused(one.fileno(), most, clock)
+        driven_by(driver).write(b"UU\x02\x0f")
+    assert driver.taken == b"UU\x02\x0f"
+
+
+def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    one, other = socket.socketpair()
+    with one, other:
+        one.setblocking(False)
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                one.send(bytes(65536))
+        monkeypatch.setattr("busservo._serial.serial_port._WRITE_TIMEOUT", 0.01)
+        port = driven_by(Paused(one.fileno(), 100, [0.0]))
+        with pytest.raises(WriteStuckError, match="has taken no bytes"):
+            port.write(b"UU\x02\x0f")
+
+
+@pytest.mark.parametrize("error", [OSError(5, "Input/output error"), TypeError("fd is None")])
+def test_an_adapter_that_is_gone_is_lost_in_whatever_it_was_at(error: Exception) -> None:
+    driver = Driver(error)
+    port = driven_by(driver)
+    with pytest.raises(DisconnectedError, match="reconnect"):
+        port.write(b"UU")
+    with pytest.raises(DisconnectedError, match="reconnect"):
+        port.drain(1)
+    port.close()
+    assert driver.closed
+    # Once it is closed at this end, that is what is said.
+    with pytest.raises(ClosedError):
+        port.drain(1)
+
+
+def test_draining_waits_until_the_driver_has_sent_all_and_no_longer_than_its_timeout() -> None:
+    driver = Driver()
+    port = driven_by(driver)
+    driver.left = 5
+    port.drain(GENEROUS)
+    assert driver.left == 0
+    driver.left = 1_000_000
+    began = time.monotonic()
+    port.drain(0.02)
+    assert 0.02 <= time.monotonic() - began < GENEROUS
+    assert driver.left > 0
+    port.close()
+
+
+def test_a_port_is_closed_even_under_a_read_that_does_not_end(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    reading, go_on = threading.Event(), threading.Event()
+
+    class Stuck(Driver):
+        @property
+        def in_waiting(self) -> int:  # type: ignore[override]
+            reading.set()
+            assert go_on.wait(GENEROUS)
+            raise OSError("gone")
+
+    driver = Stuck()
+    port = driven_by(driver)
+
+    def read() -> None:
+        with pytest.raises(ClosedError):
+            port.read(0.01)
+
+    thread = threading.Thread(target=read)
+    thread.start()
+    assert reading.wait(GENEROUS)
+    acquire = port._reading.acquire
+
+    class Impatient:
+        """The lock, without the second that closing waits for it."""
+
+        release = port._reading.release
+
+        def acquire(self, timeout: float) -> bool:
+            assert timeout == 1.0
+            return acquire(timeout=0.01)
+
+    monkeypatch.setattr(port, "_reading", Impatient())
+    port.close()
+    assert driver.closed
+    go_on.set()
+    thread.join(GENEROUS)
+    assert not thread.is_alive()
+
+
+class SlowToClose(Driver):
+    """A port that is closed only when the test allows it, and calls `meanwhile` before it waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.closing, self.go_on = threading.Event(), threading.Event()
+        self.meanwhile: Callable[[], object] = self.closing.set
+
+    def close(self) -> None:
+        self.meanwhile()
+        self.closing.set()
+        assert self.go_on.wait(GENEROUS)
+        super().close()
+
+
+def slow_serial_port() -> tuple[SlowToClose, SerialPort]:
+    driver = SlowToClose()
+    return driver, driven_by(driver)
+
+
+def slow_hid_port() -> tuple[SlowToClose, HidPort]:
+    driver = SlowToClose()
+    return driver, HidPort("hid://", driver, 64, lambda: slow_hid_port()[1])
+
+
+@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
+    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+) -> None:
+    driver, port = made()
+
+    def close_too() -> bool:
+        port.close()
+        return driver.closed
+
+    with ThreadPoolExecutor() as pool:
+        first = pool.submit(port.close)
+        assert driver.closing.wait(GENEROUS)
+        second = pool.submit(close_too)
+        done, _ = wait([second], timeout=0.05)
+        driver.go_on.set()
+        assert not done, "the port is not closed yet"
+        assert second.result(GENEROUS)
+        first.result(GENEROUS)
+
+
+@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
+    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+) -> None:
+    driver, port = made()
+    driver.meanwhile = port.close
+    driver.go_on.set()
+    port.close()
+    assert driver.closed
+
+
+def test_an_unknown_error_at_opening_is_reported_in_its_own_words(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise serial.SerialException(5, "could not open port COM7: Input/output error")
+
+    monkeypatch.setattr(serial, "serial_for_url", fail)
+    with pytest.raises(TransportError, match=r"it cannot be opened .*Input/output") as caught:
+        open_transport("COM7")
+    assert type(caught.value) is TransportError
+
+
+def test_a_pseudo_terminal_is_opened_though_it_keeps_no_parity(
+    board: PtyBoard, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(serial_port, "PARITY", "even")
+    with open_controller(board.port, **LIVE) as controller:
+        assert controller.read_battery_voltage() == 7500

@@ -1,0 +1,109 @@
+"""Any request: a client sends whole frames that a board understands, or refuses it."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from typing import Any
+
+import pytest
+from busservo import (
+    AsyncController,
+    Controller,
+    EncodeError,
+    IncompleteReplyError,
+    Message,
+    NoReplyError,
+)
+from busservo._client.exchanges import EXCHANGES
+from busservo.strategies import messages
+from busservo_simulator import VirtualClock, VirtualController
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.lines.live_line import LiveLine
+
+numbers = (
+    st.integers()
+    | st.integers(-2, 300)
+    | st.sampled_from([0, 1, 255, 256, 65535, 65536, -1])
+    | st.floats()
+    | st.booleans()
+    | st.none()
+    | st.text(max_size=3)
+)
+lists = (
+    st.lists(numbers, max_size=300)
+    | st.lists(st.integers(0, 255), max_size=300)
+    | st.lists(st.tuples(numbers, numbers), max_size=100)
+    | st.lists(st.tuples(st.integers(0, 255), st.integers(0, 65535)), max_size=100)
+    | st.binary(max_size=20)
+)
+anything = numbers | lists
+calls = st.lists(
+    st.sampled_from(list(EXCHANGES.values())).flatmap(
+        lambda each: st.tuples(st.just(each), st.tuples(*[anything for _ in each.arguments]))
+    ),
+    max_size=8,
+)
+REFUSED = (EncodeError, NoReplyError, IncompleteReplyError)
+
+
+@given(calls)
+def test_any_arguments_make_whole_frames_or_are_refused(requests: list[tuple[Any, Any]]) -> None:
+    clock = VirtualClock(follow_reads=True)
+    with (
+        VirtualController(clock=clock) as board,
+        Controller(board.transport, background=False, clock=clock.now, baud=math.inf) as controller,
+    ):
+        for exchange, arguments in requests:
+            before = board.accepted
+            try:
+                getattr(controller, exchange.method)(*arguments)
+            except EncodeError:
+                assert board.accepted == before, "what was refused has been sent all the same"
+            except REFUSED:
+                pass
+            else:
+                assert board.accepted > before
+        assert board.rejects.total == 0
+
+
+@given(st.lists(messages(), max_size=20))
+def test_any_message_is_sent_whole_or_refused(requests: list[Message]) -> None:
+    clock = VirtualClock(follow_reads=True)
+    with (
+        VirtualController(clock=clock) as board,
+        Controller(
+            board.transport, background=False, clock=clock.now, baud=math.inf, reply_timeout=0.01
+        ) as controller,
+    ):
+        sent = 0
+        for message in requests:
+            for way in (controller.send, controller.request, controller.send_latest):
+                try:
+                    way(message)
+                    sent += 1
+                except NoReplyError:
+                    sent += 1
+                except (TypeError, EncodeError):
+                    continue
+        controller.close()
+        assert board.accepted + controller.counters.replaced == sent
+        assert board.rejects.total == 0
+
+
+@pytest.mark.parametrize("exchange", EXCHANGES.values(), ids=lambda each: each.method)
+def test_nonsense_is_refused_alike_by_the_client_for_asyncio(exchange: Any) -> None:
+    line = LiveLine()
+
+    async def work() -> None:
+        async with AsyncController(line) as controller:
+            for wrong in (None, -1, "x", [None], [-1], 1 << 99):
+                given = [wrong for _ in exchange.arguments]
+                if given:
+                    with pytest.raises(EncodeError):
+                        await getattr(controller, exchange.method)(*given)
+
+    asyncio.run(work())
+    assert line.received == []

@@ -1,0 +1,373 @@
+"""Recordings are read back as they were made: who, when, what; wherever the file is cut."""
+
+import io
+from collections.abc import Iterable, Iterator
+from datetime import datetime, timezone
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupRun,
+    ActionGroupStarted,
+    ActionGroupStopped,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    Controller,
+    Direction,
+    Message,
+    Noise,
+    NoReplyError,
+    Reason,
+    ServoMove,
+    UnknownFrame,
+    strategies,
+)
+from busservo._recording.form import LONGEST_LINE, is_text
+from busservo.recordings import Entry, RecordingError, read
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from tests.hex_cases import HEX, NO_HEX
+from tests.in_turn import in_turn
+from tests.lines.virtual_line import VirtualLine
+from tests.strategies import joined, lines
+from tests.strategies import read as decoded
+
+ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
+HOST, BOARD = Direction.HOST_TO_CONTROLLER, Direction.CONTROLLER_TO_HOST
+
+
+class Pieces:
+    """A stream that brings bytes in these pieces, as a pipe does."""
+
+    def __init__(self, pieces: Iterable[bytes]) -> None:
+        self.pieces = iter(pieces)
+
+    def read(self, size: int) -> bytes:
+        piece = next((piece for piece in self.pieces if piece), b"")
+        assert len(piece) <= size
+        return piece
+
+
+def entries(content: bytes | str, **how: object) -> list[Entry]:
+    data = content.encode() if isinstance(content, str) else content
+    return list(read(io.BytesIO(data), **how))  # type: ignore[arg-type]
+
+
+def said(found: Iterable[Entry]) -> list[tuple[float | None, str | None, Message | Noise]]:
+    return [(entry.time, entry.sender, entry.event) for entry in found]
+
+
+# ---------------------------------------------------------------------------- recordings
+
+
+def test_bytes_of_two_lines_never_grow_together() -> None:
+    """A host's question is not the end of what the board began, three quarters of a second ago."""
+    assert said(
+        entries(
+            "55 55 05 08  # 0.000000 s, noise: too short\n"
+            "55 55 02 0F  # 0.750000 s, host: BatteryVoltageRead()\n"
+        )
+    ) == [
+        (0.0, "controller", Noise(bytes.fromhex("55 55 05 08"), Reason.TOO_SHORT)),
+        (0.75, "host", ASK),
+    ]
+
+
+RUN, STARTED = ActionGroupRun(group=8, times=1), ActionGroupStarted(group=8, times=1)
+SAME = RUN.encode().hex(" ")
+UNKNOWN = bytes.fromhex("55 55 03 01 2A")
+MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
+
+
+@in_turn(
+    "line, expected",
+    lambda: [
+        (f"{SAME}  # 1 s, host: a", [(1.0, "host", RUN)]),
+        (f"{SAME}  # 1 s, controller: a", [(1.0, "controller", STARTED)]),
+        (f"{SAME}  # 1 s, either: a", [(1.0, None, RUN)]),
+        (f"{SAME}### 1.25 s, host: : #", [(1.25, "host", RUN)]),
+        # What is no message of who sent it is none, whatever it is of the other end.
+        (
+            "55 55 04 0F 4C 1D  # 1 s, host: a",
+            [(1.0, "host", Noise(VOLTAGE.encode(), Reason.LENGTH_MISMATCH))],
+        ),
+        # What was noise once is no message now.
+        (
+            f"{MOVE.encode().hex()}  # 1 s, host noise: too short",
+            [(1.0, "host", Noise(MOVE.encode(), Reason.TOO_SHORT))],
+        ),
+        ("13  # 1 s, noise: bad header", [(1.0, "controller", Noise(b"\x13", Reason.BAD_HEADER))]),
+        ("13  # 1 s, either noise: odd", [(1.0, None, Noise(b"\x13", Reason.BAD_HEADER))]),
+        (
+            "55  # 1 s, noise: unknown command",
+            [(1.0, "controller", Noise(b"U", Reason.UNKNOWN_COMMAND))],
+        ),
+        (
+            "55 55 03 01 2A  # 1 s, noise: unknown command",
+            [(1.0, "controller", UnknownFrame(UNKNOWN, Reason.UNKNOWN_COMMAND))],
+        ),
+        # Its command was not known when it was received.
+        ("55 55 02 0F  # 1 s, host noise: unknown command", [(1.0, "host", ASK)]),
+        # Written by hand.
+        (
+            "55 55 02 0F 55 55 02 0F 55  # 1 s, host: twice",
+            [(1.0, "host", ASK), (1.0, "host", ASK), (1.0, "host", Noise(b"U", Reason.BAD_HEADER))],
+        ),
+        ("  # 1 s, host: nothing", []),
+        ("# quiet", []),
+        ("", []),
+    ],
+)
+def test_a_line_is_what_its_sender_can_have_sent(line: str, expected: list[object]) -> None:
+    begun = "55 55 02 0F  # 0 s, host: BatteryVoltageRead()"
+    found = said(entries(f"{begun}\n{line}\r\n{begun}"))
+    assert [found[0], found[-1]] == 2 * [(0.0, "host", ASK)]
+    assert found[1:-1] == expected
+
+
+def test_the_place_and_the_day_are_read() -> None:
+    first, second, third = entries(
+        "# recorded of 'COM7' from 2026-01-02 09:08:07.250000 +0100 on\n\n"
+        "55 55 02 0F  # 0.5 s, host: a\n"
+        "55 55 02 0F 13  # 0.75 s, host: a\n"
+    )
+    assert (first.place, first.line, first.offset, first.began) == ("line 3", 3, 0, 1767341287.25)
+    assert (third.place, third.offset, third.direction) == ("line 4", 8, HOST)
+    assert repr(second) == "Entry(line 4, time=0.75, sender='host', BatteryVoltageRead())"
+
+
+@pytest.mark.parametrize("day", ["2026-02-31 00:00:00 +0000", "yesterday"])
+def test_an_invalid_day_is_ignored(day: str) -> None:
+    (entry,) = entries(f"# recorded of 'COM7' from {day} on\n55 55 02 0F  # 0.5 s, host: a\n")
+    assert entry.began is None
+
+
+def test_who_sent_what_either_end_may_have_sent_can_be_said() -> None:
+    line = f"{SAME}  # 1 s, either: a"
+    assert said(entries(line, direction=BOARD)) == [(1.0, "controller", STARTED)]
+    assert said(entries(f"{SAME}  # 1 s, host: a", direction=BOARD)) == [(1.0, "host", RUN)]
+
+
+@in_turn(
+    "text, problem",
+    lambda: [
+        (
+            "55 55 02 0F  # 0 s, martian: a\n",
+            "line 1: 'martian' is none of those who send: host,",
+        ),
+        ("55  # 0 s, host: a\n\n55\n", "line 3: it has no time and sender, as in"),
+        ("55\n55  # 0 s, host: a\n", "line 2: it has a time and a sender, and the lines before it"),
+        ("55  # 0 s, host: a\n5G  # 0 s, host: a\n", "line 2: no hex: 'G' in '5G' is no hex digit"),
+        ("5G  # 0 s, host: a\n", "line 1: no hex: 'G' in '5G' is no hex digit"),
+        ("55 55\n02 # comment\n 0 \n", "line 3: no hex: '0' is half a byte; did you mean 00?; raw"),
+        (f"55  # 0 s, host: {LONGEST_LINE * 'a'}\n", "line 1: it has more than 65536 characters"),
+        (
+            f"55  # 0 s, host: a\n{LONGEST_LINE * '5'}5\n",
+            "line 2: it has more than 65536 char",
+        ),
+    ],
+)
+def test_an_invalid_line_is_reported_with_its_number(text: str, problem: str) -> None:
+    with pytest.raises(RecordingError) as caught:
+        entries(text)
+    assert str(caught.value).startswith(problem)
+
+
+def test_there_is_no_other_form() -> None:
+    with pytest.raises(ValueError, match="'csv' is none of the forms auto, hex, raw"):
+        read("line.csv", form="csv")
+
+
+def test_a_client_s_trace_is_read_back(tmp_path: Path) -> None:
+    line, path = VirtualLine(), tmp_path / "line.hex"
+    with Controller(
+        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
+    ) as controller:
+        line.say(b"\x55\x00" + ActionGroupStopped().encode() + b"\x55\x55\x05\x08")
+        with pytest.raises(NoReplyError):
+            controller.read_battery_voltage()
+    found = list(read(path))
+    assert [(entry.sender, entry.event) for entry in found] == [
+        ("host", ASK),
+        ("controller", Noise(b"\x55\x00", Reason.BAD_HEADER)),
+        ("controller", ActionGroupStopped()),
+        ("controller", Noise(b"\x55\x55\x05\x08", Reason.TOO_SHORT)),
+    ]
+    assert all(entry.began is not None for entry in found)
+    assert [entry.time for entry in found] == sorted(entry.time or 0 for entry in found)
+
+
+# ---------------------------------------------------------------------------- streams
+
+
+@given(lines, st.sampled_from([None, HOST, BOARD]))
+def test_raw_bytes_and_plain_hex_are_one_stream(line: bytes, direction: Direction | None) -> None:
+    expected = joined(decoded(direction, [line]))
+    raw = entries(line, form="raw", direction=direction)
+    assert joined(entry.event for entry in raw) == expected
+    text = line.hex(" ").replace(" 0", "\n0")
+    in_hex = entries(text, form="hex", direction=direction)
+    assert joined(entry.event for entry in in_hex) == expected
+    assert {entry.time for entry in raw + in_hex} <= {None}
+    ends = {None if direction is None else direction.sender}
+    assert direction is None or {entry.sender for entry in raw} <= ends
+
+
+def test_a_stream_says_who_sent_what_only_one_end_can_have_sent() -> None:
+    content = ASK.encode() + RUN.encode() + b"\x13" + VOLTAGE.encode()
+    assert [(entry.sender, entry.place) for entry in entries(content)] == [
+        ("host", "byte 0"),
+        (None, "byte 4"),
+        (None, "byte 11"),
+        ("controller", "byte 12"),
+    ]
+
+
+def test_quiet_ends_a_frame_in_plain_hex_too() -> None:
+    events = [entry.event for entry in entries("55 55 05 08\n # quiet\r\n55 55 02 0F")]
+    assert events == [Noise(bytes.fromhex("55 55 05 08"), Reason.TOO_SHORT), ASK]
+    (entry,) = entries("55 55 05 08\n # quieter\n08 01 00")
+    assert entry.event == ActionGroupCompleted(group=8, times=1)
+
+
+# ---------------------------------------------------------------------------- what it is
+
+
+@in_turn(
+    "content, text",
+    lambda: [
+        (b"55 55 02 07", True),
+        (b"\xef\xbb\xbf55 55 02 07", True),
+        (b"\n# a comment: \xc3\xa9\n55", True),
+        (b"0x55,0x55", True),
+        (rb"\x55\x55", True),
+        (b"5 55 02 07", True),
+        (b"5G  # 0.5 s, host: a slip", True),
+        (b"", True),
+        (b"# nothing but words", True),
+        (b"UU\x02\x07", False),
+        (b"#UU\x02\x07", False),
+        (b"\n#UU\x02\x07\n55", False),
+        (b"\x00", False),
+        (b"\xef\xbb", False),
+        (b"5G  # a slip", False),
+        (b"5\x00", False),
+        (b"5G\x00 # 0.5 s, host: a", False),
+    ],
+)
+def test_the_first_word_distinguishes_hex_from_raw_bytes(content: bytes, *, text: bool) -> None:
+    assert is_text(content, ended=True) == text
+    for end in range(len(content)):
+        assert is_text(content[:end], ended=False) in (None, text)
+
+
+contents = (
+    st.sampled_from([text.encode() for text, _ in HEX] + [text.encode() for text in NO_HEX])
+    | lines
+    | lines.map(lambda line: line.hex(" ").encode())
+    | lines.map(lambda line: line.hex().encode())
+    | st.lists(
+        st.sampled_from(
+            [
+                b"55 55 02 0F",
+                b"55 55",
+                b"05 08",
+                b"5",
+                b"  # 0.5 s, host: a",
+                b"# 1 s, noise: too short",
+                b"# quiet",
+                b"\n",
+                b" ",
+                b"#",
+                b"U",
+                b"\x00",
+                b"\xef\xbb\xbf",
+                b"\\x",
+            ]
+        )
+    ).map(b"".join)
+)
+
+
+def result_of(pieces: list[bytes]) -> tuple[str, list[object], list[Message | Noise]]:
+    found: list[Entry] = []
+    problem = ""
+    try:
+        found.extend(read(Pieces(pieces)))
+    except RecordingError as error:
+        problem = str(error).partition(":")[0]
+    times = [(entry.time, entry.sender, entry.line) for entry in found]
+    return problem, [*dict.fromkeys(times)], joined(entry.event for entry in found)
+
+
+@given(contents, st.data())
+@example(b"5555020F" * 3, None)
+def test_chunking_does_not_change_what_a_recording_holds(
+    content: bytes, data: st.DataObject | None
+) -> None:
+    cuts = [*range(1, len(content))]
+    if data is not None:
+        cuts = sorted(data.draw(st.lists(st.integers(0, len(content)), max_size=len(content))))
+    pieces = [content[start:end] for start, end in pairwise([0, *cuts, len(content)])]
+    whole, cut = result_of([content]), result_of(pieces)
+    if whole[0] == cut[0] == "":
+        assert cut == whole
+    else:
+        assert cut[0] == whole[0]
+
+
+@pytest.mark.parametrize("size", [1, 2, 4, 1000])
+def test_the_mark_that_editors_write_in_front_of_text_is_no_line(size: int) -> None:
+    text = b"# recorded of 'COM5' from 2026-01-02 03:04:05 +0000 on\n"
+    text += b"55 55 02 07  # 0.5 s, host: ActionGroupStop()\n"
+    marked = b"\xef\xbb\xbf" + text
+    pieces = [marked[at : at + size] for at in range(0, len(marked), size)]
+    (entry,) = read(Pieces(pieces))
+    assert (entry.time, entry.sender, entry.line) == (0.5, "host", 2)
+    assert entry.began == datetime(2026, 1, 2, 3, 4, 5, tzinfo=timezone.utc).timestamp()
+
+
+@pytest.mark.parametrize("glued", [True, False])
+def test_a_line_of_hex_may_be_longer_than_any_buffer(*, glued: bool) -> None:
+    """5462 messages, of which the 64 KiB that are read first end within a byte."""
+    data = 5462 * VOLTAGE.encode()
+    content = (data.hex() if glued else data.hex(" ")).encode()
+    for first in (65535, 1):
+        starts = [0, *range(first, len(content), 65536), len(content)]
+        pieces = [content[start:end] for start, end in pairwise(starts)]
+        assert [entry.event for entry in read(Pieces(pieces))] == 5462 * [VOLTAGE]
+
+
+@pytest.mark.parametrize("form", ["timed", "hex", "one line", "raw"])
+def test_no_file_is_held_as_a_whole(form: str) -> None:
+    one = {
+        "timed": b"55 55 04 0F 4C 1D  # 0.5 s, controller: BatteryVoltage(voltage_mv=7500)\n",
+        "hex": b"55 55 04 0F 4C 1D\n",
+        "one line": b"5555040F4C1D",
+        "raw": VOLTAGE.encode(),
+    }[form]
+    taken = 0
+
+    def pieces() -> Iterator[bytes]:
+        nonlocal taken
+        for _ in range(100):
+            taken += 1
+            yield one * (5000 // len(one))
+
+    ahead = [taken * (5000 // len(one)) - number for number, _ in enumerate(read(Pieces(pieces())))]
+    assert taken == 100
+    assert max(ahead) * len(one) <= LONGEST_LINE + 5000
+
+
+@given(st.lists(st.tuples(st.sampled_from([HOST, BOARD]), strategies.messages()), max_size=5))
+def test_every_message_is_read_back(sent: list[tuple[Direction, Message]]) -> None:
+    text = "".join(
+        f"{message.encode().hex()}  # 0.5 s, {message.DIRECTION.sender}: {message!r}\n"
+        for _, message in sent
+    )
+    assert [(entry.sender, entry.event) for entry in entries(text)] == [
+        (message.DIRECTION.sender, message) for _, message in sent
+    ]

@@ -1,0 +1,171 @@
+"""Statistics of every protocol are those of its decoder's events, however a capture is cut."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.few_each import few_each
+from tests.protocols.libraries import Libraries, direction_of
+from tests.protocols.specs import FILES
+from tests.unit.runtime.tables.rows import joined, rows_of_decoder
+from tests.unit.runtime.tables.test_other_protocols import lines_of, ways_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import ModuleType
+
+    from framegen.language.values import Direction
+
+QUICK = {"lxservo", "everything"}
+CASES = [
+    pytest.param(name, way, marks=() if name in QUICK and way is None else (pytest.mark.slow,))
+    for name in FILES
+    for way in ways_of(name)
+]
+
+
+def part(made: ModuleType, name: str) -> Any:
+    return import_module(f"{made.__name__}.{name}")
+
+
+def _measured(
+    made: ModuleType, name: str, way: Direction | None, data: st.DataObject
+) -> tuple[bytes, Any, Any]:
+    """Return a line, who sends on it, and its statistics."""
+    line = data.draw(lines_of(name, made))
+    direction = None if way is None else direction_of(made, way)
+    measure = part(made, "_tables.stats.statistics").statistics
+    return line, direction, measure(line, form="raw", direction=direction)
+
+
+@pytest.mark.parametrize(("name", "way"), CASES)
+@few_each
+@given(data=st.data())
+def test_statistics_are_those_of_the_decoder(
+    libraries: Libraries, name: str, way: Direction | None, data: st.DataObject
+) -> None:
+    made = libraries[name]
+    line, direction, found = _measured(made, name, way, data)
+    rows = joined(rows_of_decoder(made, line, direction))
+    messages = [row for row in rows if row.table not in ("noise", "unknown")]
+    assert {each.name: each.count for each in found.messages} == Counter(
+        row.table for row in messages
+    )
+    assert {each.name: each.size for each in found.messages} == _sizes(messages, "table")
+    noise = [row for row in rows if row.table == "noise"]
+    assert {each.reason.value: each.count for each in found.noise} == Counter(
+        row.reason for row in noise
+    )
+    assert {each.reason.value: each.size for each in found.noise} == _sizes(noise, "reason")
+    unknown = [row for row in rows if row.table == "unknown"]
+    assert sum(each.count for each in found.unknown) == len(unknown)
+    assert found.size == len(line)
+    assert sum(found.sent.values()) == len(line)
+    assert (found.span, found.silences) == (None, [])
+
+
+def _sizes(rows: list[Any], by: str) -> dict[str, int]:
+    sizes: Counter[str] = Counter()
+    for row in rows:
+        sizes[getattr(row, by)] += row.size
+    return sizes
+
+
+@pytest.mark.parametrize(("name", "way"), CASES)
+@few_each
+@given(data=st.data())
+def test_ranges_are_those_of_the_messages(
+    libraries: Libraries, name: str, way: Direction | None, data: st.DataObject
+) -> None:
+    made = libraries[name]
+    line, direction, found = _measured(made, name, way, data)
+    decoder = made.StreamDecoder(direction)
+    values: dict[tuple[str, str], list[float]] = {}
+    for event in [*decoder.feed(line), *decoder.flush()]:
+        if isinstance(event, made.Message):
+            for path, value in _numbers(event):
+                values.setdefault((type(event).__name__, path), []).append(value)
+    ends: dict[tuple[str, str], list[float]] = {}
+    counts: Counter[tuple[str, str]] = Counter()
+    slots: dict[tuple[str, str], Any] = {}
+    absent: dict[tuple[str, str], list[int]] = {}
+    for each in found.ranges:
+        key = each.quantity.layout.name, each.quantity.path.rstrip("_")
+        counts[key] += each.count
+        slots[key], absent[key] = each.quantity.slot, each.quantity.absent
+        some = ends.setdefault(key, [])
+        some += [end for end in (each.lowest, each.highest) if end is not None]
+    for key, some in ends.items():
+        there = [each for each in values[key] if math.isfinite(each) and each not in absent[key]]
+        assert counts[key] == len(values[key])
+        if "signed_as" in slots[key].said:
+            there = [_signed(int(each), slots[key].size) for each in there]
+        assert (min(some, default=None), max(some, default=None)) == (
+            min(there, default=None),
+            max(there, default=None),
+        )
+
+
+def _numbers(message: Any) -> Iterator[tuple[str, float]]:
+    """Yield the numbers of a message by the paths that statistics give them."""
+    for name, value in message.to_dict().items():
+        path = name.rstrip("_")
+        for element in value if isinstance(value, list) else [value]:
+            if isinstance(element, dict):
+                inner = ((f"{path}.{each}".rstrip("_"), element[each]) for each in element)
+                yield from ((each, value) for each, value in inner if _is_number(value))
+            elif _is_number(element):
+                yield path, element
+
+
+def _signed(value: int, size: int) -> int:
+    return int.from_bytes(value.to_bytes(size, "big"), "big", signed=True)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float)
+
+
+@pytest.mark.parametrize("name", ["everything", "ubx", "sbus"])
+@few_each
+@given(data=st.data())
+def test_statistics_can_be_shown_and_drawn(
+    libraries: Libraries, name: str, data: st.DataObject
+) -> None:
+    made = libraries[name]
+    line = data.draw(lines_of(name, made))
+    traces = part(made, "_tables.stats.traces").Traces(9600)
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+    sheet = part(made, "_cli.statistics_sheet")
+    assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600)
+    sheet.show(found, "line.bin", 9600)
+    for quantity, lines in traces.panels():
+        for trace in lines.values():
+            at, value = trace.points()
+            assert len(at) == len(value) >= 1, quantity.name
+
+
+def test_what_is_drawn_is_in_the_larger_unit(libraries: Libraries) -> None:
+    made = libraries["crsf"]
+    (place,) = (kind for kind in made.MESSAGES if "altitude" in kind.__match_args__)
+    given = dict.fromkeys(place.__match_args__, 1) | {"altitude": 1234, "heading": 9050}
+    traces = part(made, "_tables.stats.traces").Traces(9600)
+    line = place(**given).encode()
+    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+    drawn = {
+        quantity.path: trace.points()[1].tolist()
+        for quantity, lines in traces.panels()
+        for trace in lines.values()
+    }
+    assert (drawn["altitude"], drawn["heading"]) == ([234.0], [pytest.approx(90.5)])
+    # As whole numbers, values are those on the wire.
+    (altitude,) = (each for each in found.ranges if each.quantity.path == "altitude")
+    assert (altitude.lowest, altitude.highest) == (1234, 1234)
+    assert altitude.quantity.slot.scaled(1234) == 234

@@ -1,0 +1,103 @@
+"""A protocol in three editions, told apart by what each changed: the site of all of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+from framegen.comparison.listing import edition_of
+from framegen.compile import compile_spec
+from framegen.reading.source import Source
+from framegen.render import snippets
+from framegen.site.project import Project
+from framegen.site.rendering import render_page
+from framegen.site.site import Site, render_site
+
+from tests.mutations.spec_edits import edited
+from tests.unit.site.reference import ROOT, Page, broken_links, pages_of
+
+LAMPS = (ROOT / "tests" / "specs" / "bad" / "base" / "lamps.yaml").read_text(encoding="utf-8")
+HISTORY = """
+history:
+  - version: "1.0.0"
+    changes: [The first one.]
+"""
+FIRST = LAMPS.rstrip() + HISTORY
+
+# The second: LampState is called LampLevel, which is accepted, and LampRead stays.
+SECOND = (
+    FIRST.replace("LampState", "LampLevel")
+    .replace("  LampLevel:\n", "  LampLevel:\n    was: LampState\n")
+    .replace('version: "1.0.0"\n  authority', 'version: "2.0.0"\n  authority')
+    .replace(
+        "history:\n",
+        'history:\n  - version: "2.0.0"\n    changes: [LampState is called LampLevel.]\n'
+        "    breaks: {messages.LampLevel: Nobody reads <states>.}\n",
+    )
+)
+# The third: LampsSet is gone, and the number of a lamp may be larger.
+THIRD = edited(SECOND, {"remove": "LampsSet:"})
+THIRD = (
+    THIRD.replace("lamp_id: {type: u8, about: The lamp.}", "lamp_id: {type: u16, about: The lamp.}")
+    .replace("    length: 2\n", "    length: 3\n")
+    .replace("AA 55 02 08 01", "AA 55 03 08 01 00")
+    .replace('version: "2.0.0"\n  authority', 'version: "3.0.0"\n  authority')
+    .replace(
+        "history:\n",
+        'history:\n  - version: "3.0.0"\n    changes: [Lamps are numbered up to 65535.]\n',
+    )
+)
+
+
+@dataclass(frozen=True)
+class Editions:
+    """A site of a spec and its released editions, the newest of these first."""
+
+    spec: str
+    released: tuple[str, ...]
+    guides: tuple[tuple[str, str], ...] = ()
+    files: tuple[tuple[str, bytes], ...] = ()
+
+    @cached_property
+    def project(self) -> Project:
+        """The project that the site is made of."""
+        spec = compile_spec(Source("spec/lamps.yaml", self.spec))
+        assert [finding.message for finding in spec.findings] == []
+        editions = [
+            edition_of(Source(f"spec/released/{number}.yaml", text))
+            for number, text in enumerate(self.released)
+        ]
+        name = spec.spec.protocol.name
+        return Project([spec], dict(self.guides), dict(self.files), released={name: editions})
+
+    @cached_property
+    def rendered(self) -> dict[str, str]:
+        """Every file, by path below the root of the site."""
+        return render_site(self.project, snippets())
+
+    @cached_property
+    def pages(self) -> dict[str, Page]:
+        """Every page, by path below the root of the site."""
+        return pages_of(self.rendered)
+
+    @cached_property
+    def site(self) -> Site:
+        """The site, of which nothing is rendered yet."""
+        return Site(self.project, snippets())
+
+    def page(self, path: str) -> Page:
+        """Return a page by its path below the root of the reference, rendered alone."""
+        whole = f"reference/lamps/{path}"
+        (page,) = (page for page in self.site.pages if page.path == whole)
+        return Page(whole, render_page(self.site, page))
+
+    @property
+    def broken_links(self) -> list[tuple[str, str]]:
+        """The links that lead nowhere."""
+        return broken_links(self.pages, {*self.rendered, *dict(self.files)})
+
+
+@cache
+def three() -> Editions:
+    """Return the site of the third edition, which is released as well, as it is."""
+    return Editions(THIRD, (THIRD, SECOND, FIRST))

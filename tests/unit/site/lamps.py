@@ -1,0 +1,117 @@
+"""A small site of guides and one reference, with its pages parsed once for all tests."""
+
+from __future__ import annotations
+
+import html
+import re
+from functools import cache
+
+from framegen.compile import Compiled, compile_spec
+from framegen.language.load import read_source
+from framegen.render import snippets
+from framegen.site.project import Project
+from framegen.site.site import render_site
+
+from tests.unit.site.reference import SPECS, Page
+
+BASE = "https://example.org/docs/"
+README = """# Lamps
+
+Lamps on a *line*.
+
+```python
+lamp()
+```
+
+```output
+on
+```
+
+## Learn
+
+How to begin.
+
+- [First steps](first.md): from nothing
+  to a lamp.
+- [Second steps](second.md): `lamps` from a shell.
+
+## Look up
+
+- [The protocol](reference/greenhouse/README.md): each of its frames.
+
+## Maintain
+
+- [Changes](../CHANGELOG.md): what changed.
+
+## About
+
+See [the tests](../tests/README.md), and [the first steps](first.md#a-step).
+"""
+FIRST = """# The very first steps
+
+## A `step`
+
+Into [the second](second.md), [the frames](reference/greenhouse/README.md#frames),
+[a message](reference/greenhouse/messages/VentsOpen.md), [the spec](../demo.yaml),
+[the workbench](reference/greenhouse/README.md#workbench),
+[changes](../CHANGELOG.md), [a file](../tests/x.py), [elsewhere](https://example.org/).
+
+### A smaller "one"
+
+`--a-long-option` and `a b`
+"""
+GUIDES = {
+    "README.md": README,
+    "first.md": FIRST,
+    "second.md": "# Second\n\nIt goes on.\n",
+    "third.md": "# Third\n\nNobody lists it.\n",
+    "../CHANGELOG.md": "# Changelog\n\n## 1.0.0\n\nSee [the steps](docs/first.md#a-step).\n",
+}
+
+
+@cache
+def greenhouse() -> Compiled:
+    """Return the spec of its reference."""
+    return compile_spec(read_source(SPECS["greenhouse"]))
+
+
+@cache
+def lamps(base: str = "", preview: bool = False) -> dict[str, Page]:
+    """Return a small site of guides and one reference, a page by its path."""
+    made = rendered_lamps(base, preview)
+    return {path: Page(path, text) for path, text in made.items() if path.endswith(".html")}
+
+
+@cache
+def rendered_lamps(base: str = "", preview: bool = False) -> dict[str, str]:
+    """Return all files of that site by path."""
+    files = {"images/preview.png": b""} if preview else {}
+    return render_site(Project([greenhouse()], GUIDES, files, base, "4.5.6"), snippets())
+
+
+def metas(page: Page) -> dict[str, str]:
+    """Return what the head of a page says, by name."""
+    return {
+        given.get("name") or given.get("property", ""): given["content"]
+        for tag, given in page.tags
+        if tag == "meta" and "content" in given
+    }
+
+
+def title(page: Page) -> str:
+    """Return the title in the head of a page."""
+    found = re.search("<title>(.*?)</title>", page.text)
+    assert found is not None
+    return html.unescape(found[1])
+
+
+def part(page: Page, name: str) -> str:
+    """Return the navigation of a name, without what is around it."""
+    found = re.search(rf'<nav[^>]* aria-label="{name}".*?</nav>', page.text, re.DOTALL)
+    return "" if found is None else found[0]
+
+
+def links(text: str) -> list[tuple[str, str]]:
+    """Return the links in some HTML, each with its words."""
+    found = re.findall(r'<a [^>]*?href="([^"]*)"[^>]*>(.*?)</a>', text, re.DOTALL)
+    return [(link, " ".join(re.sub("<[^>]*>", " ", label).split())) for link, label in found]

@@ -1,0 +1,201 @@
+"""The reference of two protocols, with its pages parsed once for all tests."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from html.parser import HTMLParser
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+from framegen.compile import Compiled, compile_spec
+from framegen.language.load import read_source
+from framegen.reading.source import Source
+from framegen.render import render_target, snippets
+from framegen.site.project import Project
+from framegen.site.site import render_site
+from framegen.targets import docs
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Mapping
+
+    from framegen.model.model import Model
+
+ROOT = Path(__file__).parents[3]
+SPECS = {
+    "busservo": ROOT / "spec" / "busservo.yaml",
+    "greenhouse": ROOT / "tests" / "specs" / "demo.yaml",
+}
+NODE = shutil.which("node")
+# Where `make docs-tools` puts what tests/unit/site/package.json names.
+NODE_MODULES = ROOT / ".tools" / "node" / "node_modules"
+
+# Elements without an end.
+VOID = frozenset(["br", "img", "input", "link", "meta"])
+
+
+@dataclass
+class Page(HTMLParser):
+    """One page: the text of its elements, in order."""
+
+    path: str
+    text: str
+    ids: list[str] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
+    loads: list[str] = field(default_factory=list)
+    scripts: list[tuple[dict[str, str], str]] = field(default_factory=list)
+    styles: list[str] = field(default_factory=list)
+    headings: list[int] = field(default_factory=list)
+    python: list[str] = field(default_factory=list)
+    tags: list[tuple[str, dict[str, str]]] = field(default_factory=list)
+    words: str = ""
+
+    def __post_init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self._inside: list[str] = []
+        self._snippet = False
+        self.feed(self.text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in attrs}
+        self.tags.append((tag, given))
+        self.ids += [given["id"]] if "id" in given else []
+        self.links += [given["href"]] if tag == "a" else []
+        loading = [given[name] for name in ("src", "srcset", "data", "poster") if name in given]
+        self.loads += loading + ([given.get("href", "")] if tag in ("link", "use", "image") else [])
+        if tag in ("h1", "h2", "h3", "h4", "h5", "h6"):
+            self.headings.append(int(tag[1]))
+        if tag == "script":
+            self.scripts.append((given, ""))
+        if tag == "style":
+            self.styles.append("")
+        if tag == "pre" and given.get("class") == "python":
+            self.python.append("")
+            self._snippet = True
+        if tag not in VOID:
+            self._inside.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.handle_endtag(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self._inside.pop() == tag, f"{self.path}: </{tag}> closes something else"
+        self._snippet = self._snippet and tag != "pre"
+        self.words += " " if tag in ("td", "th", "li", "dt", "dd", "p") else ""
+
+    def handle_data(self, data: str) -> None:
+        inside = self._inside[-1] if self._inside else ""
+        if inside == "script":
+            attributes, text = self.scripts[-1]
+            self.scripts[-1] = attributes, text + data
+        elif inside == "style":
+            self.styles[-1] += data
+        else:
+            self.words += data
+            if self._snippet:
+                self.python[-1] += data
+
+    def leads_to(self, link: str) -> tuple[str, str]:
+        """Return the page and the anchor that a link of this page leads to."""
+        path, _, anchor = link.partition("#")
+        path = path.partition("?")[0]
+        if not path:
+            return self.path, anchor
+        steps: list[str] = []
+        for step in (*PurePosixPath(self.path).parent.parts, *PurePosixPath(path).parts):
+            if step == "..":
+                steps.pop()
+            else:
+                steps.append(step)
+        return "/".join(steps), anchor
+
+
+@dataclass(frozen=True)
+class Reference:
+    """One reference by path below its root: the files of Markdown that are kept, and the pages."""
+
+    compiled: Compiled
+
+    @property
+    def source(self) -> Source:
+        """The text of its spec."""
+        return self.compiled.source
+
+    @property
+    def model(self) -> Model:
+        """The model of its spec."""
+        return self.compiled.model
+
+    @cached_property
+    def files(self) -> dict[str, str]:
+        """The text of each file that is kept."""
+        name = self.compiled.spec.protocol.name
+        return {
+            path.removeprefix(f"docs/reference/{name}/"): text
+            for path, text in render_target(docs.TARGET, self.compiled).items()
+        }
+
+    @cached_property
+    def pages(self) -> dict[str, Page]:
+        """Each page, by path below the root of the reference."""
+        return {
+            path.removeprefix(self.folder): page
+            for path, page in self.site.items()
+            if path.startswith(self.folder)
+        }
+
+    @property
+    def folder(self) -> str:
+        """Where its pages are in the site."""
+        return f"reference/{self.compiled.spec.protocol.name}/"
+
+    @cached_property
+    def site(self) -> dict[str, Page]:
+        """Each page of the site that has this reference alone, by path below its root."""
+        return pages_of(self.rendered)
+
+    @cached_property
+    def rendered(self) -> dict[str, str]:
+        """Each file of that site, by path below its root."""
+        return render_site(Project([self.compiled]), snippets())
+
+
+def pages_of(rendered: Mapping[str, str]) -> dict[str, Page]:
+    """Return the pages among the files of a site, by path below its root."""
+    return {path: Page(path, text) for path, text in rendered.items() if path.endswith(".html")}
+
+
+def broken_links(
+    pages: Mapping[str, Page], files: Collection[str], of: Iterable[Page] | None = None
+) -> list[tuple[str, str]]:
+    """Return the links of pages, or of all, that lead to no page, file or anchor of a site."""
+    found: list[tuple[str, str]] = []
+    for page in pages.values() if of is None else of:
+        for link in page.links:
+            where, anchor = page.leads_to(link)
+            is_there = where in pages or (where in files and not anchor)
+            known = pages[where].ids if anchor and where in pages else [anchor]
+            if "://" not in link and not (is_there and anchor in known):
+                found.append((page.path, link))
+    return found
+
+
+def reference_of(source: Source) -> Reference:
+    """Return the reference of a spec that has no findings."""
+    return Reference(compile_spec(source))
+
+
+def respelled(data: dict[str, Any]) -> Source:
+    """Return a spec of other values, as text: JSON is YAML too."""
+    return Source("spec/other.yaml", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+
+
+@cache
+def reference(name: str) -> Reference:
+    """Return the reference of one of SPECS."""
+    return reference_of(read_source(SPECS[name]))

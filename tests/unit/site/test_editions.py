@@ -1,0 +1,197 @@
+"""Released editions in the site: a reference of each, and the way from each to the newest."""
+
+import re
+from functools import cache
+
+import pytest
+from framegen.reading.source import Source
+from framegen.reading.yamltree import read_tree
+
+from tests.mutations.spec_edits import edited
+from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
+from tests.unit.site.reference import Page, respelled
+from tests.unit.site.test_hostile_pages import PAYLOADS, poisoned
+
+ROOT = "reference/lamps/"
+
+
+def notice(page: Page) -> str:
+    """Return what a page of an older edition says at its top."""
+    found = re.search(r'<aside class="edition older".*?</p>', page.text, re.DOTALL)
+    return "" if found is None else " ".join(re.sub(r"<[^>]*>", "", found[0]).split())
+
+
+def led_to(page: Page) -> str:
+    """Return where the notice leads to."""
+    found = re.search(r'<aside class="edition older".*?href="([^"]*)"', page.text, re.DOTALL)
+    assert found is not None
+    return page.leads_to(found[1])[0]
+
+
+def test_each_older_edition_has_a_reference_of_its_own() -> None:
+    pages = three().pages
+    messages = {
+        "": {"LampRead", "LampLevel"},
+        "2.0.0/": {"LampsSet", "LampRead", "LampLevel"},
+        "1.0.0/": {"LampsSet", "LampRead", "LampState"},
+    }
+    for folder, names in messages.items():
+        found = {
+            path.removeprefix(f"{ROOT}{folder}messages/").removesuffix(".html")
+            for path in pages
+            if path.startswith(f"{ROOT}{folder}messages/")
+        }
+        assert found == names
+    assert "u8" in three().page("2.0.0/messages/LampRead.html").words
+    assert "u16" in three().page("messages/LampRead.html").words
+
+
+def test_every_link_of_every_edition_leads_somewhere() -> None:
+    assert len(three().pages) > 40
+    assert three().broken_links == []
+
+
+@pytest.mark.parametrize(
+    ("page", "said", "path"),
+    [
+        ("2.0.0/index", "This page in 3.0.0", "index"),
+        ("2.0.0/errata", "This page in 3.0.0", "errata"),
+        ("2.0.0/messages/LampRead", "This page in 3.0.0", "messages/LampRead"),
+        ("2.0.0/messages/LampLevel", "This page in 3.0.0", "messages/LampLevel"),
+        ("2.0.0/messages/LampsSet", "LampsSet is gone in 3.0.0.", "index"),
+        (
+            "1.0.0/messages/LampState",
+            "In 3.0.0, LampState is called LampLevel.",
+            "messages/LampLevel",
+        ),
+        ("1.0.0/messages/LampsSet", "LampsSet is gone in 3.0.0.", "index"),
+    ],
+)
+def test_an_older_page_leads_to_the_newest(page: str, said: str, path: str) -> None:
+    found = three().page(f"{page}.html")
+    version = page.partition("/")[0]
+    assert notice(found) == f"Version {version}, which is not the newest. {said}"
+    assert led_to(found) == f"{ROOT}{path}.html"
+
+
+def test_a_name_that_only_seems_to_be_another_is_said_to_be_a_guess() -> None:
+    guessed = SECOND.replace("    was: LampState\n", "")
+    site = Editions(guessed, (FIRST,))
+    said = notice(site.page("1.0.0/messages/LampState.html"))
+    assert said.endswith("In 2.0.0, LampState may be LampLevel.")
+    assert site.broken_links == []
+
+
+def test_the_newest_page_offers_the_same_in_other_editions() -> None:
+    page = three().page("messages/LampLevel.html")
+    (details,) = re.findall(r'<details class="edition">.*?</details>', page.text, re.DOTALL)
+    assert "<summary>Version 3.0.0</summary>" in details
+    links = [page.leads_to(link)[0] for link in re.findall(r'href="([^"]*)"', details)]
+    assert links == [
+        f"{ROOT}2.0.0/messages/LampLevel.html",
+        f"{ROOT}1.0.0/messages/LampState.html",
+        f"{ROOT}changelog.html",
+    ]
+    assert ", as LampState" in details
+
+
+def test_where_a_message_is_new_older_editions_say_so() -> None:
+    site = Editions(FIRST, (edited(FIRST, {"remove": "LampsSet:"}),))
+    text = site.page("messages/LampsSet.html").text
+    assert "1.0.0: not there, see" in text
+
+
+def test_a_spec_without_other_editions_offers_none() -> None:
+    for released in ((), (FIRST,)):
+        for path in ("index", "messages/LampRead", "changelog"):
+            page = Editions(FIRST, released).page(f"{path}.html")
+            assert 'class="edition' not in page.text, path
+
+
+def test_the_last_release_is_not_rendered_twice() -> None:
+    """Its address leads to the newest edition, which is the same; comments aside."""
+    same = Editions(f"# Released.\n{THIRD}", (THIRD,))
+    alone = Editions(f"# Released.\n{THIRD}", ())
+    added = f"{ROOT}3.0.0/index.html"
+    assert same.rendered.keys() - alone.rendered.keys() == {added}
+    page = same.page("3.0.0/index.html")
+    assert f"{ROOT}index.html" in [page.leads_to(link)[0] for link in page.links]
+    assert {path: text for path, text in same.rendered.items() if path != added} == alone.rendered
+
+
+def test_another_order_is_another_edition() -> None:
+    read = "  LampRead:\n"
+    at = FIRST.index(read)
+    end = FIRST.index("  LampState:\n")
+    other = FIRST[: FIRST.index("  LampsSet:\n")] + FIRST[at:end]
+    other += FIRST[FIRST.index("  LampsSet:\n") : at] + FIRST[end:]
+    paths = {page.path for page in Editions(other, (FIRST,)).site.pages}
+    assert f"{ROOT}1.0.0/messages/LampRead.html" in paths
+
+
+def test_what_waits_for_its_release_says_so() -> None:
+    site = Editions(THIRD, (SECOND, FIRST))
+    assert "Version 3.0.0, not released yet" in site.page("index.html").words
+    assert "not released yet" not in three().page("index.html").words
+    assert site.broken_links == []
+
+
+def test_older_editions_are_in_no_navigation_and_not_searched() -> None:
+    older = re.compile(rf"{ROOT}[0-9]")
+    site = three().site
+    linked = [link.path for section in site.sidebar for link in section.every_link]
+    assert [path for path in linked if older.match(path)] == []
+    assert "1.0.0/" not in three().rendered["search.html"]
+    (versions,) = [
+        link for section in site.sidebar for link in section.every_link if link.label == "Versions"
+    ]
+    assert versions.path == f"{ROOT}changelog.html"
+
+
+def test_search_engines_are_led_to_the_newest() -> None:
+    found = {page.path: page.canonical for page in three().site.pages}
+    assert found[f"{ROOT}2.0.0/messages/LampRead.html"] == f"{ROOT}messages/LampRead.html"
+    assert found[f"{ROOT}1.0.0/messages/LampState.html"] == f"{ROOT}messages/LampLevel.html"
+    assert found[f"{ROOT}1.0.0/stream.html"] == f"{ROOT}stream.html"
+    assert found[f"{ROOT}3.0.0/index.html"] == f"{ROOT}index.html"
+    # Of what is gone, no newer page tells.
+    assert found[f"{ROOT}2.0.0/messages/LampsSet.html"] == ""
+    assert found[f"{ROOT}messages/LampRead.html"] == ""
+    assert found["index.html"] == ""
+
+
+def test_titles_and_trails_of_older_pages_have_the_version() -> None:
+    page = three().page("1.0.0/messages/LampRead.html")
+    assert "<title>LampRead \N{EN DASH} Lamps 1.0.0</title>" in page.text
+    trail = re.findall(r'<nav class="trail".*?</nav>', page.text, re.DOTALL)[0]
+    assert re.findall(r">([^<]+)</a>", trail) == ["Home", "Lamps", "Versions", "1.0.0"]
+
+
+# What a release can put into pages of the newest edition, and one of each kind of its own.
+EXPOSED = ("changelog", "index", "1.0.0/index", "1.0.0/messages/LampState", "1.0.0/errata")
+
+
+@cache
+def elements_of_release(payload: str) -> dict[str, list[tuple[str, list[str]]]]:
+    """Return the elements of pages of a site one of whose releases says it wherever it can.
+
+    Code is left out: between two backticks, it is what a sentence may have.
+    """
+    data = read_tree(Source("lamps.yaml", FIRST))[0].data
+    site = Editions(SECOND, (respelled(poisoned(data, payload)).text,))
+    pages = {path: site.page(f"{path}.html") for path in EXPOSED}
+    return {
+        path: [(tag, sorted(given)) for tag, given in page.tags if tag != "code"]
+        for path, page in pages.items()
+    }
+
+
+@pytest.mark.parametrize("kind", PAYLOADS)
+def test_a_hostile_release_stays_inert(kind: str) -> None:
+    assert elements_of_release(PAYLOADS[kind]) == elements_of_release("words")
+
+
+def test_the_same_editions_give_the_same_bytes() -> None:
+    again = Editions(THIRD, (THIRD, SECOND, FIRST))
+    for path in ("changelog.html", "downloads.html", "2.0.0/messages/LampRead.html"):
+        assert again.page(path).text == three().page(path).text

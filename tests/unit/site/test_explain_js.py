@@ -1,0 +1,174 @@
+"""The explanations of the page, under node: word for word those of `framegen explain`."""
+
+from __future__ import annotations
+
+import json
+import random
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.explain import explain
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.protocol_data import protocol_data
+from hypothesis import settings
+
+from tests.factories import BUSSERVO, compiled_file
+from tests.protocols.specs import FILES
+from tests.unit.site.peers import noisy_lines
+from tests.unit.site.reference import NODE, reference
+from tests.unit.site.scripts import run_script
+
+if TYPE_CHECKING:
+    from framegen.explanation.explanation import Row
+    from framegen.model.model import Model
+
+pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
+
+SPECS = {"busservo": BUSSERVO, **FILES}
+PROGRAM = """
+const { explain } = makeCodec(asked.protocol);
+const hex = (bytes) => toHex(bytes);
+const rowsOf = (rows) => rows.map(({ at, bytes, path, role, value, text, meaning }) => (
+  [at, hex(bytes), path, role, value, text, meaning]));
+const answers = asked.questions.map(([bytes, way]) => {
+  const { protocol, readings, refusals, hints } = explain(bytes, way);
+  return {
+    protocol,
+    readings: readings.map((each) => (
+      [each.message, each.direction, each.summary, rowsOf(each.rows), each.facts])),
+    refusals: refusals.map((each) => (
+      [each.direction, each.reason, each.offset, each.expected, rowsOf(each.rows)])),
+    hints: hints.map(({ text, frame }) => [text, hex(frame)]),
+  };
+});
+"""
+
+
+def explained(model: Model, questions: list[tuple[bytes, str | None]]) -> list[Any]:
+    """Return the explanations of the page."""
+    asked = {"protocol": protocol_data(model), "questions": questions}
+    answers: list[Any] = run_script(codec_scripts(model), PROGRAM, asked)
+    return answers
+
+
+def right(model: Model, data: bytes, way: str | None) -> Any:
+    """Return what `framegen explain` says."""
+    ways = [each for each in model.directions if way in (None, each.key)]
+    found = explain(model, data, ways)
+    return {
+        "protocol": found.protocol,
+        "readings": [
+            [each.message, each.direction, each.summary, _rows(each.rows), _lists(each.facts)]
+            for each in found.readings
+        ],
+        "refusals": [
+            [each.direction, each.reason, each.offset, each.expected, _rows(each.rows)]
+            for each in found.refusals
+        ],
+        "hints": [[each.text, _hex(each.frame)] for each in found.hints],
+    }
+
+
+def _rows(rows: tuple[Row, ...]) -> list[Any]:
+    return [
+        [
+            row.offset,
+            row.data.hex(" ").upper(),
+            row.path,
+            row.role,
+            _value(row),
+            row.text,
+            row.meaning,
+        ]
+        for row in rows
+    ]
+
+
+def _hex(data: bytes) -> str:
+    return data.hex(" ").upper()
+
+
+def _value(row: Row) -> Any:
+    """Return the value of a row; nan is not equal to itself."""
+    return "nan" if row.value != row.value else row.value
+
+
+def _lists(pairs: tuple[tuple[str, str], ...]) -> list[list[str]]:
+    return [list(pair) for pair in pairs]
+
+
+def frames_for(model: Model, name: str) -> list[bytes]:
+    """Return documented frames, changed ones, frames of look-alikes, and noise."""
+    chance = random.Random(name)  # noqa: S311 - the same frames in every run
+    documented = [
+        bytes.fromhex(example["hex"])
+        for said in (
+            *model.plain.said["messages"].values(),
+            *model.plain.said["lookalikes"].values(),
+        )
+        for example in said["examples"]
+    ]
+    found = [b"", *documented]
+    for frame in documented:
+        found += [_changed(chance, frame) for _ in range(few(4))]
+    found += [line[: chance.randrange(2, 30)] for line in noisy_lines(model, 3, 30)]
+    found += [chance.randbytes(size) for size in range(12)]
+    return found
+
+
+def few(number: int) -> int:
+    """Return so many where Hypothesis tries a hundred examples, and as many more as it does."""
+    many: int = settings().max_examples
+    return max(1, number * many // 100)
+
+
+def _changed(chance: random.Random, frame: bytes) -> bytes:
+    at = chance.randrange(len(frame))
+    other = bytes([chance.choice([0, 1, 2, 3, 5, 0x7F, 0xFF, chance.randrange(256)])])
+    return chance.choice(
+        [
+            frame[:at],
+            frame[:at] + other + frame[at + 1 :],
+            frame[:at] + other + frame[at:],
+            frame[:at] + frame[at + 1 :],
+            other + frame,
+            frame + frame,
+        ]
+    )
+
+
+@pytest.mark.each_protocol
+@pytest.mark.parametrize("name", SPECS)
+def test_bytes_are_explained_in_the_words_of_the_reference(name: str) -> None:
+    model = compiled_file(SPECS[name]).model
+    questions = [
+        (data, way)
+        for data in frames_for(model, name)
+        for way in (None, *(each.key for each in model.directions))
+    ]
+    for (data, way), said in zip(questions, explained(model, questions), strict=True):
+        assert said == right(model, data, way), (data.hex(" "), way)
+
+
+# What a frame of the board says, in the page: the texts that must be there.
+CASES = {
+    "a frame that is legal both ways": (
+        "55 55 05 06 08 01 00",
+        ["ActionGroupRun", "ActionGroupStarted"],
+    ),
+    "a length that no such message has": (
+        "55 55 09 03 01 E8 03 01 20 03",
+        [
+            "ServoMove has a length of 8, 11, 14 .. 254, not 9",
+            "10 bytes have a length of 8; with that they are ServoMove (host -> controller)",
+        ],
+    ),
+}
+
+
+@pytest.mark.parametrize("title", CASES)
+def test_an_explanation_says_what_matters(title: str) -> None:
+    hex_, texts = CASES[title]
+    (found,) = explained(reference("busservo").model, [(bytes.fromhex(hex_), None)])
+    said = json.dumps(found)
+    assert [text for text in texts if text not in said] == []

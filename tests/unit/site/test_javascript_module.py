@@ -1,0 +1,208 @@
+"""The JavaScript module: what it exports, used as others use it, and its types."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.site.scripts.javascript_module import javascript_module
+
+from tests.factories import BUSSERVO, DEMO, compiled_file, write_files
+from tests.protocols.specs import FILES
+from tests.unit.site.reference import NODE, NODE_MODULES, ROOT, reference
+from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from framegen.model.model import Model
+
+pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
+
+COMPILER = NODE_MODULES / "typescript" / "bin" / "tsc"
+SPECS = {"busservo": BUSSERVO, "demo": DEMO, **FILES}
+
+
+def run_module(folder: Path, model: Model, program: str) -> Any:
+    """Run a program that imports the module; return what it prints as JSON."""
+    return json.loads(run_program(folder, model, program))
+
+
+def run_program(folder: Path, model: Model, program: str) -> str:
+    """Run a program that imports the module; return what it prints."""
+    write_files(javascript_module(model), folder)
+    file = folder / "program.mjs"
+    file.write_text(program, encoding="utf-8")
+    done = subprocess.run(
+        [str(NODE), str(file)], capture_output=True, encoding="utf-8", check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+WAYS = "host_to_controller, controller_to_host"
+# What a user of the module does, and what comes of it.
+USE = """
+import * as busservo from "./busservo.mjs";
+
+const { StreamDecoder, Unusable, decode, encode, explain, parseHex, toHex } = busservo;
+const decoder = new StreamDecoder({ direction: "host_to_controller" });
+const events = [
+  ...decoder.feed(parseHex("00 13 55 55 08 03 01 E8")),
+  ...decoder.feed(parseHex("03 01 20 03 55 55 04")),
+];
+const held = [decoder.pending, decoder.position];
+events.push(...decoder.flush());
+const refused = (task) => {
+  try {
+    return task();
+  } catch (error) {
+    return [error instanceof Unusable, error.message, error.path];
+  }
+};
+console.log(JSON.stringify({
+  exports: Object.keys(busservo).sort(),
+  events: events.map((event) => (event.type === "message" ? event.fields : event.reason)),
+  held,
+  named: toHex(encode("ActionGroupRun", { group: 1, times: "unlimited" })),
+  decoded: decode([0x55, 0x55, 0x02, 0x07]).message,
+  refused: decode(parseHex("55 55 09"), null),
+  both: explain(parseHex("55 55 05 06 08 01 00")).readings.map(({ message }) => message),
+  misuse: [
+    refused(() => encode("ServoMove", { time_ms: 70000, targets: [{ servo_id: 1, position: 2 }] })),
+    refused(() => encode("ServoMove", { time_ms: 1, target: [] })),
+    refused(() => encode("ServoMove", { time_ms: 1 })),
+    refused(() => encode("ServoMov")),
+    refused(() => new StreamDecoder({ direction: "host" })),
+    refused(() => parseHex("55 5G")),
+  ],
+}));
+"""
+
+
+def test_the_module_does_what_its_types_say(tmp_path: Path) -> None:
+    found = run_module(tmp_path, reference("busservo").model, USE)
+    assert found == {
+        "exports": [
+            *("StreamDecoder", "Unusable", "decode", "encode", "explain", "parseHex"),
+            *("protocol", "toHex"),
+        ],
+        "events": [
+            "bad header",
+            {"time_ms": 1000, "targets": [{"servo_id": 1, "position": 800}]},
+            "too short",
+        ],
+        "held": [3, 12],
+        "named": "55 55 05 06 01 00 00",
+        "decoded": "ActionGroupStop",
+        "refused": {"type": "refused", "reason": "too short", "offset": 3},
+        "both": ["ActionGroupRun", "ActionGroupStarted"],
+        "misuse": [
+            [True, "time_ms: 70000 is outside 0..65535", "time_ms"],
+            [True, "target: no field of ServoMove, which has time_ms, targets", "target"],
+            [True, "targets: a list is due", "targets"],
+            [True, "ServoMov: no message has this name", "ServoMov"],
+            [
+                True,
+                f"host is no direction: there are {WAYS}, and null for any",
+                "",
+            ],
+            [True, "“G” in “5G” is no hex digit", ""],
+        ],
+    }
+
+
+def test_the_guide_shows_what_the_module_does(tmp_path: Path) -> None:
+    guide = (ROOT / "docs" / "conformance.md").read_text("utf-8")
+    (shown,) = re.findall(r"```js\n(.*?)```\n\n```text\n(.*?)```", guide, re.DOTALL)
+    program, printed = shown
+    assert run_program(tmp_path, reference("busservo").model, program) == printed
+
+
+def test_types_name_every_message_and_every_field() -> None:
+    model = reference("busservo").model
+    types = javascript_module(model)["busservo.d.mts"]
+    for message in model.messages.values():
+        (body,) = re.findall(rf"interface {message.name}Fields {{(.*?)\n}}", types, re.DOTALL)
+        assert [slot.name for slot in message.arguments] == re.findall(
+            r"^  (\w+): ", body, re.MULTILINE
+        )
+
+
+@pytest.mark.parametrize("payload", ["*/ alert(1) /*", "`${alert(1)}`", PAYLOADS["script"]])
+def test_text_of_a_spec_ends_neither_a_comment_nor_a_text(payload: str, tmp_path: Path) -> None:
+    model = hostile(payload).model
+    program = 'import { protocol } from "./busservo.mjs";\nconsole.log(JSON.stringify(protocol));\n'
+    found = run_module(tmp_path, model, program)
+    assert found["title"] == payload
+    types = (tmp_path / "busservo.d.mts").read_text("utf-8")
+    comments = [line for line in types.splitlines() if line.strip().startswith("/**")]
+    assert len(comments) > len(model.messages)
+    assert [line for line in comments if line.count("*/") > 1] == []
+    assert payload.strip() not in re.sub(r"/\*\*.*?\*/", "", types, flags=re.DOTALL)
+
+
+# Right uses of the types, and wrong ones, each of which is marked and has to be refused.
+TYPED = """
+import { StreamDecoder, decode, encode, explain } from "./busservo.mjs";
+import type { Message, StreamEvent } from "./busservo.mjs";
+
+export function positions(event: StreamEvent): number[] {
+  if (event.type !== "message") return [event.refusedAt];
+  switch (event.message) {
+    case "ServoMove": return event.fields.targets.map(({ position }) => position);
+    case "BatteryVoltage": return [event.fields.voltage_mv];
+    // @ts-expect-error no message has this name
+    case "ServoMoved": return [];
+    default: return [event.size];
+  }
+}
+
+export const frame: Uint8Array = encode("ActionGroupRun", { group: 1, times: "unlimited" });
+// @ts-expect-error a value has no such name
+encode("ActionGroupRun", { group: 1, times: "often" });
+// @ts-expect-error a field is missing
+encode("ServoMove", { time_ms: 1 });
+// @ts-expect-error a field is a number
+encode("ServoMove", { time_ms: "soon", targets: [] });
+// @ts-expect-error there is no such direction
+new StreamDecoder({ direction: "sideways" });
+// @ts-expect-error what was refused has no fields until it is known not to be
+decode(frame).fields;
+
+const found = decode(frame, "host_to_controller");
+export const named: Message | string = found.type === "refused" ? found.reason : found;
+export const why: string = explain([1, 2, 3]).refusals.map(({ expected }) => expected).join();
+for (const event of new StreamDecoder().feed([0x55])) console.log(positions(event));
+"""
+SETTINGS = {
+    "compilerOptions": {
+        "target": "es2022",
+        "module": "nodenext",
+        "strict": True,
+        "noEmit": True,
+        "lib": ["es2022", "dom"],
+        "types": [],
+    }
+}
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not COMPILER.exists(), reason="typescript is not installed; `make docs-tools` installs it"
+)
+def test_types_are_right_for_every_protocol_and_refuse_what_is_wrong(tmp_path: Path) -> None:
+    for name, spec in SPECS.items():
+        write_files(javascript_module(compiled_file(spec).model), tmp_path / name)
+    (tmp_path / "busservo" / "use.mts").write_text(TYPED, encoding="utf-8")
+    (tmp_path / "tsconfig.json").write_text(json.dumps(SETTINGS), encoding="utf-8")
+    done = subprocess.run(
+        [str(NODE), str(COMPILER), "--project", str(tmp_path)],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (0, "")

@@ -1,0 +1,118 @@
+"""A site at an address: whole addresses, a sitemap, a page for broken links."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree as ET
+
+import pytest
+from framegen.cli import main
+from framegen.reading.yamltree import Unusable
+from framegen.render import snippets
+from framegen.site.project import Project
+from framegen.site.publication import base_address
+from framegen.site.site import render_site
+
+from tests.unit.site.lamps import BASE, GUIDES, greenhouse, lamps, metas
+from tests.unit.site.reference import ROOT, SPECS
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def test_each_page_at_an_address_has_its_own() -> None:
+    site = lamps(BASE, preview=True)
+    for path, page in site.items():
+        if path == "404.html":
+            continue
+        (canonical,) = [given["href"] for _, given in page.tags if given.get("rel") == "canonical"]
+        assert canonical == BASE + re.sub(r"(^|/)index\.html$", r"\1", path)
+        said = metas(page)
+        assert said["og:url"] == canonical
+        assert said["og:image"] == f"{BASE}images/preview.png"
+        assert said["og:image:alt"]
+        assert said["twitter:card"] == "summary_large_image"
+
+
+def test_without_a_picture_none_is_named() -> None:
+    assert "og:image" not in metas(lamps(BASE)["index.html"])
+
+
+def test_the_page_for_broken_links_works_at_any_address() -> None:
+    page = lamps(BASE)["404.html"]
+    outside = [link for link in page.links if not link.startswith((BASE, "#"))]
+    assert outside == []
+    assert metas(page)["robots"] == "noindex"
+    reached = {link.removeprefix(BASE).partition("#")[0] for link in page.links}
+    assert {"index.html", "first.html"} <= reached
+    assert reached - {""} <= lamps(BASE).keys()
+    assert "404.html" not in lamps()
+
+
+def test_the_sitemap_lists_every_page_once_and_robots_lead_to_it() -> None:
+    compiled = greenhouse()
+    made = render_site(Project([compiled], GUIDES, base=BASE), snippets())
+    root = ET.fromstring(made["sitemap.xml"])  # noqa: S314 - our own
+    places = [each.text for each in root.iter("{http://www.sitemaps.org/schemas/sitemap/0.9}loc")]
+    pages = [path for path in made if path.endswith(".html") and path != "404.html"]
+    assert sorted(map(str, places)) == sorted(
+        BASE + re.sub(r"(^|/)index\.html$", r"\1", path) for path in pages
+    )
+    assert f"Sitemap: {BASE}sitemap.xml\n" in made["robots.txt"]
+
+
+@pytest.mark.parametrize(
+    ("given", "base"),
+    [
+        ("", ""),
+        ("https://example.org", "https://example.org/"),
+        ("https://example.org/", "https://example.org/"),
+        ("http://localhost:8000/docs", "http://localhost:8000/docs/"),
+        ("https://[::1]/docs/", "https://[::1]/docs/"),
+    ],
+)
+def test_an_address_is_taken_with_or_without_a_slash(given: str, base: str) -> None:
+    assert base_address(given) == base
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        ("example.org", "no address"),
+        ("ftp://example.org/", "no address"),
+        ("//example.org/", "no address"),
+        ("https://", "no host"),
+        ("https:///docs", "no host"),
+        ("https://example.org/?a=b", "nothing follows a ?"),
+        ("https://example.org/#a", "nothing follows a ?"),
+        ("https://example.org/#", "nothing follows a ?"),
+        ("https://me:secret@example.org/", "a password"),
+        ("https://example.org:port/", "port"),
+        ("https://example.org:99999/", "Port out of range"),
+        ("https://example.org/a b/", "spell it with %"),
+        ('https://example.org/"><b>', "spell it with %"),
+        ("https://exämple.org/", "spell it with %"),
+        ("https://example.org/\n", "spell it with %"),
+    ],
+)
+def test_what_is_no_address_is_refused_with_the_reason(given: str, why: str) -> None:
+    with pytest.raises(Unusable, match=re.escape(why)) as refused:
+        base_address(given)
+    assert "https://example.org/docs/" in str(refused.value.hint)
+
+
+def test_the_command_refuses_an_address_before_it_writes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "site"
+    assert main(["docs", str(SPECS["greenhouse"]), "--out", str(folder), "--base", "here"]) == 2
+    assert "--base here: no address" in capsys.readouterr().err
+    assert not folder.exists()
+
+
+def test_the_picture_of_the_project_is_of_the_size_that_previews_show() -> None:
+    data = (ROOT / "docs" / "images" / "preview.png").read_bytes()
+    assert data.startswith(b"\x89PNG")
+    assert (int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")) == (1200, 630)
+    assert len(data) < 100_000

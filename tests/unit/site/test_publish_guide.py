@@ -1,0 +1,46 @@
+"""The guide to publishing: its commands, files and settings lead to the site that it describes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from framegen.cli import main
+from framegen.language.site_settings import SiteSettings
+
+from tests.unit.site.reference import ROOT
+
+if TYPE_CHECKING:
+    import pytest
+
+GUIDE = (ROOT / "docs" / "publish.md").read_text(encoding="utf-8")
+
+
+def test_every_setting_is_told() -> None:
+    table = GUIDE.partition("| Key |")[2].partition("\n\n")[0]
+    assert re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) == [*SiteSettings.model_fields]
+
+
+def test_the_colour_that_is_refused_is_refused_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    [shown] = re.findall(r"```text\n(.*?)```", GUIDE, re.DOTALL)
+    [wrong] = re.findall(r"^1 \| (.*)$", shown, re.MULTILINE)
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "kiln", "--into", "."]) == 0
+    Path("docs/site.yaml").write_text(f"{wrong}\n", encoding="utf-8")
+    assert main(["docs", "--out", "site"]) == 2
+    assert capsys.readouterr().err.endswith(shown)
+
+
+def test_the_workflow_that_the_guide_names_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "kiln"]) == 0
+    [folder] = re.findall(r"`pages\.yml` that `framegen new` writes into `([^`]+)`", GUIDE)
+    text = (Path("kiln") / folder / "pages.yml").read_text(encoding="utf-8")
+    assert "hashFiles('tools/framegen-*.whl')" in text
+    assert "branches: [main]" in text
+    assert "workflow_dispatch" in text

@@ -1,0 +1,529 @@
+"""The scripts that talk over a line, under node: a port that comes and goes, echoes, recordings."""
+
+from __future__ import annotations
+
+import io
+import json
+import random
+import subprocess
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo import (
+    BatteryVoltage,
+    BatteryVoltageRead,
+    ServoPositions,
+    ServoPositionsRead,
+    recordings,
+)
+from busservo._client.base_client import REPLY_TIMEOUT
+from busservo._client.local_echo import LocalEcho
+from busservo._codec.careful_decoder import GAP
+from busservo._codec.decoder import StreamDecoder
+from busservo._frame.direction import RECEIVED
+from framegen.model.codec import encode
+from framegen.site.scripts.codec_scripts import codec_scripts
+from framegen.site.scripts.line_data import LINE_SCRIPT, line_data
+from framegen.site.scripts.protocol_data import protocol_data
+
+from tests.bad_specs import BASES
+from tests.factories import compiled_file
+from tests.unit.site.reference import NODE, reference
+from tests.unit.site.scripts import STATIC
+from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from busservo._client.request import Request
+    from framegen.model.model import Model
+
+pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
+MODEL = reference("busservo").model
+# All but what touches the page.
+SCRIPTS = [
+    name
+    for name in LINE_SCRIPT
+    if name not in ("serial_settings", "serial_file", "serial_log", "serial_panel")
+]
+_BEGIN = """
+const asked = JSON.parse(require("fs").readFileSync(0, "utf8"));
+const wait = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });
+"""
+_END = "(found) => console.log(JSON.stringify(found))"
+
+
+def answers(program: str, asked: object = None) -> Any:
+    """Run the body of an async function behind the scripts of a line, and return its result."""
+    files = [STATIC / f"{name}.js" for name in (*codec_scripts(MODEL), *SCRIPTS)]
+    text = "\n".join(path.read_text("utf-8") for path in (*files, FAKE_SERIAL))
+    done = subprocess.run(
+        [
+            str(NODE),
+            "--input-type=commonjs",
+            "-e",
+            f"{text}\n{_BEGIN}(async () => {{{program}}})().then({_END});",
+        ],
+        input=json.dumps(asked),
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    return json.loads(done.stdout)
+
+
+# ---------------------------------------------------------------------------- the port
+
+_PORT = """
+const said = [], board = { refused: [], written: [], pieces: [], stuck: false, slow: 0 };
+let number = 1;
+const given = () => ({ id: `port ${number}`, info: asked.adapter });
+const fake = makeFakeSerial({
+  choose: async () => (board.nothing ? null : given()),
+  open: async () => {
+    await wait(board.slow);
+    said.push("OPEN");
+    return board.refused.shift() ?? false;
+  },
+  write: async (id, bytes) => {
+    if (board.stuck) await new Promise(() => {});
+    board.written.push(bytes);
+    return board.wrong ?? "";
+  },
+  read: async () => board.pieces.splice(0),
+  close: async () => { said.push("CLOSE"); },
+}, wait);
+const line = makeSerialLine({
+  serial: fake, wait: (ms) => wait(ms / 10),
+  received: (bytes) => said.push(`got ${[...bytes]}`),
+  changed: (state, error) => {
+    if (state !== said.at(-1)) said.push(error ? `${state}: ${error.name}` : state);
+  },
+  failed: (error) => said.push(`failed: ${error.name}`),
+});
+const settings = { baudRate: 9600, dataBits: 8, stopBits: 1, parity: "none", flowControl: "none" };
+const open = () => line.choose(settings);
+const unplug = () => fake.unplug(given().id);
+const plugIn = () => { number += 1; fake.plugIn(given()); };
+"""
+
+OPENED = "choosing | opening | OPEN | open"
+# What is done with a port, and what is said of it.
+PORTS = {
+    "opened, read and closed": (
+        "await open(); board.pieces.push({bytes: [1, 2]}); await wait(20); await line.close();",
+        f"{OPENED} | got 1,2 | closing | CLOSE | closed",
+    ),
+    "closed twice at once, and again": (
+        "await open(); await Promise.all([line.close(), line.close()]); await line.close();",
+        f"{OPENED} | closing | CLOSE | closed",
+    ),
+    "nothing was chosen": (
+        "board.nothing = true; await open();",
+        "choosing | closed: NotFoundError",
+    ),
+    "in use elsewhere, and then not": (
+        "board.refused = [true]; await open(); await open();",
+        "choosing | opening | OPEN | closed: NetworkError | choosing | opening | OPEN | open",
+    ),
+    "closed while it is being opened": (
+        """
+        board.slow = 20; const opened = open(); await wait(5); await line.close();
+        await opened;
+        """,
+        "choosing | opening | closing | OPEN | CLOSE | closed",
+    ),
+    "opened twice at once": (
+        "await Promise.all([open(), open()]);",
+        OPENED,
+    ),
+    "errors of the line after which it goes on": (
+        """
+        await open();
+        for (const error of ["FramingError", "BreakError"])
+          board.pieces.push({ error }, { bytes: [7] });
+        await wait(60);
+        """,
+        f"{OPENED} | failed: FramingError | got 7 | failed: BreakError | got 7",
+    ),
+    "an error after which nothing is read": (
+        'await open(); board.pieces.push({error: "UnknownError", fatal: true}); await wait(20);',
+        f"{OPENED} | lost: UnknownError | CLOSE",
+    ),
+    "unplugged and plugged in again": (
+        """
+        await open(); unplug(); await wait(20); plugIn(); await wait(20);
+        board.pieces.push({bytes: [3]}); await wait(20);
+        """,
+        f"{OPENED} | lost | CLOSE | opening | OPEN | open | got 3",
+    ),
+    "back, and not to be opened at once": (
+        """
+        await open(); unplug(); await wait(20); board.refused = [true]; plugIn();
+        await wait(200);
+        """,
+        f"{OPENED} | lost | CLOSE | opening | OPEN | lost: NetworkError | opening | OPEN | open",
+    ),
+    "given up while it is lost": (
+        "await open(); unplug(); await wait(20); await line.close(); plugIn(); await wait(20);",
+        f"{OPENED} | lost | CLOSE | closing | closed",
+    ),
+    "unplugged while a frame is being sent": (
+        """
+        await open(); board.stuck = true;
+        const sent = line.write([1]).catch(() => said.push("not sent")); await wait(10);
+        unplug(); await sent; await wait(20);
+        """,
+        f"{OPENED} | lost | not sent | CLOSE",
+    ),
+    "closed while a frame is being sent": (
+        """
+        await open(); board.stuck = true;
+        const sent = line.write([1]).catch(() => said.push("not sent")); await wait(10);
+        await line.close(); await sent;
+        """,
+        f"{OPENED} | closing | not sent | CLOSE | closed",
+    ),
+    "a write that fails, and the next": (
+        """
+        await open(); board.wrong = "UnknownError";
+        await line.write([1]).catch((error) => said.push(error.name)); board.wrong = "";
+        await line.write([2]); said.push("sent");
+        """,
+        f"{OPENED} | UnknownError | sent",
+    ),
+    "a write before it is open": (
+        "await line.write([1]).catch((error) => said.push(error.name));",
+        "InvalidStateError",
+    ),
+    "closed before it was opened": (
+        "await line.close();",
+        "",
+    ),
+    "a choice that comes after it was closed": (
+        "const opened = open(); await line.close(); await opened;",
+        "choosing | closing | closed",
+    ),
+}
+
+
+def test_the_line_is_what_has_happened_to_its_port() -> None:
+    steps = {name: _PORT + steps for name, (steps, _) in PORTS.items()}
+    program = """const found = {};
+    for (const [name, steps] of Object.entries(asked.steps)) {
+      found[name] = await eval(
+        `(async () => {${steps} const was = [...said]; await line.close(); return was;})()`);
+    }
+    return found;"""
+    found = answers(program, {"adapter": ADAPTER, "steps": steps})
+    without_repeats = {
+        name: [each for at, each in enumerate(said) if at == 0 or each != said[at - 1]]
+        for name, said in found.items()
+    }
+    assert without_repeats == {
+        name: expected.split(" | ") if expected else [] for name, (_, expected) in PORTS.items()
+    }
+
+
+def test_frames_are_sent_whole_and_in_order() -> None:
+    program = """await open();
+    const frames = Array.from({ length: 50 }, (_, i) => [i, i + 1, i + 2]);
+    await Promise.all(frames.map((frame) => line.write(frame)));
+    await line.close();
+    return board.written;"""
+    assert answers(_PORT + program, {"adapter": ADAPTER}) == [[i, i + 1, i + 2] for i in range(50)]
+
+
+# ---------------------------------------------------------------------------- what is said
+
+_SESSION = """
+const protocol = asked.protocol, codec = makeCodec(protocol), said = [];
+const hex = (text) => text.match(/../g).map((digits) => parseInt(digits, 16));
+const session = makeSession({
+  codec, protocol, direction: protocol.line.received, baud: 9600, localEcho: asked.echo ?? false,
+  show: ({ at, isSent, event, sender, names }) => said.push(
+    [at, isSent ? ">" : "<", sender, names.join(" or ") || event.reason, toHex(event.bytes)]),
+  answered: ({ question, event, took, late, missing }) => said.push(
+    ["answer", question.event.message, event.message, took, late, missing]),
+  unanswered: ({ event }) => said.push(["silence", event.message]),
+});
+for (const [at, what, bytes] of asked.steps) {
+  if (what === "sent") session.sent(hex(bytes), at);
+  else if (what === "received") session.received(hex(bytes), at);
+  else if (what === "end") session.end();
+  else if (session.tick(at)) said.push("quiet");
+}
+return { said, counts: session.counts, due: session.due };
+"""
+
+
+def talk(
+    steps: Iterable[tuple[float, str, bytes]], model: Model = MODEL, **settings: object
+) -> dict[str, Any]:
+    """Return what a session says of these steps: a time in ms, what happens, and bytes."""
+    data = {**protocol_data(model), "line": line_data(model)}
+    asked = {"protocol": data, "steps": [(at, what, data.hex()) for at, what, data in steps]}
+    found: dict[str, Any] = answers(_SESSION, {**asked, **settings})
+    return found
+
+
+ASK, VOLTAGE = BatteryVoltageRead().encode(), BatteryVoltage(7500).encode()
+WHERE = ServoPositionsRead([1, 2, 9]).encode()
+THERE = ServoPositions([(1, 500), (2, 400)]).encode()
+
+
+def outcomes(found: dict[str, Any]) -> list[Any]:
+    return [each for each in found["said"] if each[0] in ("answer", "silence")]
+
+
+ANSWERS: dict[str, tuple[list[tuple[float, str, bytes]], list[list[Any]]]] = {
+    "at once": (
+        [(0, "sent", ASK), (20, "received", VOLTAGE)],
+        [["answer", "BatteryVoltageRead", "BatteryVoltage", 20, False, []]],
+    ),
+    "incomplete": (
+        [(0, "sent", WHERE), (40, "received", THERE)],
+        [["answer", "ServoPositionsRead", "ServoPositions", 40, False, ["servo_ids 9"]]],
+    ),
+    "what was not asked for is no answer": (
+        [
+            (0, "sent", WHERE),
+            (40, "received", ServoPositions([(3, 1)]).encode()),
+            (900, "tick", b""),
+        ],
+        [["silence", "ServoPositionsRead"]],
+    ),
+    "twice": (
+        [(0, "sent", ASK), (20, "received", VOLTAGE), (30, "received", VOLTAGE)],
+        [["answer", "BatteryVoltageRead", "BatteryVoltage", 20, False, []]],
+    ),
+    "late": (
+        [(0, "sent", ASK), (300, "tick", b""), (700, "received", VOLTAGE)],
+        [
+            ["silence", "BatteryVoltageRead"],
+            ["answer", "BatteryVoltageRead", "BatteryVoltage", 700, True, []],
+        ],
+    ),
+    "late, and too soon for the next question": (
+        [
+            (0, "sent", ASK),
+            (300, "tick", b""),
+            (400, "sent", ASK),
+            (403, "received", VOLTAGE),
+            (420, "received", VOLTAGE),
+        ],
+        [
+            ["silence", "BatteryVoltageRead"],
+            ["answer", "BatteryVoltageRead", "BatteryVoltage", 403, True, []],
+            ["answer", "BatteryVoltageRead", "BatteryVoltage", 20, False, []],
+        ],
+    ),
+    "just before its time is over": (
+        [
+            (0, "sent", ASK),
+            (255, "received", VOLTAGE[:3]),
+            (262, "tick", b""),
+            (270, "received", VOLTAGE[3:]),
+        ],
+        [["answer", "BatteryVoltageRead", "BatteryVoltage", 270, False, []]],
+    ),
+    "the line is closed": (
+        [(0, "sent", ASK), (5, "end", b"")],
+        [["silence", "BatteryVoltageRead"]],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", ANSWERS)
+def test_a_reply_answers_what_was_asked(case: str) -> None:
+    steps, expected = ANSWERS[case]
+    assert outcomes(talk(steps)) == expected
+
+
+@pytest.mark.parametrize(
+    ("request_", "asked", "reply", "held", "fits"),
+    [
+        ("BytesRead", {"start": 16, "count": 2}, "Bytes", {"stored": [1, 2]}, True),
+        ("BytesRead", {"start": 16, "count": 1}, "Bytes", {"stored": [1, 2]}, False),
+        ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 1, "found": [1, 2]}, True),
+        ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 1, "found": [1]}, False),
+        ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 0, "found": []}, True),
+    ],
+)
+def test_a_reply_of_another_size_is_no_answer(
+    request_: str, asked: dict[str, Any], reply: str, held: dict[str, Any], fits: bool
+) -> None:
+    model = compiled_file(BASES / "memory.yaml").model
+    assert model is not None
+    sent, received = encode(model.messages[request_], asked), encode(model.messages[reply], held)
+    found = talk([(0, "sent", sent), (40, "received", received), (900, "tick", b"")], model)
+    outcome = ["answer", request_, reply, 40, False, []] if fits else ["silence", request_]
+    assert outcomes(found) == [outcome]
+
+
+def test_what_cannot_be_sent_yet_waits_in_order() -> None:
+    """A question waits for the reply to that before; what nothing answers waits behind it."""
+    program = """
+    const sent = [];
+    let isWaiting = false;
+    const hand = (each) => { sent.push(each); if (each.startsWith("ask")) isWaiting = true; };
+    const queue = makeSendQueue((each) => isWaiting && each.startsWith("ask"), hand);
+    const places = ["ask 1", "tell 2", "ask 3", "tell 4", "ask 5"].map(queue.add);
+    isWaiting = false;
+    queue.pump();
+    const many = Array.from({ length: QUEUE_BOUND }, () => queue.add("ask 6"));
+    return [places, sent, many.slice(-2), queue.clear().length, queue.clear().length];
+    """
+    assert answers(program) == [
+        [0, 0, 1, 2, 3],
+        ["ask 1", "tell 2", "ask 3", "tell 4"],
+        [16, None],
+        16,
+        0,
+    ]
+
+
+def test_half_a_frame_does_not_grow_together_with_the_next() -> None:
+    gap = GAP * 1000
+    found = talk([(0, "received", VOLTAGE[:4]), (gap, "tick", b""), (gap + 1, "received", VOLTAGE)])
+    assert [each[3] if each != "quiet" else each for each in found["said"]] == [
+        "too short",
+        "quiet",
+        "BatteryVoltage",
+    ]
+    assert found["counts"] | {"noise": 0} == {
+        "bytes": 10, "frames": 1, "noise": 0, "errors": 0, "sent": 0, "echoes": 0,
+    }  # fmt: skip
+
+
+def test_a_page_waits_as_long_as_the_client() -> None:
+    assert answers("return [QUIET_MS, REPLY_TIMEOUT_MS];") == [1000 * GAP, 1000 * REPLY_TIMEOUT]
+
+
+def test_ones_own_bytes_are_taken_out_of_what_comes_back() -> None:
+    found = talk(
+        [(0, "sent", ASK), (4, "received", ASK[:2]), (6, "received", ASK[2:] + VOLTAGE)], echo=True
+    )
+    assert [each[3] for each in found["said"] if each[0] != "answer"] == [
+        "BatteryVoltageRead",
+        "BatteryVoltage",
+    ]
+    assert (found["counts"]["echoes"], found["counts"]["noise"]) == (1, 0)
+
+
+def test_echoes_are_taken_out_as_the_client_does() -> None:
+    random_ = random.Random(13)  # noqa: S311 - to be repeated
+    streams = []
+    for _ in range(300):
+        frames = [bytes(random_.choices(b"ab", k=random_.randint(1, 4))) for _ in range(3)]
+        stream = b"".join(
+            random_.choice([frame, b"", frame[:-1]])
+            + bytes(random_.choices(b"abc", k=random_.randint(0, 2)))
+            for frame in frames
+        )
+        size = random_.randint(1, 5)
+        chunks = [stream[at : at + size] for at in range(0, len(stream), size)]
+        streams.append(([[*frame] for frame in frames], [[*chunk] for chunk in chunks]))
+    found = answers(
+        """return asked.map(([frames, chunks]) => {
+          const echo = makeLocalEcho();
+          for (const frame of frames) echo.sent(frame, 9);
+          const taken = chunks.map((chunk) => echo.takeOut(chunk));
+          const rest = echo.expire(9);
+          const counted = taken.map(({ bytes, echoes, lost }) => [bytes, echoes, lost]);
+          return [counted, rest.bytes, rest.lost];
+        });""",
+        streams,
+    )
+    assert found == [by_the_client(frames, chunks) for frames, chunks in streams]
+
+
+def by_the_client(frames: list[list[int]], chunks: list[list[int]]) -> list[Any]:
+    """Return what the Python client makes of echoes, in the form of the page."""
+    echo = LocalEcho()
+    request: Request = None  # type: ignore[assignment]  # it is only handed back
+    for frame in frames:
+        echo.sent(request, bytes(frame), 9.0)
+    taken = []
+    for chunk in chunks:
+        before = len(echo._expected)
+        pieces = [*echo.take_out(bytes(chunk))]
+        lost = sum(len(each) for _, _, each in pieces)
+        came = before - len(echo._expected) - lost
+        taken.append([[*b"".join(others for others, _, _ in pieces)], came, lost])
+    held, missing = echo.expire(9.0)
+    return [taken, [*held], len(missing)]
+
+
+# ---------------------------------------------------------------------------- the recording
+
+_RECORDED = """
+const recording = makeRecording(new Date(1767344947250), asked.bounds);
+for (const [time, who, what, bytes] of asked.entries) recording.add({ time, who, what, bytes });
+const text = [...recording.pieces("USB 1A86:7523")].join("");
+return { text, size: recording.size, dropped: recording.dropped };
+"""
+
+
+def test_python_reads_a_recording_of_the_page() -> None:
+    random_ = random.Random(7)  # noqa: S311 - to be repeated
+    stream = b"".join(
+        random_.choice([VOLTAGE, THERE, b"\x00\xff", b"\x55\x55\x02", b"\x55\x55\x03\x63\x01"])
+        for _ in range(200)
+    )
+    found = talk([(0, "received", stream), (100, "tick", b"")])
+    entries = [
+        (number / 7, sender if what[0].isupper() else "noise", what, [*bytes.fromhex(data)])
+        for number, (_, _, sender, what, data) in enumerate(
+            each for each in found["said"] if each != "quiet"
+        )
+    ]
+    made = answers(_RECORDED, {"entries": entries})
+    decoder = StreamDecoder(RECEIVED)
+    expected = [*decoder.feed(stream), *decoder.flush()]
+    read = [*recordings.read(io.BytesIO(made["text"].encode()))]
+    assert b"".join(bytes(data) for *_, data in entries) == stream
+    assert [entry.event for entry in read if not hasattr(entry.event, "data")] == [
+        event for event in expected if not hasattr(event, "data")
+    ]
+    assert [entry.time for entry in read] == [round(time, 6) for time, *_ in entries]
+    assert {entry.sender for entry in read} == {"controller"}
+    assert read[0].began == 1767344947.25
+
+
+def test_a_long_recording_drops_its_oldest_entries() -> None:
+    entries = [(number, "controller", "BatteryVoltage", [*VOLTAGE]) for number in range(2000)]
+    made = answers(_RECORDED, {"entries": entries, "bounds": {"bound": 4096, "chunkSize": 512}})
+    read = [*recordings.read(io.BytesIO(made["text"].encode()))]
+    assert made["size"] <= 4096
+    assert made["dropped"] == 2000 - len(read) > 1000
+    assert [entry.time for entry in read] == [
+        float(number) for number in range(made["dropped"], 2000)
+    ]
+    assert f"# the {made['dropped']} oldest entries were dropped" in made["text"]
+
+
+def test_noise_that_is_larger_than_a_chunk_is_recorded() -> None:
+    noise = [number % 256 for number in range(5000)]
+    made = answers(
+        _RECORDED, {"entries": [(1, "noise", "bad header", noise)], "bounds": {"chunkSize": 512}}
+    )
+    (entry,) = recordings.read(io.BytesIO(made["text"].encode()))
+    assert (entry.event.data, entry.event.reason.value) == (bytes(noise), "bad header")  # type: ignore[union-attr]
+
+
+# ---------------------------------------------------------------------------- no port at all
+
+WHERE_FROM = [
+    ({"isSecure": True, "hasSerial": True, "protocol": "file:"}, None),
+    ({"isSecure": True, "hasSerial": False, "protocol": "https:"}, "it has no Web Serial"),
+    ({"isSecure": False, "hasSerial": False, "protocol": "http:"}, "This page came over http://"),
+]
+
+
+@pytest.mark.parametrize(("asked", "why"), WHERE_FROM)
+def test_a_browser_without_ports_says_why(asked: dict[str, Any], why: str | None) -> None:
+    found = answers("return whyNoSerial(asked);", asked)
+    assert found is why or why in found

@@ -1,0 +1,133 @@
+"""The walk through a stream that the pages show: step by step, and true to the reference."""
+
+import pytest
+from framegen.cases.invalid import spoilt
+from framegen.model.model import derive
+from framegen.targets.docs.drawing import interruption
+from framegen.targets.docs.stream_examples import stream_examples
+from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
+
+from tests.factories import DEMO, compiled_of, data_of, layout_of
+from tests.unit.site.peers import Event, joined, noisy_lines, reference_events
+from tests.unit.site.reference import SPECS, reference
+
+BUSSERVO = reference("busservo").model
+
+
+def events_of(shown: Walkthrough) -> list[Event]:
+    return [
+        ["message", event.data.hex(), event.message]
+        if event.message
+        else ["noise", event.data.hex(), event.reason]
+        for event in shown.events
+    ]
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_what_is_shown_is_what_the_reference_says(name: str) -> None:
+    model = reference(name).model
+    shown = stream_examples(model)
+    assert len(shown) >= 3
+    for example in shown:
+        data, way = example.walkthrough.data, example.walkthrough.direction
+        assert joined(events_of(example.walkthrough)) == reference_events(model, data, way), (
+            example.id
+        )
+
+
+def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
+    reasons = {
+        event.reason
+        for example in stream_examples(BUSSERVO)
+        for event in example.walkthrough.events
+        if event.reason
+    }
+    assert reasons == {"unknown command", "count mismatch", "too short"}
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
+    layout = reference(name).model
+    for line in noisy_lines(layout, 4, 200):
+        shown = walkthrough(layout, layout.directions[0], line)
+        assert b"".join(event.data for event in shown.events) == line
+        for step in shown.steps:
+            data = bytes.fromhex(step.bytes)
+            assert line[step.offset : step.offset + len(data)] == data
+
+
+def test_a_stray_byte_costs_one_byte() -> None:
+    shown = walkthrough(BUSSERVO, BUSSERVO.directions[0], bytes.fromhex("55 55 55 02 07"))
+    assert events_of(shown) == [
+        ["noise", "55", "unknown command"],
+        ["message", "55550207", "ActionGroupStop"],
+    ]
+    assert [(step.offset, step.bytes, step.ok) for step in shown.steps] == [
+        (0, "55 55", True),
+        (2, "55", True),
+        (3, "02", False),
+        (0, "55", False),
+        (1, "55 55", True),
+        (3, "02", True),
+        (4, "07", True),
+        (1, "", True),
+    ]
+
+
+def test_where_every_id_is_a_message_no_example_has_an_unknown_one() -> None:
+    data = data_of(DEMO)
+    plain = data["messages"]["StationRead"]
+    sent = [each for each in data["messages"].values() if each["direction"] == plain["direction"]]
+    for code in set(range(256)) - {each["id"] for each in sent}:
+        name = f"Code{chr(65 + code // 26)}{chr(97 + code % 26)}"
+        data["messages"][name] = {**plain, "id": code, "examples": []}
+    spec = compiled_of(data).read
+    assert spec is not None
+    layout = derive(spec)
+    assert "unknown" not in [example.id for example in stream_examples(layout)]
+    message = layout.messages["StationRead"]
+    frame = message.message.examples[0].hex
+    titles = [said for said, _ in spoilt(layout, message, frame)]
+    assert "a byte too many" in titles
+    assert "an unknown command" not in titles
+
+
+def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end() -> None:
+    data = data_of(DEMO)
+    shown = interruption(layout_of(data))
+    assert shown is not None
+    assert [arrow.message for arrow in shown.arrows] == [
+        "StationRead",
+        "VentJammed",
+        "StationState",
+    ]
+    # Without that report, nothing that the station sends is one.
+    del data["messages"]["VentJammed"], data["messages"]["VentsOpen"]["reports"]
+    spec = compiled_of(data).read
+    assert spec is not None
+    assert interruption(derive(spec)) is None
+
+
+def test_an_empty_list_in_an_example_removes_no_stream_example() -> None:
+    data = data_of(DEMO)
+    message = data["messages"]["VentsOpen"]
+    message["fields"]["vents"]["count"] = "0..8"
+    message["examples"][0] |= {
+        "hex": "C3 5A A5 10 00 03 00 00 00",
+        "values": {"ramp_s": 0, "vents": []},
+    }
+    spec = compiled_of(data).read
+    assert spec is not None
+    examples = stream_examples(derive(spec))
+    assert [each.id for each in examples] == [
+        each.id for each in stream_examples(layout_of(data_of(DEMO)))
+    ]
+    assert examples[0].walkthrough.data.hex() == "c35aa5100003000000"
+
+
+def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:
+    data = data_of(DEMO)
+    data["messages"]["VentJammed"]["direction"] = "display -> gateway"
+    spec = compiled_of(data).read
+    assert spec is not None
+    assert interruption(derive(spec)) is None

@@ -1,0 +1,153 @@
+"""What changed from version to version, as a page: the author's words, and what was found out."""
+
+import re
+
+import pytest
+from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.comparison import Comparison
+from framegen.comparison.listing import edition_of
+from framegen.comparison.report.view import View
+from framegen.reading.source import Source
+
+from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
+from tests.unit.site.reference import Page
+
+ROOT = "reference/lamps/"
+RULES = "".join(f"### {rule.id}\n\nWhy.\n\n" for rule in CHANGE_RULES)
+
+
+def sections(page: Page) -> dict[str, str]:
+    """Return the HTML below the heading of each version, by its anchor, in order."""
+    parts = re.split(r'<h2 id="([^"]*)">', page.text.partition("</main>")[0])
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+def words(html: str) -> str:
+    text = re.sub(r"<[^>]*>", "", html).replace("&lt;", "<").replace("&gt;", ">")
+    return " ".join(text.split())
+
+
+def view(old: str, new: str) -> View:
+    before, after = (edition_of(Source(f"{at}.yaml", text)) for at, text in enumerate((old, new)))
+    return View(Comparison(before, after))
+
+
+def test_the_newest_version_comes_first() -> None:
+    assert list(sections(three().page("changelog.html"))) == ["v3.0.0", "v2.0.0", "v1.0.0"]
+    assert list(sections(three().page("2.0.0/changelog.html"))) == ["v2.0.0", "v1.0.0"]
+    assert list(sections(three().page("1.0.0/changelog.html"))) == ["v1.0.0"]
+
+
+def test_the_words_of_the_author_come_first() -> None:
+    found = sections(three().page("changelog.html"))
+    assert "Lamps are numbered up to 65535." in words(found["v3.0.0"])
+    assert "LampState is called LampLevel." in words(found["v2.0.0"])
+    assert "The first one." in words(found["v1.0.0"])
+    for version, html in found.items():
+        before, _, _ = html.partition("<table")
+        assert "<li>" in before, version
+
+
+@pytest.mark.parametrize(
+    ("version", "old", "new"), [("v3.0.0", SECOND, THIRD), ("v2.0.0", FIRST, SECOND)]
+)
+def test_every_change_and_effect_of_the_comparison_is_told(
+    version: str, old: str, new: str
+) -> None:
+    told = words(sections(three().page("changelog.html"))[version]).replace(" → ", " -> ")
+    expected = view(old, new)
+    assert expected.effects
+    for group in expected.groups:
+        first = group[0]
+        for change in first.changes:
+            assert change.text.replace("`", "") in told
+        for effect in first.effects:
+            text = effect.text.removeprefix(f"{first.title}: ").replace("`", "")
+            assert text in told
+            if effect.witness is not None:
+                assert effect.witness.data.hex(" ").upper() in told
+    for change in expected.documentation:
+        assert change.text.replace("`", "") in told
+    for each in expected.verdicts:
+        if each.effects:
+            assert str(each) in told
+
+
+def test_accepted_breaks_have_their_reasons() -> None:
+    found = sections(three().page("changelog.html"))["v2.0.0"]
+    assert "Accepted: Nobody reads &lt;states&gt;." in found
+    assert '<span class="badge accepted">on purpose</span>' in found
+    assert '<span class="badge breaks">breaks</span>' not in found
+
+
+def test_what_changed_leads_to_the_messages() -> None:
+    """To the page of the edition that has it; of what is gone, to that of the edition before."""
+    page = three().page("changelog.html")
+    found = sections(page)
+    for version, message, path in (
+        ("v3.0.0", "LampsSet", "2.0.0/messages/LampsSet.html"),
+        ("v3.0.0", "LampRead", "messages/LampRead.html"),
+        ("v2.0.0", "LampLevel", "2.0.0/messages/LampLevel.html"),
+    ):
+        (link,) = set(re.findall(rf'<h3><a href="([^"]*)">{message}</a>', found[version]))
+        assert page.leads_to(link)[0] == f"{ROOT}{path}"
+    older = three().page("2.0.0/changelog.html")
+    assert (
+        '<a href="../../../reference/lamps/1.0.0/messages/LampState.html">LampState</a>'
+        in older.text
+    )
+
+
+def test_changes_lead_to_the_spec_and_to_the_guide_that_explains_them() -> None:
+    guides = (("README.md", "# Lamps\n"), ("breaks.md", f"# What breaks\n\n{RULES}"))
+    site = Editions(THIRD, (SECOND, FIRST), guides)
+    page = site.page("changelog.html")
+    reached = {page.leads_to(link) for link in page.links}
+    assert ("breaks.html", "message-removed") in reached
+    assert ("breaks.html", "field-type") in reached
+    assert (f"{ROOT}spec.html", "messages.LampRead.fields.lamp_id.type") in reached
+    assert (f"{ROOT}2.0.0/spec.html", "messages.LampsSet") in reached
+    assert site.broken_links == []
+
+
+def test_without_such_a_guide_the_rules_are_named_and_told() -> None:
+    guides = (("README.md", "# Lamps\n"), ("words.md", "# Words\n\n### words\n\nMany.\n"))
+    page = Editions(THIRD, (SECOND,), guides).page("changelog.html")
+    assert "<code>message-removed</code>" in page.text
+    assert not any(
+        page.leads_to(link)[0] == "words.html" for link in page.links if link.endswith("#words")
+    )
+    rule = next(rule for rule in CHANGE_RULES if rule.id == "message-removed")
+    assert rule.do.replace("`", "") in words(page.text)
+
+
+def test_the_upgrade_order_is_that_of_the_comparison() -> None:
+    expected = view(SECOND, THIRD).order
+    assert expected
+    assert f"Upgrade {expected}." in words(sections(three().page("changelog.html"))["v3.0.0"])
+
+
+def test_what_waits_for_its_release_comes_first() -> None:
+    """A version that is still that of the last release has no words of its own yet."""
+    changed = SECOND.replace("summary: Ask for", "summary: Please ask for")
+    found = sections(Editions(changed, (SECOND, FIRST)).page("changelog.html"))
+    assert list(found) == ["unreleased", "v2.0.0", "v1.0.0"]
+    assert "LampRead: summary in other words" in words(found["unreleased"])
+    assert "LampState is called LampLevel." not in words(found["unreleased"])
+    assert list(sections(Editions(THIRD, (SECOND,)).page("changelog.html"))) == [
+        "v3.0.0",
+        "v2.0.0",
+        "v1.0.0",
+    ]
+
+
+def test_a_version_that_was_not_kept_has_the_words_alone() -> None:
+    found = sections(Editions(THIRD, (THIRD, FIRST)).page("changelog.html"))
+    assert list(found) == ["v3.0.0", "v2.0.0", "v1.0.0"]
+    assert "nothing can be compared" in found["v2.0.0"]
+    assert "What users of 1.0.0 notice" in found["v3.0.0"]
+
+
+def test_markdown_lists_the_newest_version_first() -> None:
+    text = three().rendered[f"{ROOT}downloads/changelog.md"]
+    assert re.findall(r"^## (.*)$", text, re.MULTILINE) == ["3.0.0", "2.0.0", "1.0.0"]

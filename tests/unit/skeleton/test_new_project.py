@@ -1,0 +1,342 @@
+"""`framegen new`: the project that it writes works, and it overwrites nothing."""
+
+import io
+import os
+import re
+import subprocess
+import sys
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import TypeAlias
+
+import pytest
+import yaml
+from framegen.cli import main
+from framegen.language.site_settings import SiteSettings, load_settings
+from framegen.reading.source import Source
+from framegen.site.shades import BOUND, worst_contrast
+from framegen.skeleton import skeleton, spec_path
+from framegen.writing import disk
+
+from tests.factories import ROOT, compiled_file, write_files
+from tests.in_turn import in_turn
+from tests.timeouts import GENEROUS
+
+Capture: TypeAlias = "pytest.CaptureFixture[str]"
+
+ACTION = re.compile(r"uses: (\S+@[0-9a-f]{40}) # v")
+GUIDE = Path(__file__).parents[3] / "docs" / "write-a-spec.md"
+
+
+def next_commands(printed: str) -> list[list[str]]:
+    """Return the words of each command that is named to come next."""
+    return [
+        line.split() for line in printed.partition("\nnext:\n")[2].splitlines() if line[0] == " "
+    ]
+
+
+@pytest.fixture(scope="module")
+def workplace(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Return the folder of a new, generated project, and the output of `framegen new`."""
+    folder = tmp_path_factory.mktemp("workplace")
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
+        patch.chdir(folder)
+        assert main(["new", "kiln"]) == 0
+        text = printed.getvalue()
+        generate, _, _ = next_commands(text)
+        assert main(generate[1:]) == 0
+    return folder, text
+
+
+def assert_its_tests_pass_with(spec: Path, folder: Path) -> None:
+    """Put the library of a spec in the place of that of a new project, and run the tests of it."""
+    name = compiled_file(spec).model.spec.protocol.name
+    test = f"tests/test_{name}.py"
+    write_files({test: skeleton(name)[test]}, folder)
+    with redirect_stdout(io.StringIO()):
+        assert main(["generate", str(spec), "--out", str(folder)]) == 0
+    done = python(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, test)
+    assert done.returncode == 0, done.stdout
+    passed = re.search(r"(\d+) passed", done.stdout)
+    assert passed is not None
+    assert int(passed[1]) > 20
+
+
+def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run Python in a project that is not installed."""
+    path = os.pathsep.join(str(project / folder) for folder in ("generated", "simulator"))
+    return subprocess.run(
+        [sys.executable, *words],
+        cwd=project,
+        env=os.environ | {"PYTHONPATH": path},
+        capture_output=True,
+        encoding="utf-8",
+        timeout=5 * GENEROUS,
+        check=False,
+    )
+
+
+# ------------------------------------------------------------------ what it leads to
+
+
+def test_the_printed_commands_lead_to_a_library_that_decodes(workplace: tuple[Path, str]) -> None:
+    folder, printed = workplace
+    written = [line.removeprefix("wrote ") for line in printed.partition("\n\n")[0].splitlines()]
+    assert sorted(written) == sorted(f"kiln/{path}" for path in skeleton("kiln"))
+    assert all((folder / path).is_file() for path in written)
+    generate, install, decode = next_commands(printed)
+    assert generate == ["framegen", "generate", "kiln/spec/kiln.yaml"]
+    assert install == ["pip", "install", "--editable", "./kiln"]
+    done = python(folder / "kiln", "-m", *decode)
+    assert (done.returncode, done.stdout) == (
+        0,
+        "     0  device      Level level=500 ‰ | A5 5A 03 01 01 F4\n",
+    )
+
+
+def test_its_site_loses_nothing_and_needs_no_server(
+    workplace: tuple[Path, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    folder, _ = workplace
+    monkeypatch.chdir(folder / "kiln")
+    assert main(["docs", "--strict", "--out", str(tmp_path / "site")]) == 0
+    assert capsys.readouterr().err == "guides: README.md, first-steps.md, of docs/\n"
+    home = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
+    assert 'href="first-steps.html"' in home
+    assert 'href="reference/kiln/index.html"' in home
+
+
+def test_its_settings_of_the_site_can_all_be_taken_out_of_their_comments(tmp_path: Path) -> None:
+    text = skeleton("kiln")["docs/site.yaml"]
+    assert load_settings(Source("site.yaml", text))[0] == SiteSettings()
+    keys = "|".join(SiteSettings.model_fields)
+    used = re.sub(f"^# (?=(?:{keys}): )", "", text, flags=re.MULTILINE)
+    values = load_settings(Source("site.yaml", used))[0].model_dump()
+    assert all(values.values())
+    assert worst_contrast(values["accent"], "light") >= BOUND
+    assert worst_contrast(values["accent_dark"], "dark") >= BOUND
+
+
+def test_its_first_guide_prints_what_it_says(workplace: tuple[Path, str]) -> None:
+    guide = (workplace[0] / "kiln" / "docs" / "first-steps.md").read_text(encoding="utf-8")
+    [(command, printed)] = re.findall(r"```console\n\$ (.*)\n(.*\n)```", guide)
+    done = python(workplace[0] / "kiln", "-m", *command.split())
+    assert (done.returncode, done.stdout) == (0, printed)
+
+
+def test_its_workflows_use_the_actions_that_ours_are_pinned_to() -> None:
+    ours = {
+        action
+        for file in (ROOT / ".github" / "workflows").glob("*.yml")
+        for action in ACTION.findall(file.read_text(encoding="utf-8"))
+    }
+    texts = [text for path, text in skeleton("kiln").items() if path.endswith(".yml")]
+    used = {action for text in texts for action in ACTION.findall(text)}
+    assert len(used) == 5
+    assert used <= ours
+    assert all(yaml.safe_load(text)["permissions"] == {"contents": "read"} for text in texts)
+
+
+def test_its_own_tests_find_all_that_they_import(workplace: tuple[Path, str]) -> None:
+    """They pass, too: tests/world/test_new_project.py."""
+    done = python(workplace[0] / "kiln", "-c", "import tests.test_kiln, tests.test_board")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_simulator_of_other_messages_is_refused_in_words(tmp_path: Path) -> None:
+    spec = ROOT / "tests" / "specs" / "weather.yaml"
+    name = compiled_file(spec).model.spec.protocol.name
+    write_files(skeleton(name), tmp_path)
+    assert main(["generate", str(spec), "--out", str(tmp_path)]) == 0
+    done = python(tmp_path, "-m", name, "simulate")
+    assert done.returncode == 2
+    assert f"the package {name}_simulator does not work with this {name}: " in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "protocol",
+    [
+        'protocol:\n  name: kiln\n  version: "1.2.3"\n',
+        "protocol:\n  name: kiln\n  version: 1.2.3\n",
+        'protocol: {name: kiln, title: Kiln, version: "1.2.3", authority: m}\n',
+        "protocol: {version: 1.2.3}\n",
+    ],
+)
+def test_the_version_of_a_project_is_read_from_its_spec_however_it_is_written(
+    protocol: str,
+) -> None:
+    (line,) = re.findall('^pattern = "(.*)"$', skeleton("kiln")["pyproject.toml"], re.MULTILINE)
+    pattern = line.encode().decode("unicode_escape")
+    found = re.search(pattern, f"framegen: 2\n{protocol}byte_order: big\n", re.MULTILINE)
+    assert found is not None
+    assert found["version"] == "1.2.3"
+
+
+def test_there_is_nothing_to_find_in_its_spec(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    main(["new", "kiln", "--into", "."])
+    capsys.readouterr()
+    assert main(["check"]) == 0
+    assert capsys.readouterr() == (
+        "",
+        "spec/kiln.yaml: 4 messages, 5 examples, 0 errata checked: nothing found\n",
+    )
+
+
+@pytest.mark.parametrize(
+    ("into", "generate", "install"),
+    [
+        (".", "spec/kiln.yaml", "."),
+        ("a b", '"a b/spec/kiln.yaml"', '"./a b"'),
+        ("../kiln", "../kiln/spec/kiln.yaml", "./../kiln"),
+    ],
+)
+def test_the_commands_name_the_folder_of_the_project(
+    into: str,
+    generate: str,
+    install: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    assert main(["new", "kiln", "--into", into]) == 0
+    assert Path(into, "spec", "kiln.yaml").is_file()
+    printed = capsys.readouterr().out
+    assert f"\n  framegen generate {generate}\n  pip install --editable {install}\n" in printed
+
+
+def test_every_section_that_the_spec_names_is_in_the_guide() -> None:
+    named = re.findall(r'\(guide: "([^"]+)"\)', skeleton("kiln")[spec_path("kiln")])
+    headings = re.findall(r"^##+ (.+)$", GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(named) > 5
+    assert set(named) - set(headings) == set()
+
+
+# ------------------------------------------------------------------ names
+
+REFUSED = [
+    ("class", "no protocol can be called so: `class` is a word of Python itself"),
+    ("json", "no protocol can be called so: `json` is a module of Python's standard library"),
+    (
+        "serial",
+        "no protocol can be called so: `serial` is a package that is used",
+    ),
+    ("con", "no protocol can be called so: `con` is a device on Windows, and no folder there"),
+    ("hypothesis", "no protocol can be called so: `hypothesis` is a package that is used beside"),
+    ("_pytest", "no protocol can be called so: `_pytest` is no name in snake_case"),
+    ("busservo", "a package `busservo` is installed here, which it would hide"),
+    ("Kiln", "no protocol can be called so: `Kiln` is no name in snake_case\n  hint: write `kiln`"),
+    (
+        "two words",
+        "no protocol can be called so: `two words` is no name in snake_case",
+    ),
+    ("../kiln", "no protocol can be called so: `../kiln` is no name in snake_case"),
+    ("a: {b\n# ", "no protocol can be called so: `a: {b"),
+    ('"', 'no protocol can be called so: `"` is no name in snake_case'),
+    ("\x1b[2J", "no protocol can be called so: "),
+    ("\udc80", "no protocol can be called so: "),
+    ("", "no protocol can be called so: `` is no name in snake_case"),
+    ("k" * 31, "no protocol can be called so: `kkkkkkkkkkkkkkkkkkkkkkkk...` has 31 characters"),
+]
+
+
+@in_turn("name, why", lambda: REFUSED)
+def test_a_name_that_no_library_can_have_is_refused(
+    name: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", name]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert errors.startswith(f"framegen: error: {why}")
+    assert "\x1b" not in errors
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("name", ["no", "on", "null", "y", "k", "k" * 30, "heat_pump_2"])
+def test_any_other_name_is_taken(name: str, tmp_path: Path) -> None:
+    assert main(["new", name, "--into", str(tmp_path)]) == 0
+    assert main(["check", str(tmp_path / spec_path(name))]) == 0
+
+
+# ------------------------------------------------------------------ what is there already
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def test_nothing_is_overwritten(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "README.md").write_text("mine\n", encoding="utf-8")
+    (tmp_path / "tests" / "test_kiln.py").mkdir(parents=True)
+    before = contents(tmp_path)
+    assert main(["new", "kiln", "--into", str(tmp_path)]) == 2
+    assert capsys.readouterr().err == (
+        f"framegen: error: {tmp_path} has files already that would be written: "
+        "README.md, tests/test_kiln.py\n"
+        "  hint: name another folder: --into FOLDER; nothing was written\n"
+    )
+    assert contents(tmp_path) == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["README.md", "tests"]
+
+
+def test_what_others_have_there_is_left(tmp_path: Path) -> None:
+    (tmp_path / "LICENSE").write_text("mine\n", encoding="utf-8")
+    assert main(["new", "kiln", "--into", str(tmp_path)]) == 0
+    assert contents(tmp_path).keys() == {"LICENSE", *skeleton("kiln")}
+    assert (tmp_path / "LICENSE").read_bytes() == b"mine\n"
+
+
+def test_a_second_run_has_nothing_to_write(tmp_path: Path, capsys: Capture) -> None:
+    main(["new", "kiln", "--into", str(tmp_path)])
+    before = contents(tmp_path)
+    capsys.readouterr()
+    assert main(["new", "kiln", "--into", str(tmp_path)]) == 0
+    assert capsys.readouterr().out.startswith(
+        f"{len(before)} files are there already: nothing was written\n"
+    )
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("moved", range(len(skeleton("kiln"))))
+def test_a_run_that_failed_left_whole_files_and_the_next_one_finishes(
+    moved: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    wanted = {path: text.encode() for path, text in skeleton("kiln").items()}
+    original = disk.move
+    budget = iter([original] * moved)
+
+    def move(old: Path, new: Path) -> None:
+        step = next(budget, None)
+        if step is None:
+            raise OSError(28, "No space left on device", str(new))
+        step(old, new)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(disk, "move", move)
+        assert main(["new", "kiln", "--into", str(tmp_path)]) == 2
+    assert "cannot be written: No space left on device" in capsys.readouterr().err
+    left = contents(tmp_path)
+    assert len(left) == moved
+    assert left.items() <= wanted.items()
+    assert main(["new", "kiln", "--into", str(tmp_path)]) == 0
+    assert contents(tmp_path) == wanted
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links there need a right of their own")
+def test_no_link_leads_out_of_the_project(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "project").mkdir()
+    (tmp_path / "project" / "spec").symlink_to(tmp_path / "elsewhere")
+    assert main(["new", "kiln", "--into", str(tmp_path / "project")]) == 2
+    assert "spec is a link that leads to " in capsys.readouterr().err
+    assert contents(tmp_path) == {}

@@ -1,0 +1,606 @@
+"""Owners of files: what framegen wrote, what somebody edited, and what somebody else put there."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from framegen.output import Output, banner
+from framegen.reading.yamltree import Unusable
+from framegen.writing import Change, changes, survey, write
+
+from tests.unit.writing.trees import (
+    AFTER,
+    BANNER,
+    BEFORE,
+    LIBRARY,
+    PAGES,
+    SPEC,
+    output,
+    put,
+    schema,
+    snapshot,
+    times,
+)
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+MANIFEST = "generated/kiln.manifest"
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """Return a root with the first edition in it."""
+    write(tmp_path, [BEFORE])
+    return tmp_path
+
+
+def fresh(folder: Path, *outputs: Output) -> dict[str, bytes | None]:
+    write(folder, list(outputs))
+    return snapshot(folder)
+
+
+def whys(found: list[Change]) -> dict[str, str]:
+    return {change.path: change.why for change in found if change.path != MANIFEST}
+
+
+# ------------------------------------------------------------------ own files
+
+
+def test_what_is_wanted_is_there_and_nothing_else(root: Path) -> None:
+    files = {path: data for path, data in snapshot(root).items() if data is not None}
+    del files[MANIFEST]
+    assert files == {path: text.encode() for path, text in BEFORE.files.items()}
+
+
+def test_a_second_time_nothing_is_touched(root: Path) -> None:
+    before = times(root)
+    assert write(root, [BEFORE]).changes == []
+    assert times(root) == before
+
+
+def test_changes_are_reported_with_their_reasons(root: Path) -> None:
+    expected = {
+        f"{LIBRARY}/changed.py": "stale",
+        f"{LIBRARY}/new.py": "missing",
+        f"{LIBRARY}/deep/er/new.py": "missing",
+        f"{LIBRARY}/gone.py": "orphaned",
+        f"{LIBRARY}/old/inner.py": "orphaned",
+        f"{PAGES}/messages/Heat.md": "stale",
+        f"{PAGES}/messages/Fan.md": "missing",
+        f"{PAGES}/messages/Cool.md": "orphaned",
+    }
+    before = snapshot(root)
+    assert whys(changes(root, [AFTER])) == expected
+    assert snapshot(root) == before
+    assert whys(write(root, [AFTER]).changes) == expected
+    assert changes(root, [AFTER]) == []
+
+
+def test_there_and_back_is_as_if_nothing_had_been(root: Path, tmp_path: Path) -> None:
+    first = snapshot(root)
+    write(root, [AFTER])
+    assert snapshot(root) == fresh(tmp_path / "elsewhere", AFTER)
+    shutil.rmtree(tmp_path / "elsewhere")
+    write(root, [BEFORE])
+    assert snapshot(root) == first
+
+
+def test_what_python_made_of_a_module_goes_with_it(root: Path, tmp_path: Path) -> None:
+    for module in ("gone", "same", "old/inner"):
+        folder, _, name = module.rpartition("/")
+        put(root, f"{LIBRARY}/{folder}/__pycache__/{name}.cpython-311.pyc", "\0")
+    write(root, [AFTER])
+    left = {path for path in snapshot(root) if path.endswith(".pyc")}
+    assert left == {f"{LIBRARY}/__pycache__/same.cpython-311.pyc"}
+    assert not (root / LIBRARY / "old").exists()
+
+
+def test_a_file_that_is_gone_comes_back(root: Path) -> None:
+    before = snapshot(root)
+    shutil.rmtree(root / "generated" / "kiln")
+    assert set(whys(write(root, [BEFORE]).changes).values()) == {"missing"}
+    assert snapshot(root) == before
+
+
+def test_line_ends_of_a_checkout_are_no_edit(root: Path) -> None:
+    for path, data in snapshot(root).items():
+        if data is not None:
+            (root / path).write_bytes(data.replace(b"\n", b"\r\n"))
+    assert changes(root, [BEFORE]) == []
+    assert set(whys(changes(root, [AFTER])).values()) == {"stale", "missing", "orphaned"}
+    write(root, [AFTER])
+    assert changes(root, [AFTER]) == []
+
+
+def test_a_comment_in_the_spec_changes_the_manifest_alone(root: Path) -> None:
+    commented = replace(BEFORE, digest="0" * 64)
+    assert [change.path for change in write(root, [commented]).changes] == [MANIFEST]
+
+
+@pytest.mark.parametrize("data", ["", "\0" * 100])
+def test_a_file_that_lost_what_it_held_is_no_edit(root: Path, data: str) -> None:
+    """As a file may that was new when the power went."""
+    for name in ("changed", "gone"):
+        put(root, f"{LIBRARY}/{name}.py", data)
+    write(root, [AFTER])
+    assert changes(root, [AFTER]) == []
+
+
+def test_orphans_of_any_kind_are_known(root: Path) -> None:
+    """By the manifest, since no page of HTML, no JSON and no empty file says whose it is."""
+    files = {f"{LIBRARY}/{name}": "" for name in ("a.html", "b.json", "py.typed", "c")}
+    wider = replace(BEFORE, files={**BEFORE.files, **files})
+    write(root, [wider])
+    assert whys(write(root, [BEFORE]).changes) == dict.fromkeys(files, "orphaned")
+
+
+def test_a_name_that_changes_its_capitals_alone_keeps_its_file(root: Path) -> None:
+    """Also where capitals do not distinguish names: the orphan is then the wanted file itself."""
+    other = output(same="x = 1\n", Heat="old")
+    page = f"{PAGES}/messages/Heat.md"
+    renamed = replace(
+        other, files={path.replace("Heat", "HEAT"): t for path, t in other.files.items()}
+    )
+    write(root, [other])
+    twin = root / page.replace("Heat", "HEAT")
+    if not twin.exists():  # where names that differ in capitals are two files
+        shutil.copyfile(root / page, twin)
+    done = write(root, [renamed]).changes
+    assert whys(done) == {page: "orphaned", page.replace("Heat", "HEAT"): "stale"}
+    assert twin.exists()
+
+
+# ------------------------------------------------------------------ edits and files of others
+
+
+def _edited(root: Path) -> tuple[str, bytes]:
+    file = root / LIBRARY / "changed.py"
+    file.write_bytes(file.read_bytes() + b"# mine\n")
+    return f"{LIBRARY}/changed.py", file.read_bytes()
+
+
+def _edited_orphan(root: Path) -> tuple[str, bytes]:
+    file = root / LIBRARY / "gone.py"
+    file.write_bytes(b"# mine\n")
+    return f"{LIBRARY}/gone.py", b"# mine\n"
+
+
+def _foreign(root: Path) -> tuple[str, bytes]:
+    put(root, f"{LIBRARY}/new.py", "# mine\n")
+    return f"{LIBRARY}/new.py", b"# mine\n"
+
+
+def _foreign_with_banner(root: Path) -> tuple[str, bytes]:
+    """Return a copy that somebody made, though the manifest says that framegen wrote none there."""
+    put(root, f"{LIBRARY}/new.py", f"{BANNER}x = 3\n")
+    return f"{LIBRARY}/new.py", f"{BANNER}x = 3\n".encode()
+
+
+def _binary(root: Path) -> tuple[str, bytes]:
+    put(root, f"{LIBRARY}/changed.py", "\udcff\udcfe\0")
+    return f"{LIBRARY}/changed.py", b"\xff\xfe\0"
+
+
+OTHERS = {
+    "edited by hand": (_edited, "edited by hand"),
+    "an orphan edited by hand": (_edited_orphan, "edited by hand"),
+    "a file of somebody else": (_foreign, "foreign"),
+    "a copy": (_foreign_with_banner, "foreign"),
+    "no text": (_binary, "edited by hand"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_foreign_files_are_never_replaced_or_removed(root: Path, name: str) -> None:
+    spoil, why = OTHERS[name]
+    path, _ = spoil(root)
+    before = snapshot(root)
+    assert whys(changes(root, [AFTER]))[path] == why
+    with pytest.raises(Unusable) as caught:
+        write(root, [AFTER])
+    assert f"  {why}: {path}" in str(caught.value)
+    assert str(caught.value).startswith("somebody's work would be lost, so nothing was written")
+    assert "--force" in caught.value.hint
+    assert snapshot(root) == before
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_with_force_a_foreign_file_is_kept_beside(root: Path, tmp_path: Path, name: str) -> None:
+    path, data = OTHERS[name][0](root)
+    put(root, f"{path}.mine", "kept before\n")
+    done = write(root, [AFTER], force=True)
+    assert done.kept == {path: f"{path}.mine-2"}
+    found = snapshot(root)
+    assert found.pop(f"{path}.mine") == b"kept before\n"
+    assert found.pop(f"{path}.mine-2") == data
+    assert found == fresh(tmp_path / "elsewhere", AFTER)
+    shutil.rmtree(tmp_path / "elsewhere")
+    found_now = survey(root, [AFTER])
+    assert (found_now.changes, found_now.strangers) == ([], [])
+
+
+def test_an_edit_is_reported_even_with_an_unchanged_spec(root: Path) -> None:
+    path, _ = _edited(root)
+    assert whys(changes(root, [BEFORE])) == {path: "edited by hand"}
+    with pytest.raises(Unusable):
+        write(root, [BEFORE])
+
+
+def test_an_edit_equal_to_the_new_output_is_no_edit(root: Path) -> None:
+    """Whoever has anticipated the output has nothing to lose."""
+    put(root, f"{LIBRARY}/changed.py", AFTER.files[f"{LIBRARY}/changed.py"])
+    put(root, f"{LIBRARY}/new.py", AFTER.files[f"{LIBRARY}/new.py"])
+    write(root, [AFTER])
+    assert changes(root, [AFTER]) == []
+
+
+def test_the_first_of_many_files_in_the_way_are_named(root: Path) -> None:
+    wide = output(**{f"m{n}": "x = 1\n" for n in range(30)})
+    for path in wide.files:
+        put(root, path, "mine\n")
+    with pytest.raises(Unusable) as caught:
+        write(root, [wide])
+    assert str(caught.value).count("foreign: ") == 20
+    assert str(caught.value).endswith("  and 10 more files")
+
+
+@pytest.mark.parametrize("name", ["notes.md", "mine.py", "sub/deep.py", "data.bin"])
+def test_a_foreign_file_in_nobodys_way_is_reported_and_left_alone(root: Path, name: str) -> None:
+    put(root, f"{LIBRARY}/{name}", "mine\n")
+    assert changes(root, [BEFORE]) == []
+    done = write(root, [AFTER])
+    assert done.strangers == [f"{LIBRARY}/{name}"]
+    assert (root / LIBRARY / name).read_bytes() == b"mine\n"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "__pycache__/same.cpython-311.pyc",
+        ".DS_Store",
+        "Thumbs.db",
+        "same.py.mine",
+        "same.py.mine-12",
+    ],
+)
+def test_litter_and_kept_files_are_not_foreign(root: Path, name: str) -> None:
+    put(root, f"{LIBRARY}/{name}", "\0")
+    assert survey(root, [BEFORE]).strangers == []
+    write(root, [AFTER])
+    assert (root / LIBRARY / name).exists()
+
+
+def test_files_beside_the_output_are_ignored(root: Path) -> None:
+    for path in ("generated/other/mine.py", "generated/notes.md", "docs/a.md", "mine.py"):
+        put(root, path, "mine\n")
+    found = survey(root, [BEFORE])
+    assert (found.changes, found.strangers) == ([], [])
+
+
+# ------------------------------------------------------------------ the manifest
+
+
+def test_the_manifest_reads_as_sha256sum_writes(root: Path) -> None:
+    lines = (root / MANIFEST).read_text(encoding="utf-8").splitlines()
+    assert lines[:2] == [f"# {banner(SPEC)}", f"# spec: {SPEC}"]
+    assert lines[2] == f"# spec-sha256: {BEFORE.digest}"
+    paths = [line[66:] for line in lines if not line.startswith("#")]
+    assert paths == sorted(BEFORE.files)
+
+
+def _gone(file: Path) -> None:
+    file.unlink()
+
+
+def _empty(file: Path) -> None:
+    file.write_bytes(b"")
+
+
+def _cut(file: Path) -> None:
+    file.write_bytes(file.read_bytes()[:-50])
+
+
+def _conflicted(file: Path) -> None:
+    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+    theirs = lines[-1].replace(lines[-1][:64], "0" * 64)
+    marked = ["<<<<<<< ours\n", lines[-1], "=======\n", theirs, ">>>>>>> theirs\n"]
+    file.write_text("".join([*lines[:-1], *marked]), encoding="utf-8")
+
+
+def _binary_manifest(file: Path) -> None:
+    file.write_bytes(b"\xff\xfe\0")
+
+
+@pytest.mark.parametrize("edition", [BEFORE, AFTER], ids=["the same", "the next"])
+@pytest.mark.parametrize("spoil", [_gone, _empty, _cut, _conflicted, _binary_manifest])
+def test_a_manifest_that_is_lost_or_damaged_is_made_anew(
+    root: Path, tmp_path: Path, spoil: object, edition: Output
+) -> None:
+    assert callable(spoil)
+    spoil(root / MANIFEST)
+    state = "is not there" if spoil is _gone else "is damaged"
+    done = write(root, [edition])
+    assert done.notices == [f"{MANIFEST} {state}: files are recognised by their contents"]
+    assert snapshot(root) == fresh(tmp_path / "elsewhere", edition)
+
+
+def test_a_fresh_folder_is_no_loss(tmp_path: Path) -> None:
+    assert write(tmp_path, [BEFORE]).notices == []
+
+
+def test_without_a_manifest_a_file_of_somebody_else_is_not_adopted(root: Path) -> None:
+    (root / MANIFEST).unlink()
+    path, _ = _foreign(root)
+    with pytest.raises(Unusable, match=f"foreign: {path}"):
+        write(root, [AFTER])
+
+
+def test_files_with_merge_conflicts_are_no_edits(root: Path) -> None:
+    conflict = f"{BANNER}<<<<<<< ours\nx = 1\n=======\nx = 2\n>>>>>>> theirs\n"
+    put(root, f"{LIBRARY}/changed.py", conflict)
+    put(root, f"{LIBRARY}/new.py", conflict)
+    put(root, f"{LIBRARY}/gone.py", conflict)
+    found = whys(changes(root, [AFTER]))
+    assert found[f"{LIBRARY}/changed.py"] == found[f"{LIBRARY}/new.py"] == "conflicted"
+    assert found[f"{LIBRARY}/gone.py"] == "orphaned"
+    write(root, [AFTER])
+    assert changes(root, [AFTER]) == []
+
+
+def test_after_a_conflict_the_manifest_says_what_it_said(root: Path) -> None:
+    before = snapshot(root)
+    put(root, f"{LIBRARY}/changed.py", "<<<<<<< a\n=======\n>>>>>>> b\n")
+    write(root, [BEFORE])
+    assert snapshot(root) == before
+
+
+def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) -> None:
+    """As .gitattributes asks for: the lines of both sides."""
+    ours = (root / MANIFEST).read_text(encoding="utf-8").splitlines()
+    write(root, [AFTER])
+    theirs = (root / MANIFEST).read_text(encoding="utf-8").splitlines()
+    joined = [*ours, *(line for line in theirs if line not in ours)]
+    put(root, MANIFEST, "\n".join(joined) + "\n")
+    for path in (f"{LIBRARY}/changed.py", f"{LIBRARY}/gone.py"):
+        put(root, path, BEFORE.files[path])
+    # And what git has joined of both is no edit, either.
+    joined_page = f"{PAGES}/messages/Heat.md"
+    put(root, joined_page, AFTER.files[joined_page] + BEFORE.files[joined_page])
+    edited = f"{LIBRARY}/same.py"
+    put(root, edited, f"{BEFORE.files[edited]}# mine\n")
+    assert whys(changes(root, [AFTER])) == {
+        f"{LIBRARY}/changed.py": "stale",
+        f"{LIBRARY}/gone.py": "orphaned",
+        joined_page: "stale",
+        edited: "edited by hand",
+    }
+    put(root, edited, BEFORE.files[edited])
+    assert write(root, [AFTER]).notices == []
+    assert changes(root, [AFTER]) == []
+
+
+@pytest.mark.parametrize(
+    "path", ["/etc/x", "../x", "a/../../x", "a\\..\\x", "C:/x", "./x", "a//x", "a/", ".", ".."]
+)
+def test_a_manifest_line_that_leads_out_is_damage(root: Path, path: str) -> None:
+    file = root / MANIFEST
+    file.write_text(file.read_text(encoding="utf-8") + f"{'0' * 64}  {path}\n", encoding="utf-8")
+    assert survey(root, [BEFORE]).notices != []
+
+
+# ------------------------------------------------------------------ several specs in one root
+
+
+OTHER = output("oven", "spec/oven.yaml", bake="x = 1\n", Bake="bake")
+THIRD = output("grill", "spec/grill.yaml", burn="x = 1\n", Burn="burn")
+
+
+def test_several_specs_lie_side_by_side(tmp_path: Path) -> None:
+    write(tmp_path, [BEFORE, OTHER, THIRD, schema()], all_of="spec")
+    assert changes(tmp_path, [BEFORE, OTHER, THIRD, schema()]) == []
+    # One of them alone changes nothing of the others.
+    done = write(tmp_path, [AFTER, schema()])
+    assert {change.path.split("/")[-2] for change in done.changes} <= {
+        "generated",
+        "kiln",
+        "messages",
+        "er",
+        "old",
+    }
+    assert changes(tmp_path, [AFTER, OTHER, THIRD, schema()]) == []
+
+
+def test_output_of_a_removed_spec_goes_when_all_are_written(tmp_path: Path) -> None:
+    write(tmp_path, [BEFORE, OTHER, THIRD, schema()], all_of="spec")
+    assert changes(tmp_path, [BEFORE, THIRD, schema()]) == []
+    write(tmp_path, [BEFORE, THIRD, schema()], all_of="spec")
+    found = snapshot(tmp_path)
+    assert found == fresh(tmp_path / "elsewhere", BEFORE, THIRD, schema())
+
+
+@pytest.mark.parametrize("all_of", ["spec", None])
+def test_output_under_a_former_name_goes(tmp_path: Path, all_of: str | None) -> None:
+    """The library renamed: nothing of the old package is left, and --check says so before."""
+    write(tmp_path, [OTHER, BEFORE])
+    renamed = output("furnace", SPEC, same="x = 1\n", Heat="heat")
+    found = changes(tmp_path, [renamed, OTHER]) if all_of else changes(tmp_path, [renamed])
+    assert {c.path for c in found if c.why == "orphaned"} == {MANIFEST, *BEFORE.files}
+    write(tmp_path, [renamed, OTHER] if all_of else [renamed], all_of=all_of)
+    found_now = snapshot(tmp_path)
+    assert found_now == fresh(tmp_path / "elsewhere", OTHER, renamed)
+
+
+def test_output_of_a_spec_elsewhere_stays(tmp_path: Path) -> None:
+    lone = output("oven", "drafts/oven.yaml", bake="x = 1\n")
+    write(tmp_path, [BEFORE])
+    write(tmp_path, [lone])
+    write(tmp_path, [BEFORE], all_of="spec")
+    assert changes(tmp_path, [lone]) == []
+
+
+def test_an_edit_in_the_output_of_a_spec_that_is_gone_is_kept(tmp_path: Path) -> None:
+    write(tmp_path, [BEFORE, OTHER])
+    put(tmp_path, "generated/oven/bake.py", "mine\n")
+    with pytest.raises(Unusable, match=r"edited by hand: generated/oven/bake\.py"):
+        write(tmp_path, [BEFORE], all_of="spec")
+    write(tmp_path, [BEFORE], all_of="spec", force=True)
+    assert (tmp_path / "generated/oven/bake.py.mine").read_bytes() == b"mine\n"
+    assert not (tmp_path / "generated/oven.manifest").exists()
+
+
+def test_a_file_that_moves_to_another_spec_is_no_loss(tmp_path: Path) -> None:
+    shared = "generated/shared.py"
+    first = replace(BEFORE, files={**BEFORE.files, shared: f"{BANNER}x = 1\n"})
+    second = replace(OTHER, files={**OTHER.files, shared: f"{BANNER}x = 2\n"})
+    write(tmp_path, [first, OTHER])
+    assert whys(write(tmp_path, [BEFORE, second]).changes)[shared] == "stale"
+    assert changes(tmp_path, [BEFORE, second]) == []
+
+
+@pytest.mark.parametrize("name", ["kiln", "Kiln"])
+def test_two_specs_of_one_name_are_refused(tmp_path: Path, name: str) -> None:
+    twin = output(name, "spec/other.yaml", same="x = 1\n")
+    with pytest.raises(Unusable, match=r"spec/kiln\.yaml and spec/other\.yaml both make") as caught:
+        write(tmp_path, [BEFORE, twin])
+    assert "`name`" in caught.value.hint
+    assert snapshot(tmp_path) == {}
+
+
+def test_two_specs_may_exchange_their_names(tmp_path: Path) -> None:
+    for spec in (SPEC, "spec/oven.yaml"):
+        put(tmp_path, spec, "")
+    exchanged = [
+        output("oven", SPEC, same="x = 1\n", Heat="heat"),
+        output("kiln", "spec/oven.yaml", bake="x = 1\n", Bake="bake"),
+    ]
+    write(tmp_path, [BEFORE, OTHER])
+    write(tmp_path, exchanged, all_of="spec")
+    for spec in (SPEC, "spec/oven.yaml"):
+        (tmp_path / spec).unlink()
+    (tmp_path / "spec").rmdir()
+    found = snapshot(tmp_path)
+    assert found == fresh(tmp_path / "elsewhere", *exchanged)
+
+
+def test_in_a_root_that_projects_share_no_output_of_others_goes(tmp_path: Path) -> None:
+    """Not even of a spec that has the same path in its own project."""
+    write(tmp_path, [BEFORE, OTHER])
+    before = snapshot(tmp_path)
+    renamed = output("furnace", SPEC, same="x = 1\n")
+    write(tmp_path, [renamed], all_of="spec", shared=True)
+    assert before.items() <= snapshot(tmp_path).items()
+
+
+def test_a_spec_does_not_take_over_what_another_has_made(root: Path) -> None:
+    put(root, SPEC, "")
+    twin = output("kiln", "spec/other.yaml", same="x = 1\n")
+    with pytest.raises(Unusable, match=r"generated/kiln\.manifest belongs to spec/kiln\.yaml"):
+        write(root, [twin])
+    (root / SPEC).unlink()
+    write(root, [twin])
+    assert changes(root, [twin]) == []
+
+
+# ------------------------------------------------------------------ a part of the output
+
+
+def part(whole: Output, folder: str) -> Output:
+    """Return the output of one target, which owns that folder."""
+    mine = {path: text for path, text in whole.files.items() if path.startswith(f"{folder}/")}
+    others = {path: text for path, text in whole.files.items() if path not in mine}
+    return replace(whole, files=mine, others=others, folders=(folder,))
+
+
+def test_a_part_is_written_and_the_rest_is_left(root: Path) -> None:
+    before = snapshot(root)
+    done = write(root, [part(AFTER, PAGES)])
+    assert set(whys(done.changes)) == {
+        f"{PAGES}/messages/{name}.md" for name in ("Heat", "Fan", "Cool")
+    }
+    library = {path: data for path, data in before.items() if path.startswith(f"{LIBRARY}/")}
+    assert {
+        path: data for path, data in snapshot(root).items() if path.startswith(f"{LIBRARY}/")
+    } == library
+    assert changes(root, [part(AFTER, PAGES)]) == []
+    # What the rest is, is still known: the whole is written without a word.
+    write(root, [AFTER])
+    assert changes(root, [AFTER]) == []
+
+
+def test_a_part_first_and_the_whole_later(tmp_path: Path) -> None:
+    write(tmp_path, [part(BEFORE, LIBRARY)])
+    write(tmp_path, [AFTER])
+    assert snapshot(tmp_path) == fresh(tmp_path / "elsewhere", AFTER)
+
+
+def test_a_part_without_a_manifest_reports_the_rest(root: Path, tmp_path: Path) -> None:
+    (root / MANIFEST).unlink()
+    write(root, [part(BEFORE, LIBRARY)])
+    write(root, [AFTER])
+    assert snapshot(root) == fresh(tmp_path / "elsewhere", AFTER)
+
+
+# ------------------------------------------------------------------ output of the former layout
+
+
+def test_output_of_the_former_layout_is_taken_over_in_one_run(tmp_path: Path) -> None:
+    mark = "Generated by framegen 0.1.0 from kiln.yaml, 1.0.0; change that, not this."
+    put(tmp_path, f"{LIBRARY}/same.py", f"# {mark}\n# SHA-256 of the spec: {'0' * 64}\nx = 1\n")
+    put(tmp_path, f"{LIBRARY}/gone.py", f"# {mark}\nx = 1\n")
+    put(tmp_path, f"{LIBRARY}/py.typed", "")
+    put(tmp_path, f"{LIBRARY}/vectors.json", '{\n  "generated_by": "framegen 0.1.0",\n')
+    page = (
+        '<!doctype html>\n<html lang="en">\n<head>\n<!-- Generated by framegen 0.1.0 from kiln.yaml'
+    )
+    put(tmp_path, "docs/reference/index.html", f"{page}, 1.0.0: change that, not this. -->\n")
+    put(tmp_path, "docs/reference/messages/Heat.html", f"{page}, 1.0.0: change that. -->\n")
+    put(
+        tmp_path, "docs/reference/README.md", page.splitlines()[-1] + ": change that, not this. -->"
+    )
+    put(tmp_path, "docs/reference/other.html", page.replace("kiln", "oven") + ", 1: x -->")
+    put(
+        tmp_path,
+        "docs/reference/mine.md",
+        "How pages are generated by framegen 0.1.0 from kiln.yaml\n",
+    )
+    put(
+        tmp_path,
+        "spec/framegen.schema.json",
+        '{\n  "$schema": "x",\n  "title": "framegen spec",\n}',
+    )
+    wider = replace(
+        BEFORE,
+        files={**BEFORE.files, f"{LIBRARY}/py.typed": "", f"{LIBRARY}/vectors.json": "{}\n"},
+    )
+    done = write(tmp_path, [wider, schema()])
+    assert len(done.notices) == 2
+    assert done.kept == {}
+    found = snapshot(tmp_path)
+    for path in ("docs/reference/other.html", "docs/reference/mine.md"):
+        assert found.pop(path) is not None
+    assert found == fresh(tmp_path / "elsewhere", wider, schema())
+
+
+def test_many_files_cost_nothing_where_they_are_in_nobodys_way(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A site is written into a folder of many files without a look at any of them."""
+    put(tmp_path, "node_modules/deep/index.js", "")
+    put(tmp_path, "docs/reference/index.html", "")
+    site = Output("site.manifest", SPEC, {"index.html": "<p>\n"})
+    looked_at: list[str] = []
+    scan = os.scandir
+
+    def noted(path: Any) -> Any:
+        looked_at.append(str(path))
+        return scan(path)
+
+    monkeypatch.setattr(os, "scandir", noted)
+    write(tmp_path, [site])
+    assert [path for path in looked_at if "node_modules" in path or "reference" in path] == []
+    assert (tmp_path / "index.html").exists()
