@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
     from types import ModuleType
 
-# Protocols of which each kind of frame is one of another protocol as well.
-ALIKE = {"crsf", "ibus", "learm", "mavlink1", "mhz19", "msp", "tfmini"}
+# Protocols of which each kind of frame, or what is odd in it, is one of another as well.
+ALIKE = {
+    *("crsf", "dynamixel1", "ibus", "learm", "mavlink1", "mhz19", "msp", "sbus", "tfmini", "visca")
+}
 # What makes a row; other marks say what goes for it.
 _OURS = {"parametrize", "slow", "each_protocol"}
 

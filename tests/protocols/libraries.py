@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.slots import Items
@@ -10,6 +12,7 @@ from tests.factories import compiled_file, library, library_files
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from contextlib import ExitStack
     from types import ModuleType
 
@@ -17,6 +20,10 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
 
     from tests.protocols.peer import Values
+
+
+# What was imported of each of them: what a library holds does not change while it is used.
+_KEPT: dict[str, dict[str, ModuleType]] = {}
 
 
 class Libraries:
@@ -28,9 +35,19 @@ class Libraries:
 
     def __getitem__(self, name: str) -> ModuleType:
         if name not in self._made:
-            files = library_files(compiled_file(FILES[name]))
-            self._made[name] = self._until.enter_context(library(files))
+            self._made[name] = self._until.enter_context(_imported(name))
         return self._made[name]
+
+
+@contextmanager
+def _imported(name: str) -> Iterator[ModuleType]:
+    with library(library_files(compiled_file(FILES[name]))) as made:
+        package = made.__name__
+        sys.modules.update(_KEPT.get(name, {}))
+        yield sys.modules[package]
+        _KEPT[name] = {
+            each: module for each, module in sys.modules.items() if each.split(".")[0] == package
+        }
 
 
 def direction_of(made: ModuleType, way: Direction) -> Any:

@@ -15,7 +15,7 @@ from framegen.model.checksums import CHECK_DATA, CHECKSUMS
 from framegen.model.codec import decode
 from framegen.model.data import method_terms
 
-from tests.factories import compiled_file, compiled_of, library, library_files
+from tests.factories import compiled_of, library, library_files
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of, model_of
 from tests.unit.site.peers import noisy_lines
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from framegen.explanation.explanation import Row
+
+    from tests.protocols.libraries import Libraries
 
 
 METHODS = [(name, width) for name, method in CHECKSUMS.items() for width in method.widths]
@@ -109,17 +111,14 @@ def rows_begin(rows: tuple[Row, ...], data: bytes) -> bool:
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize("name", FILES)
-def test_a_library_explains_as_the_reference_does(name: str) -> None:
-    model = model_of(name)
-    with library(library_files(compiled_file(FILES[name]))) as made:
-        explained = import_module(f"{made.__name__}._cli.explain").explained
-        carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
-        examples = (each.message.examples for each in messages_of(name).values())
-        frames = [example.hex for each in examples for example in each]
-        for data in [*frames, *damaged(name)]:
-            here = explain(model, data, model.directions)
-            there = explained(carried, data)
-            assert repr(there) == repr(here), data.hex(" ")
+def test_a_library_explains_as_the_reference_does(libraries: Libraries, name: str) -> None:
+    made, model = libraries[name], model_of(name)
+    explained = import_module(f"{made.__name__}._cli.explain").explained
+    carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
+    examples = (each.message.examples for each in messages_of(name).values())
+    for data in [*(example.hex for each in examples for example in each), *damaged(name)]:
+        here, there = explain(model, data, model.directions), explained(carried, data)
+        assert repr(there) == repr(here), data.hex(" ")
 
 
 # What is said of bytes, by protocol: reason, what was due, and the hints.

@@ -1,11 +1,11 @@
-"""Protocols that others made: each spec holds what they published, read and write."""
+"""Protocols that others made: each spec holds what they read and write."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.model.codec import decode, encode
+from framegen.model.codec import encode
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,51 +14,16 @@ from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.by_hand import BY_HAND
 from tests.protocols.peers import PEERS
-from tests.protocols.specs import (
-    FILES,
-    SPOKEN,
-    all_messages,
-    messages_of,
-    model_of,
-    values_of,
-)
+from tests.protocols.specs import FILES, SPOKEN, messages_of, values_of
 
 if TYPE_CHECKING:
     from tests.protocols.peer import Peer
-
-EXAMPLES = [
-    pytest.param(name, message, number, id=f"{name}-{message}-{number}")
-    for name, message in all_messages()
-    for number in range(len(messages_of(name)[message].message.examples))
-]
 
 
 @pytest.mark.parametrize("name", FILES)
 def test_a_spec_has_no_findings(name: str) -> None:
     compiled = compiled_file(FILES[name])
     assert [finding.render(compiled.source) for finding in compiled.findings] == []
-
-
-@in_turn("name, message, number", lambda: EXAMPLES)
-def test_a_published_frame_is_read_and_written_again(name: str, message: str, number: int) -> None:
-    layout = messages_of(name)[message]
-    example = layout.message.examples[number]
-    decoded = decode(model_of(name), layout.direction, example.hex)
-    assert (decoded.layout, decoded.values) == (layout, example.values)
-    # Reserved bytes are kept: receivers leave in them what they like.
-    assert encode(layout, decoded.values, like=example.hex) == example.hex
-
-
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
-@in_turn("message", messages_of)
-@few_each
-@given(data=st.data())
-def test_what_is_written_is_read(name: str, message: str, data: st.DataObject) -> None:
-    layout = messages_of(name)[message]
-    values = data.draw(values_of(name, message))
-    decoded = decode(model_of(name), layout.direction, encode(layout, values))
-    assert (decoded.layout.name, decoded.values) == (message, values)
 
 
 @pytest.mark.parametrize("kind", [peer for peer in PEERS if peer.writes])

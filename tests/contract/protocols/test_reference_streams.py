@@ -38,21 +38,13 @@ def overlapping(events: list[Event], at: int, size: int) -> list[Event]:
 @pytest.mark.parametrize(("name", "way"), WAYS)
 @few_each
 @given(data=st.data())
-def test_1_nothing_is_lost(name: str, way: Direction, data: st.DataObject) -> None:
-    line = data.draw(lines(name, way))
-    events = decoder(name, way).decode(line)
-    assert b"".join(event.data for event in events) == line
-
-
-@pytest.mark.parametrize(("name", "way"), WAYS)
-@few_each
-@given(data=st.data())
-def test_2_what_is_certain_stands_whatever_follows(
+def test_1_2_nothing_is_lost_and_what_is_certain_stands_whatever_follows(
     name: str, way: Direction, data: st.DataObject
 ) -> None:
     line = data.draw(lines(name, way))
     cut = data.draw(st.integers(0, len(line)))
     reference = decoder(name, way)
+    assert b"".join(event.data for event in reference.decode(line)) == line
     certain = [event for event in reference.decode_so_far(line[:cut]) if event.kind != "noise"]
     whole = [event for event in reference.decode_so_far(line) if event.kind != "noise"]
     assert whole[: len(certain)] == certain

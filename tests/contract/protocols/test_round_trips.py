@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from tests.few_each import few_each
 from tests.in_turn import in_turn
-from tests.protocols.libraries import Libraries, direction_of
+from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
 from tests.protocols.specs import FILES, messages_of, model_of, values_of
+from tests.protocols.streams import LARGE
 
 # The protocols with messages that only a checksum tells from the beginning of a longer one.
 BY_CHANCE = ["roboclaw", "gauges"]
@@ -28,13 +29,19 @@ def test_the_protocols_in_which_frames_begin_alike_are_known() -> None:
 @in_turn("message", messages_of)
 @few_each
 @given(data=st.data())
-def test_what_the_reference_writes_it_reads(name: str, message: str, data: st.DataObject) -> None:
-    layout = messages_of(name)[message]
-    values = data.draw(values_of(name, message, few=True))
+def test_what_is_written_is_read(
+    libraries: Libraries, name: str, message: str, data: st.DataObject
+) -> None:
+    made, layout = libraries[name], messages_of(name)[message]
+    values = data.draw(values_of(name, message))
     frame = encode(layout, values)
-    read = decode(model_of(name), layout.direction, frame)
-    assert (read.layout.name, read.values) == (message, values)
-    assert read_by_reference(name, message, [frame, None]) == [(message, frame)]
+    assert made_of(made, layout, values).encode() == frame
+    there = made.decode(frame, direction_of(made, layout.direction))
+    assert (type(there).__name__, values_in(layout, there)) == (message, values)
+    here = decode(model_of(name), layout.direction, frame)
+    assert (here.layout.name, here.values) == (message, values)
+    if len(frame) <= LARGE:
+        assert read_by_reference(name, message, [frame, None]) == [(message, frame)]
 
 
 @pytest.mark.parametrize("name", BY_CHANCE)

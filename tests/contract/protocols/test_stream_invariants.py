@@ -12,7 +12,6 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.contract.protocols.test_libraries import _told, joined
 from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
@@ -20,7 +19,7 @@ from tests.protocols.streams import all_ways, lines
 from tests.unit.runtime.codec.test_stream import calls
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
@@ -31,6 +30,31 @@ each_protocol = pytest.mark.parametrize("name", FILES)
 each_way = pytest.mark.parametrize(
     ("name", "way"), [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
 )
+
+
+def told(made: Any, events: Iterable[Any]) -> list[tuple[str, bytes, str]]:
+    """Return what the decoder of a library finds: what it is, its bytes, and why it is refused."""
+    return joined(
+        (type(event).__name__, event.encode(), "")
+        if isinstance(event, made.Message)
+        else (
+            "unknown" if isinstance(event, made.UnknownFrame) else "noise",
+            event.data,
+            event.reason.value,
+        )
+        for event in events
+    )
+
+
+def joined(events: Iterable[tuple[str, bytes, str]]) -> list[tuple[str, bytes, str]]:
+    """Return events with neighbouring noise of one reason joined."""
+    whole: list[tuple[str, bytes, str]] = []
+    for kind, data, reason in events:
+        if whole and kind == "noise" and whole[-1][0] == "noise" and whole[-1][2] == reason:
+            whole[-1] = kind, whole[-1][1] + data, reason
+        else:
+            whole.append((kind, data, reason))
+    return whole
 
 
 def cut(data: st.DataObject, line: bytes) -> list[bytes]:
@@ -51,11 +75,6 @@ def read_by_reference(line: ReferenceDecoder, stretch: bytes) -> list[tuple[str,
         )
         for event in line.decode(stretch)
     )
-
-
-def messages(events: Sequence[tuple[str, bytes, str]]) -> list[tuple[str, bytes]]:
-    """Return the messages alone."""
-    return [(kind, data) for kind, data, _ in events if kind[0].isupper()]
 
 
 def drawn_line(data: st.DataObject, name: str) -> bytes:
@@ -84,15 +103,13 @@ def test_messages_come_as_soon_as_they_are_certain(
         for chunk in cut(data, stretch):
             events += decoder.feed(chunk)
             assert decoder.pending < max(1, min(largest, max_frame or largest))
-        early = [_told(made, event) for event in events]
-        certain = [event for event in reference.decode_so_far(stretch) if event.message]
-        assert messages(early) == [
-            (event.message.name, event.data) for event in certain if event.message
+        assert [(kind, data) for kind, data, _ in told(made, events) if kind[0].isupper()] == [
+            (event.message.name, event.data)
+            for event in reference.decode_so_far(stretch)
+            if event.message
         ]
         events += decoder.flush()
-        assert joined(_told(made, event) for event in events) == read_by_reference(
-            reference, stretch
-        )
+        assert told(made, events) == read_by_reference(reference, stretch)
         assert decoder.pending == 0
 
 
@@ -112,9 +129,7 @@ def test_a_copy_goes_on_by_itself(
     events = before + decoder.feed(line[at:]) + decoder.flush()
     whole = made.StreamDecoder(direction_of(made, way))
     expected = whole.feed(line) + whole.flush()
-    assert joined(_told(made, each) for each in events) == joined(
-        _told(made, each) for each in expected
-    )
+    assert told(made, events) == told(made, expected)
 
 
 # --- Work ----------------------------------------------------------------------------------------
