@@ -67,30 +67,24 @@ def compiled(found: Guess) -> Compiled:
 
 @pytest.mark.each_protocol
 @pytest.mark.parametrize("protocol", EACH)
-def test_what_200_frames_decide_is_right(protocol: str) -> None:
-    assert wrong(guessed(protocol)[0], model_of(protocol)) == []
+def test_what_200_frames_decide_is_right_and_makes_a_spec_that_explains_them(protocol: str) -> None:
+    found, capture = guessed(protocol)
+    assert wrong(found, model_of(protocol)) == []
+    made = compiled(found)
+    assert [finding.render(made.source) for finding in made.findings] == []
+    if protocol not in IN_PART:
+        all_of_it = f"It explains all of its {len(capture.data)} bytes, as 200 frames."
+        share = explained(spec_text(found, "line.bin"), capture)
+        assert share == LENGTHENED.get(protocol, all_of_it)
+    if protocol in DECIDED:
+        decided = {each.about: each.says for each in found.conclusions if each.is_decided}
+        del decided["frames"]
+        assert decided == DECIDED[protocol]
 
 
 def test_frames_of_two_kinds_on_one_line_are_undecided() -> None:
     assert not any(each.is_decided for each in guessed(MIXED)[0].conclusions)
     assert compiled(guessed(MIXED)[0]).findings == []
-
-
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("protocol", EACH)
-def test_200_frames_give_a_spec_without_findings(protocol: str) -> None:
-    found, _ = guessed(protocol)
-    assert [finding.render(compiled(found).source) for finding in compiled(found).findings] == []
-
-
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("protocol", [name for name in SPECS if name not in IN_PART])
-def test_200_frames_give_a_spec_that_explains_them_all(protocol: str) -> None:
-    found, capture = guessed(protocol)
-    size = len(capture.data)
-    share = explained(spec_text(found, "line.bin"), capture)
-    all_of_it = f"It explains all of its {size} bytes, as 200 frames."
-    assert share == LENGTHENED.get(protocol, all_of_it)
 
 
 # What 200 frames show of each: all of it would be no surprise, and none of it no help.
@@ -132,15 +126,6 @@ DECIDED = {
     },
     "sbus": {"constants": "each begins 0F and each ends 00"},
 }
-
-
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("protocol", DECIDED)
-def test_200_frames_decide_what_there_is_to_see(protocol: str) -> None:
-    conclusions = guessed(protocol)[0].conclusions
-    decided = {each.about: each.says for each in conclusions if each.is_decided}
-    del decided["frames"]
-    assert decided == DECIDED[protocol]
 
 
 def test_what_fits_equally_is_said() -> None:
