@@ -5,8 +5,6 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING, Any
 
-import pandas as pd
-import polars as pl
 import pyarrow as pa
 import pytest
 from busservo import Direction
@@ -101,16 +99,6 @@ def test_what_comes_in_a_stream_is_read_twice_all_the_same(tmp_path: Path) -> No
 def test_a_capture_of_nothing_is_a_file_without_rows(tmp_path: Path) -> None:
     assert write_arrow(b"", tmp_path / "line.arrow") == {}
     assert events_in(tmp_path / "line.arrow") == []
-
-
-def test_pandas_and_polars_open_it(tmp_path: Path) -> None:
-    file = tmp_path / "line.arrow"
-    write_arrow(CAPTURE, file)
-    frame = pd.read_feather(file)
-    assert list(frame["event"]) == [event["event"] for event in events_in(file)]
-    voltages = pl.read_ipc(file).filter(pl.col("event") == "BatteryVoltage")
-    expected = [6000 + number for number in range(40)]
-    assert voltages["BatteryVoltage"].struct["voltage_mv"].to_list() == expected
 
 
 def test_a_broken_capture_leaves_the_file_of_before(tmp_path: Path) -> None:

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import errno
 import json
-import multiprocessing
 import os
 import shutil
-import subprocess
-import sys
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
 from itertools import count
@@ -17,9 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-import duckdb
 import lxservo.tables
-import polars as pl
 import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 import pytest
@@ -87,19 +81,6 @@ def test_it_holds_the_tables_of_all_captures(captures: Path, tmp_path: Path) -> 
     assert {(report.is_new, report.error) for report in reports} == {(True, None)}
 
 
-def test_two_processes_make_the_same_files_as_one(captures: Path, tmp_path: Path) -> None:
-    archived(captures, tmp_path / "by one")
-    pieces = scan(captures, size=SIZE)
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(2, mp_context=spawn) as pool:
-        reports = list(pool.map(archive, pieces, [tmp_path / "by two"] * len(pieces)))
-    assert [report.piece for report in reports] == pieces
-    by_one, by_two = tmp_path / "by one", tmp_path / "by two"
-    assert files_in(by_two) == files_in(by_one)
-    for name in files_in(by_one):
-        assert (by_two / name).read_bytes() == (by_one / name).read_bytes()
-
-
 def test_what_is_done_is_not_done_again(
     captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -110,20 +91,6 @@ def test_what_is_done_is_not_done_again(
     assert [report.rows for report in again] == [report.rows for report in first]
     assert not any(report.is_new for report in again)
     assert files_in(tmp_path / "dataset") == before
-
-
-def test_duckdb_and_polars_read_it(captures: Path, tmp_path: Path) -> None:
-    archived(captures, tmp_path / "dataset")
-    expected = {
-        capture: len(rows)
-        for (table, capture), rows in rows_of(captures).items()
-        if table == "BatteryVoltage"
-    }
-    files = f"{(tmp_path / 'dataset' / 'BatteryVoltage').as_posix()}/**/*.parquet"
-    table = duckdb.read_parquet(files, hive_partitioning=True)
-    assert dict(table.aggregate("capture, count(*)").fetchall()) == expected
-    counts = pl.scan_parquet(files, hive_partitioning=True).group_by("capture").len().collect()
-    assert dict(counts.iter_rows()) == expected
 
 
 # --- What changes --------------------------------------------------------------------------------
@@ -402,35 +369,6 @@ def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
     assert number > 20
 
 
-KILLED = """
-import os, sys
-from pathlib import Path
-from busservo.tables import archive, scan
-done = []
-replace = Path.replace
-def replaced(path, target):
-    done.append(path)
-    if len(done) == 12:
-        os._exit(9)
-    return replace(path, target)
-Path.replace = replaced
-for piece in scan(sys.argv[1], size=1000):
-    archive(piece, sys.argv[2])
-"""
-
-
-def test_a_process_that_was_killed_is_replaced_by_another(captures: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "dataset"
-    ended = subprocess.run([sys.executable, "-c", KILLED, captures, folder], check=False)
-    assert ended.returncode == 9
-    assert rows_in(folder) != rows_of(captures)
-    reports = archived(captures, folder)
-    assert {report.is_new for report in reports} == {True, False}
-    assert rows_in(folder) == rows_of(captures)
-    # Nor is anything left of the one that was killed.
-    assert not [path for path in (folder / "_pieces").glob("*/*") if path.is_dir()]
-
-
 def test_two_workers_at_one_piece_do_no_harm(
     captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -499,11 +437,6 @@ def test_a_capture_may_have_any_name(name: str, tmp_path: Path) -> None:
     ((_, capture), *_) = rows_in(tmp_path / "dataset")
     seen = name.replace("\udcff", "\\udcff")
     assert capture == seen or (capture.startswith(seen[:120]) and len(quote(name, "")) > 200)
-    files = f"{(tmp_path / 'dataset' / 'BatteryVoltage').as_posix()}/**/*.parquet"
-    table = duckdb.read_parquet(files, hive_partitioning=True)
-    assert table.aggregate("capture, count(*)").fetchall() == [(capture, 3)]
-    rows = pl.scan_parquet(files, hive_partitioning=True).select("capture").collect()
-    assert rows["capture"].to_list() == [capture] * 3
 
 
 def test_captures_that_share_a_folder_keep_their_pieces(
