@@ -1,6 +1,7 @@
 """Guesses by recordings that are cut, noisy, spoilt or short: what is decided is right still."""
 
 from collections.abc import Callable
+from itertools import product
 from random import Random
 
 import pytest
@@ -11,6 +12,7 @@ from framegen.guess.spec_text import spec_text
 from framegen.reading.source import Source
 
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.unit.guess.test_guess import IN_PART
 from tests.unit.guess.traffic import traffic
@@ -45,9 +47,8 @@ def few(frames: list[bytes], _chance: Random) -> bytes:
     return b"".join(frames[:30])
 
 
-@pytest.mark.parametrize("damage", [whole, cut, noisy, spoilt, few])
 @pytest.mark.parametrize("protocol", SPECS)
-@pytest.mark.parametrize("seed", range(3))
+@in_turn("damage, seed", lambda: product([whole, cut, noisy, spoilt, few], range(3)))
 def test_what_is_decided_is_right(
     protocol: str, damage: Callable[[list[bytes], Random], bytes], seed: int
 ) -> None:
