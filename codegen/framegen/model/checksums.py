@@ -134,11 +134,10 @@ class Crc(Checksum):
 
     def of(self, data: bytes, width: int) -> int:
         """Return the checksum of `data`."""
-        register, top = self.init, 1 << width - 1
-        for byte in data:
-            for bit in range(8) if self.reflected else range(7, -1, -1):
-                carry = bool(register & top) ^ (byte >> bit & 1)
-                register = (register << 1) % (1 << width) ^ (self.poly if carry else 0)
+        register, remainders = self.init, _remainders(self.poly, width)
+        for byte in data.translate(_TURNED) if self.reflected else data:
+            highest = register >> width - 8 ^ byte
+            register = (register << 8) % (1 << width) ^ remainders[highest]
         if self.reflected and not self.mixed:
             register = int(f"{register:0{width}b}"[::-1], 2)
         return register ^ self.xor_out
@@ -146,6 +145,23 @@ class Crc(Checksum):
     def tells_apart(self, size: int) -> bool:
         """Tell whether data that differ in so many bytes on end never have the same checksum."""
         return 8 * size <= self.width and bool(self.poly & 1)
+
+
+# Every byte with its lowest bit first.
+_TURNED = bytes(int(f"{byte:08b}"[::-1], 2) for byte in range(0x100))
+
+
+@cache
+def _remainders(poly: int, width: int) -> list[int]:
+    """Return what each byte leaves, divided as the highest one of a register, bit by bit."""
+    found = []
+    for byte in range(0x100):
+        register = byte << width - 8
+        for _ in range(8):
+            carry = register >> width - 1
+            register = (register << 1) % (1 << width) ^ (poly if carry else 0)
+        found.append(register)
+    return found
 
 
 def _words(data: bytes, size: int) -> Iterator[int]:
