@@ -22,7 +22,7 @@ from framegen.model.covered import Covered
 from framegen.model.slots import Body, Constant, Number, Placed, lay_out
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from framegen.language.spec import Frame, FramePart, NumberPart
     from framegen.model.slots import ByteOrder
@@ -199,11 +199,26 @@ class Envelope:
 
     def covered(self, checksum: Number, ids: Mapping[str, int]) -> Covered:
         """Return what a checksum is worked out from, in a frame with these ids by part."""
+        hidden = {
+            part.name: part.write(ids[part.name])
+            for part in self.unsent
+            if part.name in checksum.of
+        }
+        key = checksum.of, (*hidden.values(),)
+        if key not in self._covered:
+            self._covered[key] = self._pieces(checksum.of, hidden)
+        return self._covered[key]
+
+    @cached_property
+    def _covered(self) -> dict[tuple[tuple[str, ...], tuple[bytes, ...]], Covered]:
+        """What checksums are worked out from, found once because it is needed for every frame."""
+        return {}
+
+    def _pieces(self, names: Iterable[str], hidden: Mapping[str, bytes]) -> Covered:
         found = Covered()
-        for name in checksum.of:
-            for hidden in self.unsent:
-                if hidden.name == name:
-                    found = found.then(hidden.write(ids[name]))
+        for name in names:
+            if name in hidden:
+                found = found.then(hidden[name])
             for slot in self.slots:
                 if slot.name == name:
                     end = -self.tail_size if isinstance(slot, Body) else slot.at + slot.size

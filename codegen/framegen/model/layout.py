@@ -130,7 +130,7 @@ class MessageLayout:
         """Return what a checksum is worked out from."""
         return self.frame.covered(checksum, self.ids_by_part)
 
-    @property
+    @cached_property
     def ids_by_part(self) -> dict[str, int]:
         """The ids of the message, by the name of their part."""
         return dict(zip((part.name for part in self.frame.ids), self.ids, strict=True))
