@@ -29,10 +29,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """The messages that may come in frames of one envelope, direction by direction."""
+    """The messages that may come in frames of one envelope, direction by direction.
+
+    `largest` is the size of the largest legal frame of these directions, in whatever envelope.
+    """
 
     frame: Envelope
     messages: Sequence[MessageLayout]
+    largest: int
 
     def with_ids(self, ids: tuple[int, ...]) -> Sequence[MessageLayout]:
         """Return those whose ids begin with these, in the order of the frame."""
@@ -118,7 +122,11 @@ class Model:
             sent = [message for way in key for message in self.sent(way)]
             names = {message.frame.name for message in sent} or self.envelopes.keys()
             self._candidates[key] = [
-                Candidates(frame, [message for message in sent if message.frame is frame])
+                Candidates(
+                    frame,
+                    [message for message in sent if message.frame is frame],
+                    self.largest(key),
+                )
                 for frame in self.envelopes.values()
                 if frame.name in names
             ]

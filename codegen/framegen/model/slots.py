@@ -77,7 +77,7 @@ class Number:
     method: str = ""
     silent: frozenset[int] = frozenset()
 
-    @property
+    @cached_property
     def size(self) -> int:
         """The size in bytes."""
         return self.number_type.size
@@ -99,7 +99,7 @@ class Number:
         """Whether fewer values are allowed than the type has."""
         return (self.low, self.high) != (self.number_type.low, self.number_type.high)
 
-    @property
+    @cached_property
     def is_float(self) -> bool:
         """Whether it is a floating-point number; its range is that of its type, and more."""
         return self.number_type.is_float
@@ -148,7 +148,7 @@ class Number:
             return float(value)
         return self.read(data)
 
-    @property
+    @cached_property
     def _layout(self) -> str:
         return ("<" if self.order == "little" else ">") + self.number_type.code
 
@@ -339,7 +339,7 @@ class Placed:
 
     def of(self, frame: bytes) -> bytes:
         """Return its bytes, as far as `frame` holds them."""
-        return frame[self.at : self.end]
+        return frame[self.at : self.at + self.size]
 
 
 def lay_out(slots: Iterable[Slot], size: int, count: int = 0) -> Iterator[Placed]:

@@ -158,14 +158,11 @@ class _Look:
         self.directions = directions
         self.data = data
         self.max_frame = max_frame
+        # The size of the largest frame that there may be.
+        largest = candidates.largest
+        self.largest = largest if max_frame is None else min(largest, max_frame)
         self.seen: list[Placed] = []
         self.likely: MessageLayout | None = None
-
-    @property
-    def largest(self) -> int:
-        """The size of the largest frame that there may be."""
-        largest = self.model.largest(self.directions)
-        return largest if self.max_frame is None else min(largest, self.max_frame)
 
     def verdicts(self) -> list[Verdict]:
         """Judge the bytes as each message that its head allows, or as none."""
