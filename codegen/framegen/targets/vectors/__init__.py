@@ -55,9 +55,10 @@ def _one_vector_a_line(document: dict[str, Any]) -> str:
     """Format JSON so that a changed vector is a changed line."""
     parts: list[str] = []
     for key, value in document.items():
-        shown = json.dumps(value)
         if isinstance(value, list):
             shown = "[\n" + ",\n".join(f"    {json.dumps(item)}" for item in value) + "\n  ]"
+        else:
+            shown = json.dumps(value)
         parts.append(f"  {json.dumps(key)}: {shown}")
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
