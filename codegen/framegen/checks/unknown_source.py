@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
@@ -38,8 +38,7 @@ def _cited(path: KeyPath, value: Any) -> Iterator[tuple[KeyPath, str]]:
         return
     inner: Iterable[tuple[str | int, Any]] = ()
     if isinstance(value, BaseModel):
-        fields = type(value).model_fields
-        inner = ((info.alias or name, getattr(value, name)) for name, info in fields.items())
+        inner = ((key, getattr(value, name)) for key, name in _keys(type(value)))
     elif isinstance(value, dict):
         inner = ((str(key), item) for key, item in value.items())
     elif isinstance(value, list):
@@ -47,6 +46,12 @@ def _cited(path: KeyPath, value: Any) -> Iterator[tuple[KeyPath, str]]:
     for step, item in inner:
         if isinstance(item, _CITING):
             yield from _cited((*path, step), item)
+
+
+@cache
+def _keys(model: type[BaseModel]) -> list[tuple[str, str]]:
+    """Return the keys that something in a spec may have, each with its name in the code."""
+    return [(info.alias or name, name) for name, info in model.model_fields.items()]
 
 
 RULE = StructureRule(
