@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import PurePosixPath
+from posixpath import splitext
 from typing import TYPE_CHECKING
 
 from framegen.output import Output, banner
@@ -56,7 +56,7 @@ def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
     spec = "" if target.shared else compiled.source.path
     headed = target.render(compiled, snippets())
     for path, text in headed.items():
-        comment = target.comments.get(PurePosixPath(path).suffix)
+        comment = target.comments.get(splitext(path)[1])
         if comment is not None and text:
             headed[path] = f"{comment.before}{banner(spec)}{comment.after}\n{text}"
     return headed
