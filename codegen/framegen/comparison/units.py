@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from decimal import Decimal
+
     from framegen.language.spec import NumberField
 
 _PREFIXES = {
@@ -100,12 +103,15 @@ class Quantity:
 def quantity(field: NumberField) -> Quantity | None:
     """Return what a number means as its unit or its scale says it; None where neither does."""
     if field.scale is not None:
-        factor, zero, unit = _base(field.scale.unit)
-        step, offset = Fraction(field.scale.step), Fraction(field.scale.offset)
-        return Quantity(step * factor, offset * factor + zero, unit)
-    if not field.unit:
-        return None
-    return Quantity(*_base(field.unit))
+        return _quantity(field.scale.unit, field.scale.step, field.scale.offset)
+    return _quantity(field.unit) if field.unit else None
+
+
+# The same few units and scales are asked for with every value that is compared.
+@lru_cache(maxsize=256)
+def _quantity(unit: str, step: Decimal | int = 1, offset: Decimal | int = 0) -> Quantity:
+    factor, zero, base = _base(unit)
+    return Quantity(Fraction(step) * factor, Fraction(offset) * factor + zero, base)
 
 
 def is_known(unit: str) -> bool:
