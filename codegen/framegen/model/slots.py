@@ -230,7 +230,7 @@ class Items:
         """Whether it always has the same number of elements."""
         return not self.counters and self.low == self.high
 
-    @property
+    @cached_property
     def text(self) -> str | None:
         """The characters of a list that is text."""
         return getattr(self.field, "text", None)
