@@ -1,8 +1,8 @@
 // Answers questions in the line language (framegen.conformance.language) with the codec of a page, with
 // the module that others import, or with the scripts alone, about the protocol of the last line
-// `protocol JSON`:
+// `protocol JSON`. Of several files it is the first, until a line `use N` names the number of another:
 //     node answer.js site/reference/busservo/decoder.html
-//     node answer.js site/reference/busservo/downloads/busservo.mjs
+//     node answer.js busservo.mjs lxservo.mjs
 //     node answer.js codec.js
 "use strict";
 
@@ -21,7 +21,7 @@ function ofPage(page) {
 
 // What makes the codec of a protocol.
 function ofScripts(text) {
-  const { makeCodec, Unusable } = vm.runInThisContext(`${text}\n({ makeCodec, Unusable })`);
+  const { makeCodec, Unusable } = vm.runInThisContext(`(() => {${text}\nreturn { makeCodec, Unusable };})()`);
   return (protocol) => {
     const { kinds, decodeFrame, encode, makeStream } = makeCodec(protocol);
     return { kinds, decode: decodeFrame, encode, makeStream, Unusable };
@@ -126,15 +126,20 @@ function eventLine(event) {
 
 let codec;
 
-async function main(file) {
-  if (file.endsWith(".js")) {
-    const make = ofScripts(fs.readFileSync(file, "utf8"));
+async function main(files) {
+  if (files[0].endsWith(".js")) {
+    const make = ofScripts(fs.readFileSync(files[0], "utf8"));
     answers.protocol = (...words) => {
       codec = make(JSON.parse(words.join(" ")));
       return [];
     };
   } else {
-    codec = file.endsWith(".mjs") ? await ofModule(file) : ofPage(file);
+    const codecs = await Promise.all(files.map((file) => (file.endsWith(".mjs") ? ofModule(file) : ofPage(file))));
+    answers.use = (number) => {
+      codec = codecs[number];
+      return [];
+    };
+    answers.use(0);
   }
   readline.createInterface({ input: process.stdin }).on("line", (question) => {
     const [verb, ...words] = question.split(" ");
@@ -143,4 +148,4 @@ async function main(file) {
   });
 }
 
-main(process.argv[2]);
+main(process.argv.slice(2));

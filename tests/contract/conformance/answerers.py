@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from framegen.render import snippets
 from framegen.site.project import Project
@@ -12,7 +12,7 @@ from framegen.site.rendering import render_page
 from framegen.site.scripts.javascript_module import javascript_module
 from framegen.site.site import Site
 
-from tests.factories import library, library_files, write_files
+from tests.factories import library, library_files
 from tests.unit.conformance.harness import run
 from tests.unit.site.reference import NODE
 
@@ -21,19 +21,35 @@ if TYPE_CHECKING:
 
     from framegen.compile import Compiled
 
+    # Specs with the questions to each, and a folder to work in, as answers to all of them.
+    Answerer: TypeAlias = Callable[[Sequence[tuple[Compiled, list[str]]], Path], list[list[str]]]
+
 ANSWER = Path(__file__).parent / "answer.js"
 
 
-def of_the_library(compiled: Compiled, _folder: Path, questions: Sequence[str]) -> list[list[str]]:
-    """Import the library; return what its verb `answer` prints for each question."""
-    with library(library_files(compiled)) as module:
-        answer = import_module(f"{module.__name__}._cli.answer").answer
-        return [answer(question) for question in questions]
+def of_libraries(asked: Sequence[tuple[Compiled, list[str]]], _folder: Path) -> list[list[str]]:
+    """Import each library; return what its verb `answer` prints for each question."""
+    answers = []
+    for compiled, questions in asked:
+        with library(library_files(compiled)) as module:
+            answer = import_module(f"{module.__name__}._cli.answer").answer
+            answers += [answer(question) for question in questions]
+    return answers
 
 
-def of_the_page(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
-    """Write the page with the decoder to `folder`; return the answers of its script."""
-    return run(page_command(compiled, folder), questions)
+def of_node(ending: str, text_of: Callable[[Compiled], str]) -> Answerer:
+    """Return what asks one Node about files with such an ending, of a text for each spec."""
+
+    def answers(asked: Sequence[tuple[Compiled, list[str]]], folder: Path) -> list[list[str]]:
+        files, lines = [], []
+        for number, (compiled, questions) in enumerate(asked):
+            files.append(folder / f"{number}.{ending}")
+            files[-1].write_text(text_of(compiled), encoding="utf-8")
+            lines += [f"use {number}", *questions]
+        said = run([str(NODE), str(ANSWER), *map(str, files)], lines)
+        return [each for line, each in zip(lines, said, strict=True) if line[:4] != "use "]
+
+    return answers
 
 
 def page_command(compiled: Compiled, folder: Path) -> list[str]:
@@ -50,16 +66,14 @@ def decoder_page(compiled: Compiled) -> str:
     return next(render_page(site, page) for page in site.pages if page.path == path)
 
 
-def of_the_module(compiled: Compiled, folder: Path, questions: Sequence[str]) -> list[list[str]]:
-    """Write the JavaScript module to `folder`; return its answers."""
-    write_files(javascript_module(compiled.model), folder)
-    module = folder / f"{compiled.spec.protocol.name}.mjs"
-    return run([str(NODE), str(ANSWER), str(module)], questions)
+def module_of(compiled: Compiled) -> str:
+    """Return the JavaScript module."""
+    return javascript_module(compiled.model)[f"{compiled.spec.protocol.name}.mjs"]
 
 
-# By language, what answers questions with the codec that is made of a spec.
-ANSWERERS: dict[str, Callable[[Compiled, Path, Sequence[str]], list[list[str]]]] = {
-    "python": of_the_library,
-    "page": of_the_page,
-    "module": of_the_module,
+# By language, what answers questions with the codecs that are made of specs.
+ANSWERERS: dict[str, Answerer] = {
+    "python": of_libraries,
+    "page": of_node("html", decoder_page),
+    "module": of_node("mjs", module_of),
 }

@@ -8,48 +8,65 @@ import pytest
 
 from tests.contract.conformance.answerers import ANSWERERS
 from tests.factories import BUSSERVO, DEMO, compiled_file, vectors_of
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
+from tests.rows import ALIKE
 from tests.unit.conformance.harness import cases_of, differences, joined
 from tests.unit.site.reference import NODE
 
-SPECS = [
-    BUSSERVO,
-    DEMO,
-    *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "lamp", "taken_names", "weather")),
-    *FILES.values(),
+SPECS = {
+    "busservo": BUSSERVO,
+    "demo": DEMO,
+    **{
+        each: DEMO.with_name(f"{each}.yaml")
+        for each in ("blinds", "lamp", "taken_names", "weather")
+    },
+    **FILES,
+}
+# The libraries of the smallest specs are held to the reference as well (test_reference.py), and the
+# scripts of a page are those of the module.
+USUAL = {
+    "python": ["busservo", "taken_names", "everything", "lxservo", "modbus", "roboclaw", "ubx"],
+    "page": ["busservo", "taken_names", "everything", "lxservo"],
+    "module": [name for name in SPECS if name not in ALIKE],
+}
+ROWS = [
+    pytest.param(language, names, marks=marks, id=f"{language}{'' if marks else ' of the usual'}")
+    for language, usual in USUAL.items()
+    for names, marks in (
+        (usual, []),
+        ([each for each in SPECS if each not in usual], [pytest.mark.slow]),
+    )
 ]
 
 
 @cache
-def published(spec: Path) -> dict[str, Any]:
+def published(name: str) -> dict[str, Any]:
     """Return the vectors of a spec."""
-    return vectors_of(compiled_file(spec))
+    return vectors_of(compiled_file(SPECS[name]))
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
-@pytest.mark.parametrize("language", ANSWERERS)
-def test_a_codec_says_what_the_vectors_say(language: str, spec: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("language", "names"), ROWS)
+def test_a_codec_says_what_the_vectors_say(language: str, names: list[str], tmp_path: Path) -> None:
     if language != "python" and NODE is None:
         pytest.skip("node is not installed")
-    questions = [*cases_of(published(spec))]
-    answers = ANSWERERS[language](
-        compiled_file(spec), tmp_path, [each.question for each in questions]
-    )
-    assert differences(questions, answers) == []
+    cases = {name: [*cases_of(published(name))] for name in names}
+    asked = [(compiled_file(SPECS[name]), [c.question for c in cases[name]]) for name in names]
+    answers = ANSWERERS[language](asked, tmp_path)
+    assert differences([case for name in names for case in cases[name]], answers) == []
 
 
 def test_every_vector_becomes_a_question() -> None:
-    document = published(BUSSERVO)
+    document = published("busservo")
     questions = [each.question.split()[0] for each in cases_of(document)]
     assert questions.count("encode") == len(document["valid"]) + len(document["unencodable"])
     assert questions.count("decode") == len(document["valid"]) + len(document["invalid"])
     assert questions.count("stream") == len(document["streams"])
 
 
-@pytest.mark.parametrize("spoilt", ["", "refused once", "frame 55", "message Nothing 55"])
+@in_turn("spoilt", lambda: ["", "refused once", "frame 55", "message Nothing 55"])
 def test_a_wrong_answer_to_any_question_is_seen(spoilt: str) -> None:
-    questions = [*cases_of(published(DEMO))]
+    questions = [*cases_of(published("demo"))]
     right = [each.answer for each in questions]
     assert differences(questions, right) == []
     wrong = [[*answer[:-1], spoilt] for answer in right]
