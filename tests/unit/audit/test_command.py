@@ -45,8 +45,13 @@ CONTENTS: list[tuple[bytes, list[str], int]] = [
 ]
 
 
-@in_turn("content, words, code", lambda: CONTENTS)
-@pytest.mark.parametrize("form", ["text", "json", "markdown"])
+@in_turn(
+    "content, words, code, form",
+    lambda: [
+        *((*each, "json") for each in CONTENTS),
+        *((*CONTENTS[at], form) for at in (0, 6, 9) for form in ("text", "markdown")),
+    ],
+)
 def test_exit_code(
     tmp_path: Path, content: bytes, words: list[str], code: int, form: str, capsys: Capture
 ) -> None:

@@ -2,32 +2,36 @@
 
 from __future__ import annotations
 
-import io
 import json
 import re
-import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
-from functools import cache
+from functools import cache, partial
+from itertools import islice
 from typing import TYPE_CHECKING, Any
+from unittest import mock
 from xml.etree import ElementTree as ET
 
 import pytest
-from framegen.cli import main
+from framegen import cli
+from framegen.conformance.questions import questions
 
+from tests.commands import called
 from tests.contract.conformance.c_codecs import WRONG, compile_codec, needs_compiler
 from tests.factories import BUSSERVO, DEMO, ROOT, data_of, first_edition
 from tests.in_turn import in_turn
-from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator
     from pathlib import Path
+
+    from framegen.conformance.language import Question
+    from framegen.model.model import Model
+
+    from tests.commands import Ended
 
 SPEC = str(BUSSERVO)
 EDITION = f"busservo {data_of(BUSSERVO)['protocol']['version']}"
 LIBRARY = [sys.executable, "-m", "busservo", "answer"]
-FRAMEGEN = [sys.executable, "-m", "framegen"]
 # Answers everything alike, which is right for bytes that have only begun to be a frame.
 STUBBORN = """
 import sys
@@ -42,51 +46,32 @@ for line in sys.stdin:
     said = ["unsupported"] if line.startswith("stream") else answer(line)
     print(*said, "end", sep="\\n", flush=True)
 """
-
-
-def conform(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
-    """Run the command, and return status, output and errors."""
-    status = main(["conform", *words])
-    printed = capsys.readouterr()
-    assert "Traceback" not in printed.out + printed.err
-    return status, printed.out, printed.err
+conform = partial(called, cli.main, "conform")
 
 
 def python(source: str) -> list[str]:
     return ["--", sys.executable, "-c", source]
 
 
+def some_questions(model: Model) -> Iterator[tuple[str, Question]]:
+    """Yield a part of the questions, for tests of what becomes of the answers."""
+    return islice(questions(model), 0, None, 7)
+
+
 @cache
-def stubborn(*words: str) -> tuple[int, str, str]:
-    """Return status, output and errors for a program that answers everything alike."""
-    out, err = io.StringIO(), io.StringIO()
-    with redirect_stdout(out), redirect_stderr(err):
-        status = main(["conform", SPEC, *words, *python(STUBBORN)])
-    return status, out.getvalue(), err.getvalue()
+def tried(source: str, *words: str) -> Ended:
+    """Return what comes of a program in Python that is asked some of the questions."""
+    with mock.patch("framegen.conformance.questions.questions", some_questions):
+        return conform(SPEC, *words, *python(source))
 
 
 AS_JSON = ["--format", "json", "--more", "5", "--seed", "7"]
 
-
-def process(words: Sequence[str], given: str = "") -> tuple[int, str, str]:
-    done = subprocess.run(
-        [*FRAMEGEN, "conform", *words],
-        input=given,
-        capture_output=True,
-        encoding="utf-8",
-        timeout=5 * GENEROUS,
-        cwd=ROOT,
-        check=False,
-    )
-    return done.returncode, done.stdout, done.stderr
-
-
 # -- What conforms -------------------------------------------------------------------------------
 
 
-def test_our_own_library_conforms(capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["--more", "300", "--seed", "1", "--", *LIBRARY]
-    status, out, err = conform(capsys, SPEC, *words)
+def test_our_own_library_conforms() -> None:
+    status, out, err = conform(SPEC, "--more", "300", "--seed", "1", "--", *LIBRARY)
     assert (status, err) == (0, "the same questions again: --more 300 --seed 1\n")
     name = re.escape(" ".join(LIBRARY))
     assert re.fullmatch(
@@ -95,32 +80,28 @@ def test_our_own_library_conforms(capsys: pytest.CaptureFixture[str]) -> None:
     )
 
 
-@pytest.mark.parametrize("spec", [BUSSERVO, DEMO], ids=lambda spec: spec.stem)
-def test_the_reference_itself_answers_by_hand(
-    spec: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    status, questions, _ = conform(capsys, str(spec), "--questions", "--more", "20", "--seed", "1")
+@in_turn("spec", lambda: [BUSSERVO, DEMO])
+def test_the_reference_itself_answers_by_hand(spec: Path) -> None:
+    status, asked, _ = conform(str(spec), "--questions", "--more", "20", "--seed", "1")
     assert status == 0
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(questions.encode())))
-    status, answers, errors = conform(capsys, str(spec), "--answers")
+    status, answers, errors = conform(str(spec), "--answers", given=asked)
     assert (status, errors) == (0, "")
-    assert answers.splitlines().count("end") == questions.count("\n") > 100
+    assert answers.splitlines().count("end") == asked.count("\n") > 100
     assert not re.search("^error", answers, flags=re.MULTILINE)
 
 
 def test_a_malformed_question_is_answered_by_an_error_and_the_next_one_is_read() -> None:
-    questions = "decode host_to_controller 55\n\n  \nwhat?\ndecode host_to_controller 31\n"
-    status, answers, errors = process(["busservo", "--answers"], questions)
-    assert (status, errors) == (2, "")
-    assert answers == (
+    asked = "decode host_to_controller 55\n\n  \nwhat?\ndecode host_to_controller 31\n"
+    expected = (
         "refused too-short 1\nend\n"
         "error there is no question `what?`: choose one of `decode`, `encode`, `stream`\nend\n"
         "refused bad-header 0\nend\n"
     )
+    assert conform(SPEC, "--answers", given=asked) == (2, expected, "")
 
 
-def test_without_a_seed_every_run_asks_something_else(capsys: pytest.CaptureFixture[str]) -> None:
-    first, second = (conform(capsys, SPEC, "--questions", "--more", "20")[1] for _ in range(2))
+def test_without_a_seed_every_run_asks_something_else() -> None:
+    first, second = (conform(SPEC, "--questions", "--more", "20").out for _ in range(2))
     assert first != second
 
 
@@ -128,7 +109,7 @@ def test_without_a_seed_every_run_asks_something_else(capsys: pytest.CaptureFixt
 
 
 def test_a_difference_is_shown_byte_by_byte() -> None:
-    status, out, err = stubborn()
+    status, out, err = tried(STUBBORN)
     assert (status, err) == (1, "")
     head, strip, answers, rows, kinds, verdict = out.split("\n\n")
     assert re.fullmatch(
@@ -156,32 +137,21 @@ def test_a_difference_is_shown_byte_by_byte() -> None:
     assert re.search(rf": differs from {re.escape(EDITION)} in \d+ of \d+ answers\n$", verdict)
 
 
-def test_it_is_in_colour_on_a_terminal_alone(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    class Terminal(io.StringIO):
-        def isatty(self) -> bool:
-            return True
-
+def test_it_is_in_colour_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("NO_COLOR", raising=False)
-    monkeypatch.setenv("TERM", "xterm")
-    plain = stubborn()[1]
-    terminal = Terminal()
-    with monkeypatch.context() as patched:
-        patched.setattr(sys, "stdout", terminal)
-        assert main(["conform", SPEC, *python(STUBBORN)]) == 1
-    shown = terminal.getvalue()
+    plain = tried(STUBBORN).out
+    with mock.patch("framegen.conformance.questions.questions", some_questions):
+        status, shown, _ = conform(SPEC, *python(STUBBORN), screen="xterm")
+    assert status == 1
     assert "\x1b" not in plain
     assert "\x1b[32m  reference     0  message ActionGroupStop 55550207\x1b[0m\n" in shown
     assert "\x1b[31m  program          refused too-short 3\x1b[0m\n" in shown
     assert re.sub(r"\x1b\[\d+m", "", shown) == plain
 
 
-def test_what_a_program_prints_does_not_command_the_terminal(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_what_a_program_prints_does_not_command_the_terminal() -> None:
     rude = "import sys\nfor line in sys.stdin: print('\\x1b[2J', 'end', sep='\\n', flush=True)"
-    status, out, _ = conform(capsys, SPEC, *python(rude))
+    status, out, _ = tried(rude)
     assert status == 1
     assert "\x1b" not in out
     assert "  program          \\x1b[2J\n" in out
@@ -189,7 +159,7 @@ def test_what_a_program_prints_does_not_command_the_terminal(
 
 
 def test_json_holds_everything() -> None:
-    status, out, _ = stubborn(*AS_JSON)
+    status, out, _ = tried(STUBBORN, *AS_JSON)
     report: dict[str, Any] = json.loads(out)
     assert status == 1
     assert {**report, "smallest": None, "differences": []} == {
@@ -223,10 +193,8 @@ def test_json_holds_everything() -> None:
     assert report["agreed"] > 0
 
 
-def test_what_is_unsupported_is_reported_and_no_difference(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    status, out, _ = conform(capsys, SPEC, *python(LIMITED))
+def test_what_is_unsupported_is_reported_and_no_difference() -> None:
+    status, out, _ = tried(LIMITED)
     assert status == 0
     assert re.search(r"\n  not supported, and not counted as wrong: \d+ stream\n$", out)
 
@@ -236,20 +204,17 @@ def test_what_is_unsupported_is_reported_and_no_difference(
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-@pytest.mark.parametrize(
-    ("source", "status", "text"),
-    [
+@in_turn(
+    "source, status, text",
+    lambda: [
         ("import sys; from busservo._cli import main; sys.exit(main(['answer']))", 0, "conforms"),
         (LIMITED, 0, r"conforms, \d+ stream not supported"),
         (STUBBORN, 1, r"\d+ of \d+"),
         ("raise SystemExit(1)", 1, "0 of 1"),
     ],
-    ids=["right", "limited", "stubborn", "dead"],
 )
-def test_a_badge_says_it_in_a_word(
-    source: str, status: int, text: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    code, out, _ = conform(capsys, SPEC, "--format", "badge", *python(source))
+def test_a_badge_says_it_in_a_word(source: str, status: int, text: str) -> None:
+    code, out, _ = tried(source, "--format", "badge")
     assert code == status
     picture = ET.fromstring(out)  # noqa: S314 - our own
     label, said = [element.text or "" for element in picture.iter(f"{SVG}text")]
@@ -283,21 +248,17 @@ UNUSABLE = {
 
 
 @in_turn("words, error", lambda: [pytest.param(*row, id=name) for name, row in UNUSABLE.items()])
-def test_unusable_arguments_are_refused_with_advice(
-    words: list[str], error: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    status, out, err = conform(capsys, *words)
+def test_unusable_arguments_are_refused_with_advice(words: list[str], error: str) -> None:
+    status, out, err = conform(*words)
     assert (status, out) == (2, "")
     assert err.startswith("framegen: error: ")
     assert error in err.splitlines()[0]
     assert err.splitlines()[1].startswith("  hint: ")
 
 
-def test_words_behind_the_dashes_belong_to_the_program(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_words_behind_the_dashes_belong_to_the_program() -> None:
     source = "import sys; print(sys.argv[1:], file=sys.stderr)"
-    _, out, _ = conform(capsys, SPEC, *python(source), "--help", "--more", "1", "--", "x")
+    _, out, _ = conform(SPEC, *python(source), "--help", "--more", "1", "--", "x")
     assert "    ['--help', '--more', '1', '--', 'x']\n" in out
 
 
@@ -313,33 +274,28 @@ def shown(command: str) -> list[str]:
 
 
 @needs_compiler
-def test_the_guide_shows_what_a_wrong_codec_gets(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_guide_shows_what_a_wrong_codec_gets(tmp_path: Path) -> None:
     wrong = WRONG["the count is not held against the length"]
     program = compile_codec(tmp_path, wrong.old, wrong.new)
     known = tmp_path / "busservo.yaml"
     known.write_text(json.dumps(first_edition()), encoding="utf-8")
-    status, out, _ = conform(capsys, str(known), "--", program)
+    status, out, _ = conform(str(known), "--", program)
     assert status == 1
     pieces = shown("framegen conform busservo -- ./codec")
     assert re.fullmatch(r"(?:.*\n)*".join(map(re.escape, pieces)), out), out
 
 
-def test_the_guide_shows_what_the_reference_answers(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_guide_shows_what_the_reference_answers() -> None:
     (block,) = shown("framegen conform busservo --answers")
-    questions = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO("".join(questions).encode())))
-    status, answers, _ = conform(capsys, SPEC, "--answers")
-    session = zip(questions, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
+    asked = re.findall(r"^(?:decode|encode|stream) .*\n", block, flags=re.MULTILINE)
+    status, answers, _ = conform(SPEC, "--answers", given="".join(asked))
+    session = zip(asked, re.findall(r"(?:.*\n)*?end\n", answers), strict=True)
     assert "".join(question + answer for question, answer in session) == block
     assert status == 0
 
 
 def test_the_guide_names_every_key_of_the_report() -> None:
-    _, out, _ = stubborn(*AS_JSON)
+    _, out, _ = tried(STUBBORN, *AS_JSON)
     report: dict[str, Any] = json.loads(out)
     keys = {*report, *report["smallest"], *report["differences"][0]}
     assert sorted(key for key in keys if f"`{key}`" not in GUIDE) == []

@@ -11,6 +11,7 @@ from framegen.cli import VERBS as FRAMEGEN
 from framegen.site.guides.markdown import slugs
 from lxservo._cli.examples import VERBS as LXSERVO
 
+from tests import documents
 from tests.documents import PAGES, ROOT, copy_project, played, refresh
 from tests.in_turn import in_turn
 
@@ -154,10 +155,11 @@ def test_left_out_lines_may_be_anything_but_the_rest_may_not(tmp_path: Path) -> 
 
 
 def test_a_page_that_changes_what_is_gone_is_named_and_the_others_are_written(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stale, wrong = tmp_path / "stale.md", tmp_path / "wrong.md"
     file = "codegen/framegen/language/number_types.py"
+    monkeypatch.setattr(documents, "_CHANGED", (file,))
     stale.write_text(f"```diff\n--- {file}\n+++ {file}\n@@\n-no such line\n+another\n```\n")
     wrong.write_text("```console\n$ busservo encode ActionGroupStop\n55 55 02 08\n```\n")
     assert refresh([stale, wrong]) == 1

@@ -23,6 +23,8 @@ from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that, undoubted
 from tests.unit.conformance.device.runs import model_of
 
+Capture = pytest.CaptureFixture[str]
+
 MODEL = model_of()
 LINK = MODEL.spec.link
 unix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
@@ -45,7 +47,7 @@ def ask(port: str, *words: str, timeout: float = GENEROUS) -> int:
 
 
 @pytest.mark.parametrize("via", [pytest.param("pty", marks=unix), "tcp"])
-def test_the_simulator_passes_through_a_port(via: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_simulator_passes_through_a_port(via: Any, capsys: Capture) -> None:
     with VirtualController(via, servos=[1, 2]) as board:
         assert ask(board.port) == 0
     out = capsys.readouterr().out
@@ -55,7 +57,7 @@ def test_the_simulator_passes_through_a_port(via: Any, capsys: pytest.CaptureFix
 
 @unix
 @pytest.mark.garbage
-def test_a_line_at_another_rate_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_line_at_another_rate_is_reported(capsys: Capture) -> None:
     with VirtualController("pty", baud=9600) as board:
         assert ask(board.port, "--baud", "19200", timeout=0.01) == 1
         await_that(lambda: board.rejects.total)
@@ -64,7 +66,7 @@ def test_a_line_at_another_rate_is_reported(capsys: pytest.CaptureFixture[str]) 
     assert "FAIL     BatteryVoltageRead, example 1\n" in out
 
 
-def test_the_command_tests_firmware(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_the_command_tests_firmware(capsys: Capture, tmp_path: Path) -> None:
     log = str(tmp_path / "run.hex")
     with VirtualController("tcp") as board:
         words = [str(BUSSERVO), "--port", board.port, "--format", "json", "--log", log]
@@ -92,7 +94,7 @@ SLIPS = [
 
 @in_turn("words, problem, hint", lambda: SLIPS)
 def test_a_mistake_in_the_command_line_is_reported(
-    words: list[str], problem: str, hint: str, capsys: pytest.CaptureFixture[str]
+    words: list[str], problem: str, hint: str, capsys: Capture
 ) -> None:
     assert main(["conform", str(BUSSERVO), *words]) == 2
     printed = capsys.readouterr()
@@ -223,7 +225,7 @@ def test_the_parameters_of_the_line_are_the_specs(monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.parametrize("text", ["0", "fast", "-1", "²", "1e4", "9" * 40])
-def test_an_invalid_rate_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_rate_is_refused(text: str, capsys: Capture) -> None:
     with pytest.raises(SystemExit):
         ask("/dev/it", "--baud", text)
     assert "is no rate: a whole number of baud, from 1 up" in capsys.readouterr().err

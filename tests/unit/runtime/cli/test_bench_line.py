@@ -15,13 +15,13 @@ from busservo_simulator import Faults, VirtualController
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
+Capture = pytest.CaptureFixture[str]
+
 WORDS = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6")
 PATIENT = ("--timeout", str(GENEROUS))
 
 
-def test_round_trips_and_the_share_of_the_line_rate_are_reported(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_round_trips_and_the_share_of_the_line_rate_are_reported(capsys: Capture) -> None:
     with VirtualController("tcp", baud=9600) as board:
         assert main(["bench-line", "--port", board.port, *WORDS, "-n", "5", *PATIENT]) == 0
         port = board.port
@@ -38,7 +38,7 @@ def test_round_trips_and_the_share_of_the_line_rate_are_reported(
     assert errors == "  errors          none"
 
 
-def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_the_same_in_seconds(capsys: Capture) -> None:
     with VirtualController("tcp") as board:
         assert main(["bench-line", "--port", board.port, "-n", "3", "--json", *PATIENT]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -47,7 +47,7 @@ def test_json_has_the_same_in_seconds(capsys: pytest.CaptureFixture[str]) -> Non
     assert 0 < found["min"] <= found["median"] <= found["max"]
 
 
-def test_a_line_that_takes_no_time_allows_any_rate(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_line_that_takes_no_time_allows_any_rate(capsys: Capture) -> None:
     words = ["-n", "3", "--baud", "inf", *PATIENT]
     with VirtualController("tcp") as board:
         assert main(["bench-line", "--port", board.port, *words]) == 0
@@ -61,7 +61,7 @@ def test_a_line_that_takes_no_time_allows_any_rate(capsys: pytest.CaptureFixture
 
 
 def test_replies_faster_than_the_line_rate_are_reported(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
     client = Client(line, background=False, clock=line.clock, settle=0)
@@ -75,7 +75,7 @@ def test_replies_faster_than_the_line_rate_are_reported(
 
 
 def test_a_duplicate_reply_is_counted_and_not_taken_for_speed(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     reply = BatteryVoltage(7500)
     twice: list[tuple[float, bytes | Message]] = [(0.0105, reply), (0.0107, reply)]
@@ -90,9 +90,7 @@ def test_a_duplicate_reply_is_counted_and_not_taken_for_speed(
     assert "slips           1 reply to nothing, sent twice or too late: dropped" in output
 
 
-def test_errors_are_counted_by_kind(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_errors_are_counted_by_kind(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     replies: list[list[tuple[float, bytes | Message]]] = [
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
         [],
@@ -117,7 +115,7 @@ def test_errors_are_counted_by_kind(
     ]
 
 
-def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_lost_line_ends_the_measurement(capsys: Capture) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["bench-line", "--port", board.port, *PATIENT]) == 3
     output, errors = capsys.readouterr()
@@ -125,7 +123,7 @@ def test_a_lost_line_ends_the_measurement(capsys: pytest.CaptureFixture[str]) ->
     assert "the line was lost" in errors
 
 
-def test_without_a_reply_there_are_no_times(capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_a_reply_there_are_no_times(capsys: Capture) -> None:
     words = ["--timeout", "0.02", "-n", "2"]
     assert main(["bench-line", "--port", "loop://", *words]) == 1
     assert capsys.readouterr().out.splitlines() == [
@@ -135,9 +133,7 @@ def test_without_a_reply_there_are_no_times(capsys: pytest.CaptureFixture[str]) 
     ]
 
 
-def test_silence_is_said_to_be_that(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_silence_is_said_to_be_that(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     line = VirtualLine(lambda _: [])
     client = Client(line, background=False, clock=line.clock, settle=0)
     monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
@@ -163,7 +159,7 @@ def test_silence_is_said_to_be_that(
     ],
 )
 def test_what_cannot_be_measured_is_refused(
-    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
+    capsys: Capture, words: list[str], expected: str
 ) -> None:
     assert main(["bench-line", "--port", "no-such-port", *words]) == 2
     errors = capsys.readouterr().err
@@ -172,7 +168,7 @@ def test_what_cannot_be_measured_is_refused(
 
 
 def test_a_question_must_be_named_where_each_has_fields(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(bench_line, "_usual", lambda: None)
     assert main(["bench-line", "--port", "no-such-port"]) == 2

@@ -13,12 +13,14 @@ from busservo._cli import main
 if TYPE_CHECKING:
     from pathlib import Path
 
+Capture = pytest.CaptureFixture[str]
+
 STOP = "55 55 02 07"
 SHOWN = f"     0  host        ActionGroupStop | {STOP}\n"
 
 
 def test_the_bytes_may_be_words_or_a_file_or_standard_input(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     hexed, raw = tmp_path / "stop.log", tmp_path / "stop.bin"
     hexed.write_text(STOP)
@@ -39,9 +41,7 @@ def test_the_bytes_may_be_words_or_a_file_or_standard_input(
         assert capsys.readouterr().out == SHOWN, words
 
 
-def test_long_raw_input_is_read_in_pieces(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_long_raw_input_is_read_in_pieces(capsys: Capture, tmp_path: Path) -> None:
     recording = tmp_path / "long.bin"
     frame = ServoUnload(range(200)).encode()
     recording.write_bytes(frame * 1000)
@@ -67,7 +67,7 @@ def test_long_raw_input_is_read_in_pieces(
     ],
 )
 def test_input_that_cannot_be_decoded_is_reported_in_one_line(
-    capsys: pytest.CaptureFixture[str],
+    capsys: Capture,
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
     words: list[str],
@@ -82,7 +82,7 @@ def test_input_that_cannot_be_decoded_is_reported_in_one_line(
     assert errors.count("\n") == 1
 
 
-def test_a_folder_is_refused_as_input(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_a_folder_is_refused_as_input(capsys: Capture, tmp_path: Path) -> None:
     assert main(["decode", "--file", str(tmp_path)]) == 2
     assert "cannot be read: " in capsys.readouterr().err
 
@@ -96,9 +96,7 @@ def test_a_frame_can_be_hex_or_the_bytes_themselves(
     assert capfdbinary.readouterr().out == bytes.fromhex(STOP)
 
 
-def test_numbers_may_have_any_base_and_values_their_names(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_numbers_may_have_any_base_and_values_their_names(capsys: Capture) -> None:
     assert main(["encode", "ServoMove", "time_ms=0x3E8", "targets=1:0b11,9:0o17"]) == 0
     assert capsys.readouterr().out == "55 55 0B 03 02 E8 03 01 03 00 09 0F 00\n"
     assert main(["encode", "ServoPositions", "positions=1:absent"]) == 0
@@ -125,7 +123,7 @@ def test_numbers_may_have_any_base_and_values_their_names(
     ],
 )
 def test_a_message_that_cannot_be_encoded_is_reported_in_one_line(
-    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
+    capsys: Capture, words: list[str], expected: str
 ) -> None:
     assert main(["encode", *words]) == 2
     output, errors = capsys.readouterr()
@@ -134,7 +132,7 @@ def test_a_message_that_cannot_be_encoded_is_reported_in_one_line(
     assert errors.count("\n") == 1
 
 
-def test_without_a_verb_the_verbs_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_a_verb_the_verbs_are_listed(capsys: Capture) -> None:
     assert main([]) == 2
     output, errors = capsys.readouterr()
     assert output == ""

@@ -30,17 +30,19 @@ from tests.in_turn import in_turn
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
+Capture = pytest.CaptureFixture[str]
+
 PATIENT = ("--timeout", str(GENEROUS))
 
 
-def test_a_reply_is_printed_as_decode_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_reply_is_printed_as_decode_prints_it(capsys: Capture) -> None:
     with VirtualController("tcp") as board:
         assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
     shown = "     0  controller  BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D\n"
     assert capsys.readouterr().out == shown
 
 
-def test_a_reply_can_be_json(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_reply_can_be_json(capsys: Capture) -> None:
     words = ["ServoPositionsRead", "servo_ids=1", "--json"]
     with VirtualController("tcp") as board:
         assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
@@ -48,7 +50,7 @@ def test_a_reply_can_be_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert record["fields"] == {"positions": [{"servo_id": 1, "position": 500}]}
 
 
-def test_a_command_arrives_and_prints_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_command_arrives_and_prints_nothing(capsys: Capture) -> None:
     with VirtualController("tcp") as board:
         assert main(["send", "--port", board.port, "ServoUnload", "servo_ids=1,2"]) == 0
         # Its answer proves that the command before it has been taken in.
@@ -58,9 +60,7 @@ def test_a_command_arrives_and_prints_nothing(capsys: pytest.CaptureFixture[str]
     assert "ServoUnload" not in capsys.readouterr().out
 
 
-def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named(capsys: Capture) -> None:
     with VirtualController("tcp", servos=[1, 3]) as board:
         words = ["ServoPositionsRead", "servo_ids=1,2,3,9"]
         assert main(["send", "--port", board.port, *words, *PATIENT]) == 1
@@ -69,9 +69,7 @@ def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named(
     assert errors == "the reply is incomplete: nothing of servo_ids 2, 9\n"
 
 
-def test_a_question_too_large_for_one_reply_is_sent_in_parts(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_question_too_large_for_one_reply_is_sent_in_parts(capsys: Capture) -> None:
     servos = range(1, 201)
     with VirtualController("tcp", servos=servos) as board:
         ids = f"servo_ids={','.join(map(str, servos))}"
@@ -86,7 +84,7 @@ def test_a_question_too_large_for_one_reply_is_sent_in_parts(
 
 
 def test_silence_after_a_part_keeps_what_had_come(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, ServoPositions([(1, 500)]))])
     client = Client(line, background=False, clock=line.clock)
@@ -101,7 +99,7 @@ def test_silence_after_a_part_keeps_what_had_come(
     assert "no ServoPositions came within" in silent
 
 
-def test_retries_ask_again(capsys: pytest.CaptureFixture[str]) -> None:
+def test_retries_ask_again(capsys: Capture) -> None:
     words = ["--retries", "2", "--timeout", "0.01"]
     assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
     assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
@@ -194,7 +192,7 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
 
 
 def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     taken: list[str] = []
 
@@ -216,7 +214,7 @@ def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
 
 @pytest.mark.parametrize("echoes", [True, False])
 def test_a_local_echo_is_expected_where_it_was_said(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *, echoes: bool
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch, *, echoes: bool
 ) -> None:
     monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
     words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
@@ -227,7 +225,7 @@ def test_a_local_echo_is_expected_where_it_was_said(
     assert ("leave out local_echo" in errors) == (not echoes)
 
 
-def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: Capture) -> None:
     words = ["BatteryVoltageRead", "--timeout", "0.01"]
     assert main(["send", "--port", "loop://", *words]) == 1
     assert "no BatteryVoltage came" in capsys.readouterr().err
@@ -284,7 +282,7 @@ def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: pytest.CaptureFix
     ],
 )
 def test_unusable_arguments_are_refused_in_one_line(
-    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
+    capsys: Capture, words: list[str], expected: str
 ) -> None:
     assert main(words) == 2
     errors = capsys.readouterr().err
@@ -292,14 +290,14 @@ def test_unusable_arguments_are_refused_in_one_line(
     assert "Traceback" not in errors
 
 
-def test_ports_lists_or_says_that_there_are_none(capsys: pytest.CaptureFixture[str]) -> None:
+def test_ports_lists_or_says_that_there_are_none(capsys: Capture) -> None:
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
     assert output or errors.startswith("no serial port is plugged in\n")
 
 
 def test_boards_without_a_serial_port_are_listed(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
     one = HidDevice(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
@@ -320,7 +318,7 @@ def test_boards_without_a_serial_port_are_listed(
 
 
 def test_where_nobody_can_list_such_boards_it_says_so(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
     monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: None)
@@ -335,7 +333,7 @@ def test_where_nobody_can_list_such_boards_it_says_so(
 
 
 def test_ports_are_listed_with_their_usb_descriptions(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     board = ListPortInfo("/dev/ttyUSB0")
     board.vid, board.pid, board.description = 0x1A86, 0x7523, "USB Serial"
@@ -355,7 +353,7 @@ def test_ports_are_listed_with_their_usb_descriptions(
 
 
 def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
-    capsys: pytest.CaptureFixture[str],
+    capsys: Capture,
 ) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 3
@@ -364,7 +362,7 @@ def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
         assert errors.endswith("; check the cable and the power, then run this again\n")
 
 
-def test_simulate_runs_the_simulator(capsys: pytest.CaptureFixture[str]) -> None:
+def test_simulate_runs_the_simulator(capsys: Capture) -> None:
     assert main(["simulate", "--help"]) == 0
     shown = capsys.readouterr().out
     assert shown.startswith("usage: busservo simulate ")
@@ -372,9 +370,7 @@ def test_simulate_runs_the_simulator(capsys: pytest.CaptureFixture[str]) -> None
     assert "busservo-simulator" not in shown
 
 
-def test_simulate_says_what_is_missing(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_simulate_says_what_is_missing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("busservo_simulator", "busservo_simulator.cli"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setattr(sys, "path", [])
@@ -387,58 +383,59 @@ def test_simulate_says_what_is_missing(
 FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["decode", "55"],
-        ["encode", "ActionGroupStop"],
-        ["answer"],
-        ["--help"],
-        ["decode", "--help"],
-    ],
-)
-def test_without_a_port_there_is_no_serial_and_no_thread(words: list[str]) -> None:
-    assert imported(words, "serial", "threading", "shtab") == []
+# What imports less than this each time, one after another in one process.
+WITHOUT_A_PORT = [
+    ["decode", "55"],
+    ["encode", "ActionGroupStop"],
+    ["answer"],
+    ["--help"],
+    ["decode", "--help"],
+]
+BEFORE_A_PORT = [
+    ["monitor", "--help"],
+    ["send", "--help"],
+    ["bench-line", "--help"],
+    ["replay", "--help"],
+    ["doctor", "--help"],
+    ["doctor", "--port", "COM7", "--baud", "x"],
+    ["ports", "--help"],
+    ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
+    ["send", "--port", "COM7", "ServoMov"],
+    ["--version"],
+]
 
 
-@in_turn(
-    "words",
-    lambda: [
-        ["monitor", "--help"],
-        ["send", "--help"],
-        ["bench-line", "--help"],
-        ["replay", "--help"],
-        ["doctor", "--help"],
-        ["ports", "--help"],
-        ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
-        ["send", "--port", "COM7", "ServoMov"],
-        ["--version"],
-    ],
-)
-def test_pyserial_is_imported_only_to_open_a_port(words: list[str]) -> None:
-    assert imported(words, "serial", "shtab") == []
+def test_without_a_port_there_is_no_serial_and_no_thread() -> None:
+    assert imported(WITHOUT_A_PORT, "serial", "threading", "shtab") == []
 
 
-def imported(words: list[str], *names: str) -> list[str]:
-    """Return which of these modules running the command imports."""
-    program = (
-        "import sys; from busservo._cli import main; "
-        f"main({words!r}); print(sorted(set({names!r}) & set(sys.modules)))"
-    )
+def test_pyserial_is_imported_only_to_open_a_port() -> None:
+    assert imported(BEFORE_A_PORT, "serial", "shtab") == []
+
+
+def imported(commands: list[list[str]], *names: str) -> list[tuple[list[str], list[str]]]:
+    """Return the commands behind which some of these modules are imported, and which."""
+    program = f"""if True:
+        import sys
+        sys.path[:] = {sys.path!r}
+        from busservo._cli import main
+        found = [(words, main(words), {{*{names!r}}} & {{*sys.modules}}) for words in {commands!r}]
+        print([(words, sorted(some)) for words, _, some in found if some])
+    """
     done = subprocess.run(
-        [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"],
+        [sys.executable, "-S", "-c", program],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
         check=True,
     )
-    found: list[str] = ast.literal_eval(done.stdout.splitlines()[-1])
+    found: list[tuple[list[str], list[str]]] = ast.literal_eval(done.stdout.splitlines()[-1])
     return found
 
 
 @in_turn("verb", lambda: sorted(set(VERBS) - {"simulate"}))
 def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
-    capsys: pytest.CaptureFixture[str], verb: str
+    capsys: Capture, verb: str
 ) -> None:
     assert main([verb, "--help"]) == 0
     shown = capsys.readouterr().out
@@ -469,7 +466,7 @@ def test_an_example_is_a_command_line(line: str) -> None:
 
 
 def test_no_port_is_said_where_nothing_is_plugged_in(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
     monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", list)
@@ -478,7 +475,7 @@ def test_no_port_is_said_where_nothing_is_plugged_in(
 
 
 def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As for a protocol whose question has more fields than its list."""
     monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
@@ -488,7 +485,7 @@ def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(
 
 
 def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt

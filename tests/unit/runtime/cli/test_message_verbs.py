@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
     from busservo import Message
 
+Capture = pytest.CaptureFixture[str]
+
 FAST = ("--timeout", str(GENEROUS), "--baud", "inf")
 
 
@@ -89,7 +91,7 @@ def test_words_are_the_values_in_the_order_of_the_method(line: str, message: Mes
     ],
 )
 def test_what_cannot_be_sent_is_refused_and_nothing_arrives(
-    board: VirtualController, capsys: pytest.CaptureFixture[str], line: str, problem: str
+    board: VirtualController, capsys: Capture, line: str, problem: str
 ) -> None:
     assert main([*line.split(), "--port", board.port]) == 2
     assert f"busservo: error: {problem}" in capsys.readouterr().err
@@ -108,9 +110,7 @@ def test_a_move_need_not_be_waited_for(board: VirtualController) -> None:
     await_that(lambda: board.servos[1].travelling)
 
 
-def test_positions_of_all_that_answer(
-    board: VirtualController, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_positions_of_all_that_answer(board: VirtualController, capsys: Capture) -> None:
     assert main(["positions", "--port", board.port, *FAST]) == 0
     assert " ServoPositions positions=1:500,2:500,3:500 |" in capsys.readouterr().out
     assert main(["positions", "2", "--json", "--port", board.port, *FAST]) == 0
@@ -118,7 +118,7 @@ def test_positions_of_all_that_answer(
 
 
 def test_hold_holds_what_answers_and_names_the_rest(
-    board: VirtualController, capsys: pytest.CaptureFixture[str]
+    board: VirtualController, capsys: Capture
 ) -> None:
     assert main(["unload", "1", "2", "3", "--port", board.port, *FAST]) == 0
     assert main(["hold", "1", "2", "9", "--port", board.port, *FAST]) == 1
@@ -130,7 +130,7 @@ def test_hold_holds_what_answers_and_names_the_rest(
 
 
 def test_what_is_far_outside_the_limits_is_named_and_the_rest_is_held(
-    board: VirtualController, capsys: pytest.CaptureFixture[str]
+    board: VirtualController, capsys: Capture
 ) -> None:
     words = ["--limits", "600..1000", "--port", board.port, *FAST]
     assert main(["move", "1:700", *words]) == 0
@@ -142,9 +142,7 @@ def test_what_is_far_outside_the_limits_is_named_and_the_rest_is_held(
     ]
 
 
-def test_stop_ends_the_group_before_it_holds(
-    board: VirtualController, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_stop_ends_the_group_before_it_holds(board: VirtualController, capsys: Capture) -> None:
     received: list[Message] = []
     accepted = board.board.accepted
 
@@ -161,7 +159,7 @@ def test_stop_ends_the_group_before_it_holds(
     assert kinds[:4] == [ActionGroupRun, ActionGroupStop, ServoPositionsRead, ServoMove]
 
 
-def test_nobody_to_hold_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_nobody_to_hold_is_told(capsys: Capture) -> None:
     with VirtualController("tcp", servos=[]) as board:
         assert main(["hold", "--port", board.port, *FAST]) == 1
         assert "no servo is there" in capsys.readouterr().err
@@ -175,9 +173,7 @@ def test_every_message_of_this_end_has_a_verb_once() -> None:
     assert not {*METHODS, *POSE_METHODS} & {*VERBS}
 
 
-def test_a_method_has_its_long_verb_as_well(
-    board: VirtualController, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_method_has_its_long_verb_as_well(board: VirtualController, capsys: Capture) -> None:
     assert {*LONG.values()} == {*METHODS, *POSE_METHODS, "stop"}
     assert main(["read-battery-voltage", "--port", board.port, *FAST]) == 0
     assert " BatteryVoltage voltage_mv=7500 mV |" in capsys.readouterr().out

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from io import TextIOWrapper
     from pathlib import Path
 
+Capture = pytest.CaptureFixture[str]
+
 
 class Line:
     """A line that brings pieces of bytes, a second apart; then silence, then its end."""
@@ -216,7 +218,7 @@ def test_half_a_frame_is_given_up_when_the_line_is_quiet() -> None:
 
 
 def test_what_was_received_before_the_line_was_lost_is_kept(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: Capture
 ) -> None:
     log = tmp_path / "line.hex"
     shown = watched(line=Line(FRAME, FRAME[:5]), log=log)
@@ -225,14 +227,14 @@ def test_what_was_received_before_the_line_was_lost_is_kept(
     assert capsys.readouterr().err == "11 bytes: 1 message, 5 bytes of noise\n"
 
 
-def test_totals_say_how_much_of_it_was_shown(capsys: pytest.CaptureFixture[str]) -> None:
+def test_totals_say_how_much_of_it_was_shown(capsys: Capture) -> None:
     watched("--only", "noise")
     assert capsys.readouterr().err == "19 bytes: 3 messages, 1 byte of noise; 1 line shown\n"
 
 
 @pytest.mark.parametrize("direction", ["controller", "any", "host"])
 def test_decode_prints_of_the_log_what_the_monitor_printed(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], direction: str
+    tmp_path: Path, capsys: Capture, direction: str
 ) -> None:
     log = tmp_path / "line.hex"
     pieces = (b"\x00\x55", *BOTH, b"\x13", FRAME[:4], b"", b"\x55\x55\x03\x01\x2a", *BOTH)
@@ -322,15 +324,13 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
         (["--log", "no/such/folder"], "folder cannot be written: No such file"),
     ],
 )
-def test_unusable_arguments_are_refused(
-    capsys: pytest.CaptureFixture[str], words: list[str], expected: str
-) -> None:
+def test_unusable_arguments_are_refused(capsys: Capture, words: list[str], expected: str) -> None:
     assert main(["monitor", "--port", "loop://", *words]) == 2
     assert expected in capsys.readouterr().err
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full disk here")  # noqa: PTH110 - as short
-def test_a_full_disk_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_full_disk_is_reported(capsys: Capture) -> None:
     assert main(["monitor", "--port", "loop://", "--log", "/dev/full"]) == 2
     assert capsys.readouterr().err.endswith(
         "/dev/full cannot be written: No space left on device\n"

@@ -22,6 +22,8 @@ from tests.timeouts import GENEROUS
 if TYPE_CHECKING:
     from pathlib import Path
 
+Capture = pytest.CaptureFixture[str]
+
 ASK, VOLTAGE = BatteryVoltageRead().encode().hex(" "), BatteryVoltage(7500).encode().hex(" ")
 STARTED = "55 55 05 06 08 01 00"
 CUT_OFF = f"""\
@@ -65,11 +67,7 @@ def log(tmp_path: Path) -> Path:
     ],
 )
 def test_the_times_and_the_senders_of_a_recording_are_kept(
-    log: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    words: list[str],
-    times: list[str],
+    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, words: list[str], times: list[str]
 ) -> None:
     if hasattr(time, "tzset"):
         monkeypatch.setenv("TZ", "UTC")
@@ -94,16 +92,14 @@ def test_the_times_and_the_senders_of_a_recording_are_kept(
     ]
 
 
-def test_each_of_several_recordings_has_a_time_of_its_own(
-    log: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_each_of_several_recordings_has_a_time_of_its_own(log: Path, capsys: Capture) -> None:
     log.write_text(CUT_OFF + CUT_OFF.replace("2026", "2027", 1))
     assert main(["decode", str(log), "-t", "delta"]) == 0
     times = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
     assert times == 2 * ["0.250000", "0.125000", "0.875000", "0.750000", "0.500000", "0.250000"]
 
 
-def test_json_and_csv_say_the_same(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_and_csv_say_the_same(log: Path, capsys: Capture) -> None:
     assert main(["decode", str(log), "--json"]) == 0
     records = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert records[2] == {
@@ -135,9 +131,7 @@ def test_json_and_csv_say_the_same(log: Path, capsys: pytest.CaptureFixture[str]
         assert row["reason"] == record.get("reason", "")
 
 
-def test_csv_marks_what_either_end_may_have_sent(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_csv_marks_what_either_end_may_have_sent(capsys: Capture) -> None:
     assert main(["decode", STARTED, "--csv"]) == 0
     (row,) = csv.DictReader(io.StringIO(capsys.readouterr().out, newline=""))
     assert (row["time"], row["from"], row["message"], row["or"]) == (
@@ -159,7 +153,7 @@ def test_csv_marks_what_either_end_may_have_sent(
     ],
 )
 def test_missing_times_are_reported(
-    log: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], expected: str | None
+    log: Path, capsys: Capture, text: str, words: list[str], expected: str | None
 ) -> None:
     log.write_text(text)
     assert main(["decode", str(log), *words]) == 0
@@ -181,7 +175,7 @@ def test_missing_times_are_reported(
     ],
 )
 def test_what_is_mostly_noise_may_be_another_protocol_or_text(
-    capsys: pytest.CaptureFixture[str], data: str, expected: str | None
+    capsys: Capture, data: str, expected: str | None
 ) -> None:
     assert main(["decode", data]) == 0
     _, *hints = capsys.readouterr().err.splitlines()
@@ -205,9 +199,7 @@ def test_a_pipe_that_pauses_within_a_byte_holds_hex_all_the_same() -> None:
     assert errors.splitlines() == [b"8 bytes: 2 messages, 0 bytes of noise"]
 
 
-def test_what_is_hex_at_first_and_then_is_not_is_refused(
-    log: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_hex_at_first_and_then_is_not_is_refused(log: Path, capsys: Capture) -> None:
     log.write_bytes(bytes.fromhex(ASK).hex().encode() + b"\n\x00\x01")
     assert main(["decode", str(log)]) == 2
     errors = capsys.readouterr().err

@@ -30,6 +30,8 @@ from tests.timeouts import GENEROUS, await_that
 if TYPE_CHECKING:
     from pathlib import Path
 
+Capture = pytest.CaptureFixture[str]
+
 MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
 ASK = BatteryVoltageRead()
 READ = ServoPositionsRead([1])
@@ -83,7 +85,7 @@ def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
 
 
 def test_a_trace_of_a_client_is_played_without_what_came_back(
-    log: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Before each of the three, and behind them for both answers.
     prolong_waits(monkeypatch, 0, 0, 0, 5)
@@ -116,7 +118,7 @@ def test_a_log_of_a_monitor_is_played(log: Path) -> None:
 
 
 def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(
-    log: Path, capsys: pytest.CaptureFixture[str]
+    log: Path, capsys: Capture
 ) -> None:
     log.write_text(f"{hexed(ASK)}  # 0 s, host: a\n{hexed(ASK)}  # 9 s, host: b\n")
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
@@ -127,7 +129,7 @@ def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(
 
 
 def test_half_a_frame_that_comes_back_is_given_up_when_the_line_is_quiet(
-    log: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # The second is sent once the half frame has been shown, and its answer is waited for.
     prolong_waits(monkeypatch, 0, 2, 4)
@@ -172,7 +174,7 @@ def test_standard_input_is_played(monkeypatch: pytest.MonkeyPatch) -> None:
     ],
 )
 def test_a_replay_keeps_the_recorded_pace_or_that_of_the_line(
-    log: Path, capsys: pytest.CaptureFixture[str], speed: list[str], times: list[str]
+    log: Path, capsys: Capture, speed: list[str], times: list[str]
 ) -> None:
     log.write_text(
         f"{hexed(MOVE)}  # 3.5 s, host: a\n"
@@ -188,7 +190,7 @@ def test_a_replay_keeps_the_recorded_pace_or_that_of_the_line(
     )
 
 
-def test_the_pace_is_kept_on_a_port(log: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_pace_is_kept_on_a_port(log: Path, capsys: Capture) -> None:
     log.write_text(f"{hexed(ASK)}  # 1 s, host: a\n{hexed(ASK)}  # 1.4 s, host: b\n")
     assert replayed(log, "--speed", "2") == (0, [ASK, ASK])
     sent = [line for line in capsys.readouterr().out.splitlines() if " host " in line]
@@ -283,7 +285,7 @@ def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
     ],
 )
 def test_what_is_malformed_is_refused_before_anything_is_sent(
-    log: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], expected: str
+    log: Path, capsys: Capture, text: str, words: list[str], expected: str
 ) -> None:
     log.write_text(text)
     assert replayed(log, *words) == (2, [])
@@ -292,13 +294,13 @@ def test_what_is_malformed_is_refused_before_anything_is_sent(
     assert "Traceback" not in errors
 
 
-def test_a_missing_file_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_file_is_reported(tmp_path: Path, capsys: Capture) -> None:
     assert main(["replay", str(tmp_path / "none.hex"), "--dry-run"]) == 2
     assert "none.hex cannot be read: No such file or directory" in capsys.readouterr().err
 
 
 def test_without_a_port_a_replay_is_only_shown(
-    log: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(link, "serial_ports", list)
     log.write_text(hexed(ASK))

@@ -26,6 +26,8 @@ from tests.timeouts import GENEROUS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+Capture = pytest.CaptureFixture[str]
+
 FILE = "busservo.toml"
 FAST = ("--timeout", str(GENEROUS), "--baud", "inf")
 
@@ -70,7 +72,7 @@ def refused_port(monkeypatch: pytest.MonkeyPatch, module: Any = link) -> list[tu
     return opened
 
 
-def error_of(capsys: pytest.CaptureFixture[str], words: list[str], main: Any = None) -> str:
+def error_of(capsys: Capture, words: list[str], main: Any = None) -> str:
     """Return the one line that a command ends with, for what it is given."""
     assert (main or busservo._cli.main)(words) == 2
     output, errors = capsys.readouterr()
@@ -165,7 +167,7 @@ BAD = [
 
 
 def test_a_file_that_is_wrong_anywhere_is_refused_with_the_place_and_the_way_out(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     opened = refused_port(monkeypatch)
     found = []
@@ -179,7 +181,7 @@ def test_a_file_that_is_wrong_anywhere_is_refused_with_the_place_and_the_way_out
 
 
 def test_a_file_that_cannot_be_read_is_refused_and_none_is_needed_without_a_port(
-    capsys: pytest.CaptureFixture[str],
+    capsys: Capture,
 ) -> None:
     Path(FILE).mkdir()
     error = error_of(capsys, ["hold"])
@@ -189,7 +191,7 @@ def test_a_file_that_cannot_be_read_is_refused_and_none_is_needed_without_a_port
 
 
 def test_other_protocols_have_files_of_their_own(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     opened = refused_port(monkeypatch, servo_link)
     main = lxservo._cli.main
@@ -212,7 +214,7 @@ def test_other_protocols_have_files_of_their_own(
 
 
 def test_an_option_counts_before_the_variable_the_file_here_and_that_of_the_user(
-    monkeypatch: pytest.MonkeyPatch, user: Path, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, user: Path, capsys: Capture
 ) -> None:
     opened = refused_port(monkeypatch)
     user.parent.mkdir(parents=True)
@@ -263,7 +265,7 @@ def test_the_folder_of_the_user_is_that_of_the_system(monkeypatch: pytest.Monkey
 
 
 def test_each_servo_has_its_limits_wherever_limits_hold(
-    board: VirtualController, capsys: pytest.CaptureFixture[str]
+    board: VirtualController, capsys: Capture
 ) -> None:
     Path(FILE).write_text(
         f"port = '{board.port}'\n[limits]\n1 = [100, 400]\n2 = 'none'\n", encoding="utf-8"
@@ -295,7 +297,7 @@ def test_each_servo_has_its_limits_wherever_limits_hold(
 
 
 def test_the_ids_of_the_file_are_meant_where_none_are_named(
-    board: VirtualController, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    board: VirtualController, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Path(FILE).write_text(f"port = '{board.port}'\nids = [1, 3, 9, 3]")
     held = ["servos 1, 3 held", "servo 9 not held: no answer"]
@@ -371,7 +373,7 @@ def test_what_is_saved_changes_its_own_lines_and_nothing_else() -> None:
 
 
 def test_doctor_saves_what_it_has_found_unless_a_check_fails(
-    board: VirtualController, user: Path, capsys: pytest.CaptureFixture[str]
+    board: VirtualController, user: Path, capsys: Capture
 ) -> None:
     patient = ("--timeout", str(GENEROUS))
     assert busservo._cli.main(["doctor", "--port", "no-such-port", "--save"]) == 1

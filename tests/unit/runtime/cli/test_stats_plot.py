@@ -13,8 +13,12 @@ import numpy as np
 import pytest
 from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
 from busservo._cli import main
+from busservo._recording.layout import layouts
 from busservo._tables.stats import panels, traces
+from busservo._tables.stats.quantities import quantities
 from busservo._tables.stats.trace import Trace
+
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -157,9 +161,7 @@ def test_the_same_capture_gives_the_same_drawing(capsys: Capture, tmp_path: Path
     ("suffix", "begins"),
     [(".PNG", b"\x89PNG"), pytest.param(".pdf", b"%PDF", marks=pytest.mark.slow)],
 )
-def test_other_forms_of_pictures(
-    capsys: Capture, tmp_path: Path, suffix: str, begins: bytes
-) -> None:
+def test_other_forms_of_pictures(tmp_path: Path, suffix: str, begins: bytes) -> None:
     file, pictures = positions(tmp_path, 3), [tmp_path / f"{name}{suffix}" for name in "ab"]
     for picture in pictures:
         assert main(["stats", str(file), "--plot", str(picture)]) == 0
@@ -218,21 +220,23 @@ def many(tmp_path: Path, count: int) -> Path:
     return file
 
 
-def test_each_servo_has_a_panel_and_all_share_the_axes(capsys: Capture, tmp_path: Path) -> None:
-    # The words, the servos that are drawn, and how many panels stand in the first row.
+def test_each_servo_has_a_panel_and_all_share_the_axes(
+    capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(panels, "PANELS", 9)
+    name = "ServoPositions.positions.position"
+    more = f"not drawn, as there is no room: {name} of 12 more servo_id (--ids chooses)\n"
+    # How many servos there are, the words, those that are drawn, and the panels in the first row.
     rows: list[tuple[int, list[str], list[int], int]] = [
         (1, [], [1], 1),
-        (6, [], [*range(1, 7)], 1),
         (6, ["--ids", "5,2-3"], [2, 3, 5], 1),
-        (12, [], [*range(1, 13)], 2),
-        (32, [], [*range(1, 33)], 4),
-        (70, [], [*range(1, 65)], 4),
+        (9, [], [*range(1, 10)], 2),
+        (21, [], [*range(1, 10)], 4),
     ]
     for count, words, servos, across in rows:
         picture = tmp_path / "many.svg"
         assert main(["stats", str(many(tmp_path, count)), "--plot", str(picture), *words]) == 0
         texts, lines = drawn(picture)
-        name = "ServoPositions.positions.position"
         assert [*lines] == [f"{name}.{each}" for each in servos]
         assert [text for text in texts if text.startswith("servo_id")] == [
             f"servo_id {each}" for each in servos
@@ -242,9 +246,20 @@ def test_each_servo_has_a_panel_and_all_share_the_axes(capsys: Capture, tmp_path
         assert begins == [begins[at % across] for at in range(len(servos))]
         lengths = {round(points[-1][0] - points[0][0], 3) for points in lines.values()}
         assert len(lengths) == 1
-        more = f"not drawn, as there is no room: {name} of {count - 64} more servo_id"
-        expected = f"{more} (--ids chooses)\n" if count > 64 else ""
-        assert capsys.readouterr().err == expected
+        assert capsys.readouterr().err == (more if count == 21 else "")
+
+
+@in_turn("count, columns, rows", lambda: [(8, 1, 8), (20, 2, 10), (32, 4, 8), (70, 4, 16)])
+def test_panels_stand_in_as_many_columns_as_there_is_room_for(
+    count: int, columns: int, rows: int
+) -> None:
+    (quantity,) = (
+        each for of in layouts() if of.kind is ServoPositions for each in quantities(of) if each.key
+    )
+    page, left_out = panels.page_of([(quantity, {each: Trace() for each in range(count)})])
+    assert (page.columns, [block.rows for block in page.blocks]) == (columns, [rows])
+    name = "ServoPositions.positions.position"
+    assert left_out == ([f"{name} of 6 more servo_id (--ids chooses)"] if count == 70 else [])
 
 
 def test_more_panels_than_there_is_room_for_are_named(

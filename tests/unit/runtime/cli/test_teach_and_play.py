@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     from busservo import Message
 
+Capture = pytest.CaptureFixture[str]
+
 PATIENT = ("--timeout", str(GENEROUS), "--baud", "inf")
 
 
@@ -68,11 +70,7 @@ def kinds(messages: list[Message]) -> list[type[Message]]:
 
 
 def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
-    board: VirtualController,
-    received: list[Message],
-    typed: Any,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    board: VirtualController, received: list[Message], typed: Any, tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "poses.json"
     typed("y\n\nwhat\n\nq\ny\n")
@@ -105,7 +103,7 @@ def test_no_servo_is_released_without_consent(
     typed: Any,
     keys: str,
     tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    capsys: Capture,
 ) -> None:
     typed(keys)
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1"]
@@ -117,12 +115,7 @@ def test_no_servo_is_released_without_consent(
 
 @pytest.mark.parametrize(("keys", "expected"), [("\n", "are limp"), ("\nq\n", "are limp")])
 def test_servos_stay_limp_unless_holding_is_confirmed(
-    board: VirtualController,
-    typed: Any,
-    keys: str,
-    expected: str,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    board: VirtualController, typed: Any, keys: str, expected: str, tmp_path: Path, capsys: Capture
 ) -> None:
     typed(keys)
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1-2"]
@@ -141,11 +134,7 @@ def test_the_hold_option_needs_no_confirmation(
 
 
 def test_a_silent_servo_costs_only_the_pose(
-    board: VirtualController,
-    received: list[Message],
-    typed: Any,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    board: VirtualController, received: list[Message], typed: Any, tmp_path: Path, capsys: Capture
 ) -> None:
     board.servos[2].off = True
     typed("\nq\ny\n")
@@ -160,7 +149,7 @@ def test_a_silent_servo_costs_only_the_pose(
 
 
 def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(
-    board: VirtualController, typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    board: VirtualController, typed: Any, tmp_path: Path, capsys: Capture
 ) -> None:
     typed("\nq\ny\n")
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1"]
@@ -176,9 +165,7 @@ def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_any_servo_nothing_is_released(
-    typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_without_any_servo_nothing_is_released(typed: Any, tmp_path: Path, capsys: Capture) -> None:
     typed("y\n")
     with VirtualController("tcp", servos=[]) as board:
         assert main(["teach", str(tmp_path / "new"), "--port", board.port, *PATIENT]) == 1
@@ -189,7 +176,7 @@ def test_without_any_servo_nothing_is_released(
 
 
 def test_more_than_one_motion_moves_are_not_taught(
-    typed: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    typed: Any, tmp_path: Path, capsys: Capture
 ) -> None:
     with VirtualController("tcp") as board:
         words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1-84"]
@@ -198,11 +185,7 @@ def test_more_than_one_motion_moves_are_not_taught(
 
 
 def test_an_existing_file_is_never_overwritten_without_consent(
-    board: VirtualController,
-    received: list[Message],
-    typed: Any,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    board: VirtualController, received: list[Message], typed: Any, tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(poses_of({"positions": {"7": 100}, "time_ms": 50, "pause_s": 0.5}))
@@ -239,7 +222,7 @@ def test_an_existing_file_is_never_overwritten_without_consent(
     ],
 )
 def test_teach_refuses_unusable_arguments(
-    words: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    words: list[str], expected: str, tmp_path: Path, capsys: Capture
 ) -> None:
     assert main(["teach", str(tmp_path), "--port", "loop://", *words]) == 2
     assert expected in capsys.readouterr().err
@@ -257,7 +240,7 @@ def test_where_nobody_can_answer_nothing_is_released(
     received: list[Message],
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    capsys: Capture,
 ) -> None:
     monkeypatch.setattr(sys, "stdin", Folder())
     words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1", *PATIENT]
@@ -269,10 +252,7 @@ def test_where_nobody_can_answer_nothing_is_released(
 
 
 def test_limp_servos_are_named_when_a_pose_cannot_be_written(
-    board: VirtualController,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    board: VirtualController, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: Capture
 ) -> None:
     folder = tmp_path / "folder"
     folder.mkdir()
@@ -291,7 +271,7 @@ def test_limp_servos_are_named_when_a_pose_cannot_be_written(
 
 
 def test_an_unwritable_file_is_reported_before_any_servo_is_released(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: Capture
 ) -> None:
     assert main(["teach", str(tmp_path / "no" / "new"), "--port", "loop://"]) == 2
     assert "there is no folder" in capsys.readouterr().err
@@ -307,10 +287,7 @@ TWO = (
 
 
 def test_poses_are_played_in_their_order(
-    board: VirtualController,
-    received: list[Message],
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
+    board: VirtualController, received: list[Message], tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(poses_of(*TWO))
@@ -331,9 +308,7 @@ def test_poses_are_played_in_their_order(
     assert errors == "4 of 4 poses played\n"
 
 
-def test_what_would_be_played_is_shown_and_not_sent(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_would_be_played_is_shown_and_not_sent(tmp_path: Path, capsys: Capture) -> None:
     file = tmp_path / "poses.json"
     file.write_text(poses_of(*TWO))
     assert main(["play", str(file), "--dry-run", "--pause", "1"]) == 0
@@ -399,7 +374,7 @@ REFUSED: list[tuple[str, str]] = [
 
 @pytest.mark.parametrize(("text", "expected"), REFUSED, ids=lambda each: each[-60:])
 def test_a_file_is_looked_at_as_a_whole_before_the_port_is_opened(
-    text: str, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    text: str, expected: str, tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(text, encoding="utf-8")
@@ -411,7 +386,7 @@ def test_a_file_is_looked_at_as_a_whole_before_the_port_is_opened(
     assert len(errors) < 500
 
 
-def test_an_unreadable_file_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unreadable_file_is_reported(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "raw").write_bytes(b"\xff\x00")
     for name in ("missing", "raw", "."):
         assert main(["play", str(tmp_path / name), "--dry-run"]) == 2
@@ -443,7 +418,7 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(
     ],
 )
 def test_play_refuses_unusable_arguments(
-    words: list[str], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    words: list[str], expected: str, tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(poses_of(GOOD))
@@ -452,7 +427,7 @@ def test_play_refuses_unusable_arguments(
 
 
 def test_send_refuses_what_is_outside_the_limits(
-    board: VirtualController, received: list[Message], capsys: pytest.CaptureFixture[str]
+    board: VirtualController, received: list[Message], capsys: Capture
 ) -> None:
     words = ["send", "--port", board.port, "ServoMove", "time_ms=1", "targets=1:500,2:1500"]
     assert main(words) == 2

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from busservo._cli.checks.check import Check
     from busservo._cli.checks.result import Result
 
+Capture = pytest.CaptureFixture[str]
+
 PLAN = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
 LEARN = re.findall(r"\]\((\S+)\): ", PLAN.partition("## Learn")[2].partition("\n## ")[0])
 TEXTS = [
@@ -78,7 +80,7 @@ def without_times(text: str) -> str:
     return re.sub(r"[0-9:]*[0-9]+\.[0-9]+", "#", text)
 
 
-def test_ports(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ports(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     adapter = ListPortInfo("/dev/ttyUSB0")
     adapter.vid, adapter.pid, adapter.description = 0x1A86, 0x7523, "USB Serial"
     found = [adapter, ListPortInfo("/dev/ttyS0")]
@@ -87,7 +89,7 @@ def test_ports(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPat
     assert capsys.readouterr().out == TRANSCRIPTS["getting-started.md", "ports"][1]
 
 
-def test_bench_line(capsys: pytest.CaptureFixture[str]) -> None:
+def test_bench_line(capsys: Capture) -> None:
     _, port, *words = TRANSCRIPTS["command.md", "bench-line"][0]
     with VirtualController("tcp", baud=9600) as board:
         assert main(["bench-line", "--port", board.port, *words, "-n", "2", *PATIENT]) == 0
@@ -119,7 +121,7 @@ def said(found: Mapping[Check, Result]) -> str:
     return "\n".join([*lines, ", ".join(counts), ""])
 
 
-def test_monitor(capsys: pytest.CaptureFixture[str]) -> None:
+def test_monitor(capsys: Capture) -> None:
     words, shown = TRANSCRIPTS["command.md", "monitor"]
     parser = argparse.ArgumentParser()
     monitor.add_arguments(parser)

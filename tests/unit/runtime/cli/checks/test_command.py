@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,11 +24,13 @@ if TYPE_CHECKING:
     from busservo._cli.checks.diagnosis import Diagnosis
     from busservo._cli.checks.result import Result
 
+Capture = pytest.CaptureFixture[str]
+
 PATIENT = ("--timeout", str(GENEROUS))
 
 
 @pytest.mark.usefixtures("nothing_else_comes")
-def test_each_check_is_a_line_with_its_bytes_below_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_check_is_a_line_with_its_bytes_below_it(capsys: Capture) -> None:
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, *PATIENT]) == 0
         assert board.rejects.total == 0
@@ -55,7 +55,7 @@ def test_a_value_that_no_source_judges_is_noted() -> None:
     ]
 
 
-def test_a_failed_check_comes_with_advice(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_failed_check_comes_with_advice(capsys: Capture) -> None:
     assert main(["doctor", "--port", "no-such-port"]) == 1
     output = capsys.readouterr().out
     assert "failed   opening      no-such-port: there is no such port\n" in output
@@ -64,9 +64,7 @@ def test_a_failed_check_comes_with_advice(capsys: pytest.CaptureFixture[str]) ->
 
 
 @pytest.mark.usefixtures("nothing_else_comes")
-def test_json_has_a_line_for_each_check(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_json_has_a_line_for_each_check(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doctor, "CHECKS", CHECKS[:7])
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, "--json", *PATIENT]) == 0
@@ -81,7 +79,7 @@ def test_json_has_a_line_for_each_check(
 
 
 @pytest.mark.usefixtures("nothing_else_comes")
-def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: Capture) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["doctor", "--port", board.port, *PATIENT]) == 3
     assert "failed   rate " in capsys.readouterr().out
@@ -99,10 +97,7 @@ def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: pytest.CaptureFixtu
     ],
 )
 def test_unusable_arguments_are_refused_before_any_check(
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    words: list[str],
-    expected: str,
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch, words: list[str], expected: str
 ) -> None:
     monkeypatch.setattr("sys.stdin", io.StringIO("y\n"))
     assert main(["doctor", "--port", "no-such-port", *words]) == 2
@@ -121,9 +116,7 @@ def report_of(diagnosis: Diagnosis, path: Path, model: str = "LSC-32") -> str:
     return path.read_text(encoding="ascii")
 
 
-def test_a_report_is_a_recording_that_says_what_was_found(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_report_is_a_recording_that_says_what_was_found(tmp_path: Path, capsys: Capture) -> None:
     path = tmp_path / "report.hex"
     with board_with(Faults(noise=0.5, unsolicited=0.3, seed=1), local_echo=True) as board:
         report = report_of(diagnosis_of(board), path)
@@ -186,7 +179,7 @@ def test_a_report_of_a_board_by_usb_hid_names_it(tmp_path: Path) -> None:
     assert "# line: hid://, 9600 baud\n" in report
 
 
-def test_a_report_is_never_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_report_is_never_overwritten(tmp_path: Path, capsys: Capture) -> None:
     path = tmp_path / "report.hex"
     path.write_text("55 55 02 07\n")
     assert main(["doctor", "--port", "no-such-port", "--report", str(path)]) == 2
@@ -219,13 +212,3 @@ def test_whatever_ends_it_the_port_is_given_back() -> None:
         diagnosis = diagnosis_of(board)
         list(examine(diagnosis, [Check("one", "one", (), lost)]))
     assert diagnosis.probe is None
-
-
-def test_help_and_errors_need_no_pyserial() -> None:
-    words = ["doctor", "--port", "COM7", "--baud", "x"]
-    probe = "print('serial' in sys.modules)"
-    program = f"import sys; from busservo._cli import main; main({words!r}); {probe}"
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    )
-    assert done.stdout == "False\n"

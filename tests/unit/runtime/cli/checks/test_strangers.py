@@ -326,12 +326,12 @@ TEXTUAL = {"a GPS receiver", "an Arduino", "a banner"}
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name != "visca")) for name in FILES]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name != "lxservo")) for name in FILES]
 )
 def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
     libraries: Libraries, name: str
 ) -> None:
-    package = libraries[name].__name__
+    package = name if name == "lxservo" else libraries[name].__name__
     rate = import_module(f"{package}._frame.protocol").BAUD
     for device, made in OF_NONE.items():
         found = examined(made(rate), package)["look-alike"]

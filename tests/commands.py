@@ -1,0 +1,57 @@
+"""Commands called in this process, as a shell calls them."""
+
+from __future__ import annotations
+
+import io
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+from typing import TYPE_CHECKING, NamedTuple
+from unittest import mock
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+class Ended(NamedTuple):
+    """The exit status, the output and the errors of a command."""
+
+    status: int
+    out: str
+    err: str
+
+
+def called(
+    main: Callable[[Sequence[str]], int], *words: str, given: bytes | str = b"", screen: str = ""
+) -> Ended:
+    """Call a command that reads these bytes, or this text, from standard input.
+
+    With `screen`, both its streams are terminals of that TERM.
+    """
+    data = given.encode() if isinstance(given, str) else given
+    streams = [_Stream(is_terminal=bool(screen)) for _ in range(2)]
+    variables = {"TERM": screen} if screen else {}
+    with (
+        mock.patch.object(sys, "stdin", io.TextIOWrapper(io.BytesIO(data), encoding="utf-8")),
+        mock.patch.dict("os.environ", variables),
+        redirect_stdout(streams[0]),
+        redirect_stderr(streams[1]),
+    ):
+        status = main(words)
+    return Ended(status, *(each.text for each in streams))
+
+
+class _Stream(io.TextIOWrapper):
+    """A stream that keeps what is written."""
+
+    def __init__(self, *, is_terminal: bool) -> None:
+        self._kept = io.BytesIO()
+        self._is_terminal = is_terminal
+        super().__init__(self._kept, encoding="utf-8", newline="\n", write_through=True)
+
+    def isatty(self) -> bool:
+        return self._is_terminal
+
+    @property
+    def text(self) -> str:
+        self.flush()
+        return self._kept.getvalue().decode()
