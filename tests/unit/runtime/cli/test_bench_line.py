@@ -141,32 +141,6 @@ def test_silence_is_said_to_be_that(capsys: Capture, monkeypatch: pytest.MonkeyP
     assert "  without a reply nothing came at all: is the device" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["ServoMove", "time_ms=1", "targets=1:2"], "nothing answers ServoMove, so it cannot be"),
-        (["ActionGroupStarted"], "ActionGroupStarted is never sent from here"),
-        (["ServoPositionsRead"], "ServoPositionsRead needs servo_ids"),
-        (
-            ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(85)))}"],
-            "servo_ids: 85 items are requested at once, and a reply has room for 84",
-        ),
-        (["-n", "0"], "argument -n: 0 is below 1"),
-        (
-            ["--timeout", "4000"],
-            "argument --timeout: 4000 is not above 0 and up to 3600 seconds",
-        ),
-    ],
-)
-def test_what_cannot_be_measured_is_refused(
-    capsys: Capture, words: list[str], expected: str
-) -> None:
-    assert main(["bench-line", "--port", "no-such-port", *words]) == 2
-    errors = capsys.readouterr().err
-    assert expected in errors
-    assert "no such port" not in errors
-
-
 def test_a_question_must_be_named_where_each_has_fields(
     capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -51,37 +51,6 @@ def test_long_raw_input_is_read_in_pieces(capsys: Capture, tmp_path: Path) -> No
     assert "1000 messages, 0 bytes of noise" in errors
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--file", "line.bin", "55"], "give either --file or bytes, not both"),
-        (["--file", "absent.bin"], "absent.bin cannot be read: No such file or directory"),
-        (["absent.bin"], "no hex: 's' in 'absent.bin' is no hex digit; write two"),
-        (["absent.bin"], "and there is no file 'absent.bin'"),
-        (["."], ". is a folder: name a file in it"),
-        ([__file__, __file__], "these are 2 files: give one at a time"),
-        (["55 5"], "no hex: '5' is half a byte; did you mean 05?"),
-        (["a\0b"], "there is no file 'a\\x00b'"),
-        (["x" * 5000], "no hex: 'x' in 'xxx"),
-        (["55", "zz"], "no hex: 'z' in 'zz' is no hex digit"),
-    ],
-)
-def test_input_that_cannot_be_decoded_is_reported_in_one_line(
-    capsys: Capture,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    words: list[str],
-    expected: str,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert main(["decode", *words]) == 2
-    output, errors = capsys.readouterr()
-    assert output == ""
-    assert expected in errors
-    assert errors.startswith("busservo: error: ")
-    assert errors.count("\n") == 1
-
-
 def test_a_folder_is_refused_as_input(capsys: Capture, tmp_path: Path) -> None:
     assert main(["decode", "--file", str(tmp_path)]) == 2
     assert "cannot be read: " in capsys.readouterr().err
@@ -101,35 +70,6 @@ def test_numbers_may_have_any_base_and_values_their_names(capsys: Capture) -> No
     assert capsys.readouterr().out == "55 55 0B 03 02 E8 03 01 03 00 09 0F 00\n"
     assert main(["encode", "ServoPositions", "positions=1:absent"]) == 0
     assert capsys.readouterr().out.endswith("01 FF FF\n")
-
-
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["ServoMove", "1000"], "'1000' is no field: write it as NAME=VALUE"),
-        (["ServoMove", "tme=1"], "ServoMove has no field 'tme'; it is written ServoMove time_ms="),
-        (["ServoMove", "time_ms=1", "time_ms=2"], "time_ms is given twice"),
-        (["ServoMove", "time_ms=1", "targets=1"], "targets[0]: '1' is not servo_id:position"),
-        (["ServoMove", "time_ms=soon", "targets=1:2"], "time_ms: 'soon' is no number: write it"),
-        (["ServoMove", "time_ms=1_0", "targets=1:2"], "time_ms: '1_0' is no number: write it"),
-        (["ServoMove", "time_ms=010", "targets=1:2"], "time_ms: '010' is no number: write it"),
-        (["ServoMove", "time_ms=٣", "targets=1:2"], "time_ms: '٣' is no number: write it"),
-        (["ServoMove", "time_ms=" + "9" * 5000, "targets=1:2"], "is no number: write it"),
-        (["ServoMove", "time_ms=70000", "targets=1:2"], "70000 is outside 0..65535"),
-        (["ServoMove", "time_ms=1", "targets="], "targets: "),
-        (["ServoUnload", "servo_ids=1,x"], "servo_ids[1]: 'x' is no number"),
-        (["ServoUnload"], "ServoUnload needs servo_ids"),
-        (["Zzz"], "there is no message 'Zzz'; there are "),
-    ],
-)
-def test_a_message_that_cannot_be_encoded_is_reported_in_one_line(
-    capsys: Capture, words: list[str], expected: str
-) -> None:
-    assert main(["encode", *words]) == 2
-    output, errors = capsys.readouterr()
-    assert output == ""
-    assert expected in errors
-    assert errors.count("\n") == 1
 
 
 def test_without_a_verb_the_verbs_are_listed(capsys: Capture) -> None:

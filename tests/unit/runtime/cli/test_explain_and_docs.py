@@ -163,24 +163,6 @@ def test_both_commands_print_the_same(words: str, capsys: Capture) -> None:
     assert "55 55" in result.out
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["5"], "no hex: '5' is half a byte; did you mean 05?"),
-        ([""], "there are no bytes to explain: give them in hex"),
-        (["55", "--direction", "nobody"], "invalid choice: 'nobody'"),
-    ],
-)
-def test_input_that_cannot_be_explained_is_reported_in_one_line(
-    words: list[str], expected: str, capsys: Capture
-) -> None:
-    assert main(["explain", *words]) == 2
-    output, errors = capsys.readouterr()
-    assert output == ""
-    assert errors.startswith("busservo: error: ")
-    assert expected in errors.split("\n")[0]
-
-
 # ---------------------------------------------------------------------------- the model as data
 
 

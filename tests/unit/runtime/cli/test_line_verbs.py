@@ -231,65 +231,6 @@ def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: Capture) -> None:
     assert "no BatteryVoltage came" in capsys.readouterr().err
 
 
-@in_turn(
-    "words, expected",
-    lambda: [
-        (["send", "--port", "no-such-port", "ActionGroupStop"], "there is no such port"),
-        (["send", "--port", "gopher://x", "ActionGroupStop"], "that begins with gopher://"),
-        (["send", "--port", "loop://", "ActionGroupStopped"], "is never sent from here"),
-        (["send", "--port", "loop://", "ServoMov"], "did you mean ServoMove?"),
-        (["send", "--port", "loop://", "ServoMove", "time_ms=1"], "ServoMove needs targets"),
-        (
-            ["send", "--port", "loop://", "ServoPositionsRead", f"servo_ids={100 * '1,'}300"],
-            "servo_ids[100]: 300 is outside 0..255",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "-1"],
-            "argument --retries: -1 is below 0, the least there can be",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "0"],
-            "argument --timeout: 0 is not above 0 and up to 3600 seconds",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "inf"],
-            "argument --timeout: inf is not above 0 and up to 3600 seconds",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "nan"],
-            "argument --timeout: 'nan' is no number of seconds: write it like 12 or 0.5",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "soon"],
-            "argument --timeout: 'soon' is no number of seconds",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--timeout", "1_0"],
-            "argument --timeout: '1_0' is no number of seconds",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--retries", "٣"],
-            "argument --retries: '٣' is no whole number",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", "0"],
-            "argument --baud: 0 is below 1",
-        ),
-        (
-            ["send", "--port", "loop://", "BatteryVoltageRead", "--baud", str(2**31)],
-            "baud is 2147483648, and must be from 1 to 2147483647",
-        ),
-    ],
-)
-def test_unusable_arguments_are_refused_in_one_line(
-    capsys: Capture, words: list[str], expected: str
-) -> None:
-    assert main(words) == 2
-    errors = capsys.readouterr().err
-    assert expected in errors
-    assert "Traceback" not in errors
-
-
 def test_ports_lists_or_says_that_there_are_none(capsys: Capture) -> None:
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()

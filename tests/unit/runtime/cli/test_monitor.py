@@ -309,26 +309,6 @@ def test_a_wait_is_no_wider_than_its_terminal(monkeypatch: pytest.MonkeyPatch) -
     assert terminal.getvalue().startswith("\rnothing received \r")
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["-n", "0"], "argument -n: 0 is below 1, the least there can be"),
-        (["-n", "some"], "argument -n: 'some' is no whole number"),
-        (["--only", "Batery"], "there is no message 'Batery'; did you mean"),
-        (
-            ["--hide", "nois"],
-            "besides messages, there are host, controller, either, noise, unknown",
-        ),
-        (["-t", "sidereal"], "argument -t: invalid choice: 'sidereal'"),
-        (["--direction", "both"], "argument --direction: invalid choice: 'both'"),
-        (["--log", "no/such/folder"], "folder cannot be written: No such file"),
-    ],
-)
-def test_unusable_arguments_are_refused(capsys: Capture, words: list[str], expected: str) -> None:
-    assert main(["monitor", "--port", "loop://", *words]) == 2
-    assert expected in capsys.readouterr().err
-
-
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full disk here")  # noqa: PTH110 - as short
 def test_a_full_disk_is_reported(capsys: Capture) -> None:
     assert main(["monitor", "--port", "loop://", "--log", "/dev/full"]) == 2

@@ -302,35 +302,6 @@ def test_a_capture_without_a_message_has_statistics_too(
     assert capsys.readouterr().out.startswith(f"standard input: {len(data)} byte")
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (
-            ["--plot", "line.gif"],
-            "line.gif cannot be drawn: its name has to end with one of .svg, .png, .pdf",
-        ),
-        (["--plot", "absent/line.svg"], "absent/line.svg cannot be written: there is no folder"),
-        (["--baud", "0"], "argument --baud: 0 is below 1, the least there can be"),
-        (["--file", "absent.bin"], "absent.bin cannot be read: No such file or directory"),
-        (
-            ["55", "--plot", "line.svg"],
-            "line.svg is not drawn: the capture holds no message with a number in it",
-        ),
-    ],
-)
-def test_what_cannot_be_done_is_reported_in_a_line(
-    capsys: Capture,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    words: list[str],
-    expected: str,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert main(["stats", *words]) == 2
-    assert f"busservo: error: {expected}" in capsys.readouterr().err
-    assert [*tmp_path.iterdir()] == []
-
-
 def test_a_broken_recording_names_its_line(capsys: Capture, tmp_path: Path) -> None:
     file = tmp_path / "line.hex"
     file.write_text(BEGAN + line(BatteryVoltage(1), 0.5) + "55 5  # 1.0 s, host: what\n")

@@ -209,25 +209,6 @@ def test_an_existing_file_is_never_overwritten_without_consent(
     assert [each.positions for each in read_poses(file, POSE)] == [{1: 500, 2: 500, 3: 500}]
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--ids", "1-"], "'1-' is neither a number nor a range like 1-6"),
-        (["--ids", "\u0661"], "is neither a number nor a range like 1-6"),
-        (["--ids", "3-1"], "3-1 has its higher number first"),
-        (["--ids", "256"], "256 is outside 0..255"),
-        (["--append", "--force"], "not allowed with"),
-        ([], "is not a regular file, as poses need one: name another"),
-        (["--force"], "is not a regular file, as poses need one: name another"),
-    ],
-)
-def test_teach_refuses_unusable_arguments(
-    words: list[str], expected: str, tmp_path: Path, capsys: Capture
-) -> None:
-    assert main(["teach", str(tmp_path), "--port", "loop://", *words]) == 2
-    assert expected in capsys.readouterr().err
-
-
 class Folder:
     """The standard input of a program that was given a folder."""
 
@@ -401,29 +382,6 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(
     words = ["play", str(file), "--port", board.port, "--time-ms", "1"]
     assert main([*words, "--limits", "500..2500"]) == 0
     assert received[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
-
-
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--dry-run", "--repeat", "0"], "0 is below 1"),
-        (["--dry-run", "--time-ms", "70000"], "70000 is outside 0..65535 milliseconds"),
-        (["--dry-run", "--time-ms", "soon"], "'soon' is no whole number"),
-        (["--dry-run", "--pause", "nan"], "'nan' is no number of seconds: write it like"),
-        (["--dry-run", "--pause", "3601"], "3601 is not in 0..3600 seconds"),
-        (["--dry-run", "--pause", "1_0"], "'1_0' is no number of seconds"),
-        (["--dry-run", "--limits", "9..1"], "'9..1' is no LOW..HIGH: write it like 0..1000, or no"),
-        (["--dry-run", "--limits", "500"], "'500' is no LOW..HIGH"),
-        (["--dry-run", "--limits", "1_0..2_0"], "is no LOW..HIGH"),
-    ],
-)
-def test_play_refuses_unusable_arguments(
-    words: list[str], expected: str, tmp_path: Path, capsys: Capture
-) -> None:
-    file = tmp_path / "poses.json"
-    file.write_text(poses_of(GOOD))
-    assert main(["play", str(file), *words]) == 2
-    assert expected in capsys.readouterr().err
 
 
 def test_send_refuses_what_is_outside_the_limits(

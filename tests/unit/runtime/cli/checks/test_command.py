@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -83,27 +82,6 @@ def test_a_line_that_is_lost_has_a_status_of_its_own(capsys: Capture) -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
         assert main(["doctor", "--port", board.port, *PATIENT]) == 3
     assert "failed   rate " in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--move", "254", "--yes"], "--move 254: servos have numbers from 1 to 253"),
-        (["--move", "x"], "argument --move: 'x' is no whole number"),
-        (["--move", "1"], "--move asks first, and standard input is no terminal: use --yes"),
-        (["--baud", "0"], "argument --baud: 0 is below 1"),
-        (["--timeout", "-1"], "argument --timeout: -1 is "),
-        (["--report", "/no/such/folder/x"], "/no/such/folder/x cannot be written: No such file"),
-    ],
-)
-def test_unusable_arguments_are_refused_before_any_check(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch, words: list[str], expected: str
-) -> None:
-    monkeypatch.setattr("sys.stdin", io.StringIO("y\n"))
-    assert main(["doctor", "--port", "no-such-port", *words]) == 2
-    output, errors = capsys.readouterr()
-    assert output == ""
-    assert expected in errors
 
 
 # ------------------------------------------------------------------ reports
