@@ -8,10 +8,10 @@ import json
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
-from busservo import ServoMove, ServoPositionsRead, ServoUnload
+from busservo import Message, ServoMove, ServoPositionsRead, ServoUnload
 from busservo._cli import main
 from busservo._cli.posefile import Recorded, read_poses, write_poses
 from busservo._client.exchanges import POSE
@@ -19,14 +19,12 @@ from busservo_simulator import VirtualController
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.commands import Ended, called
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-    from busservo import Message
-
-Capture = pytest.CaptureFixture[str]
 
 PATIENT = ("--timeout", str(GENEROUS), "--baud", "inf")
 
@@ -37,24 +35,39 @@ def board() -> Iterator[VirtualController]:
         yield board
 
 
+class Desk(NamedTuple):
+    """A board, what it has understood, and the file of poses beside it."""
+
+    board: VirtualController
+    received: list[Message]
+    file: Path
+
+    def teach(self, *words: str, keys: str = "") -> Ended:
+        """Record poses, with these keys."""
+        line = ("teach", str(self.file), "--port", self.board.port, *PATIENT, *words)
+        return called(main, *line, given=keys)
+
+    def play(self, *words: str) -> Ended:
+        """Play what was recorded."""
+        return called(main, "play", str(self.file), "--port", self.board.port, *words)
+
+    @property
+    def poses(self) -> list[dict[int, int]]:
+        """The positions in the file."""
+        return [each.positions for each in read_poses(self.file, POSE)]
+
+
 @pytest.fixture
-def received(board: VirtualController) -> list[Message]:
-    """Return the messages that the board has understood, in order."""
-    messages: list[Message] = []
+def desk(board: VirtualController, tmp_path: Path) -> Desk:
+    received: list[Message] = []
     accepted = board.board.accepted
 
     def noted(message: Message) -> None:
-        messages.append(message)
+        received.append(message)
         accepted(message)
 
     board.board.accepted = noted  # type: ignore[method-assign]
-    return messages
-
-
-@pytest.fixture
-def typed(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Let the next command read these keys."""
-    return lambda keys: monkeypatch.setattr(sys, "stdin", io.StringIO(keys))
+    return Desk(board, received, tmp_path / "poses.json")
 
 
 def poses_of(*poses: Any, **more: Any) -> str:
@@ -62,151 +75,107 @@ def poses_of(*poses: Any, **more: Any) -> str:
     return json.dumps(whole)
 
 
-def kinds(messages: list[Message]) -> list[type[Message]]:
-    return [type(each) for each in messages]
-
-
 # ------------------------------------------------------------------ teach
 
 
-def test_poses_are_recorded_at_each_enter_and_held_at_the_end(
-    board: VirtualController, received: list[Message], typed: Any, tmp_path: Path, capsys: Capture
-) -> None:
-    file = tmp_path / "poses.json"
-    typed("y\n\nwhat\n\nq\ny\n")
-    assert main(["teach", str(file), "--port", board.port, *PATIENT]) == 0
-    output, errors = capsys.readouterr()
-    assert output == "pose 1  1:500,2:500,3:500\npose 2  1:500,2:500,3:500\n"
+def test_poses_are_recorded_at_each_enter_and_held_at_the_end(desk: Desk) -> None:
+    status, output, errors = desk.teach(keys="y\n\nwhat\n\nq\ny\n")
+    assert (status, output) == (0, "pose 1  1:500,2:500,3:500\npose 2  1:500,2:500,3:500\n")
     assert "servos 1, 2, 3 will go limp, and what they hold up falls: support it." in errors
     assert "'what' is not an answer; press Enter, or q and Enter" in errors
     assert "2 poses recorded; servos 1, 2, 3 held\n" in errors
     # The last of them may be on its way yet.
-    await_that(lambda: len(received) == 9)
-    assert received[4] == ServoUnload([1, 2, 3])
-    assert received[5:] == [
-        *(2 * [ServoPositionsRead([1, 2, 3])]),
-        ServoPositionsRead([1, 2, 3]),
+    await_that(lambda: len(desk.received) == 9)
+    assert desk.received[4:] == [
+        ServoUnload([1, 2, 3]),
+        *(3 * [ServoPositionsRead([1, 2, 3])]),
         ServoMove(time_ms=100, targets=[(1, 500), (2, 500), (3, 500)]),
     ]
-    assert file.read_text() == (
+    assert desk.file.read_text() == (
         '{\n  "format": "busservo poses",\n  "version": 1,\n  "poses": [\n'
         '    {"positions": {"1": 500, "2": 500, "3": 500}},\n'
         '    {"positions": {"1": 500, "2": 500, "3": 500}}\n  ]\n}\n'
     )
-    assert list(tmp_path.iterdir()) == [file]
+    assert list(desk.file.parent.iterdir()) == [desk.file]
 
 
-@pytest.mark.parametrize("keys", ["", "\n", "n\n", "q\n", "no\ny\n"])
-def test_no_servo_is_released_without_consent(
-    board: VirtualController,
-    received: list[Message],
-    typed: Any,
-    keys: str,
-    tmp_path: Path,
-    capsys: Capture,
-) -> None:
-    typed(keys)
-    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1"]
-    assert main([*words, *PATIENT]) == 1
-    assert received == []
-    assert "nothing was switched off, and nothing recorded" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+@in_turn("keys", lambda: ["", "\n", "n\n", "q\n", "no\ny\n"])
+def test_no_servo_is_released_without_consent(desk: Desk, keys: str) -> None:
+    status, _, errors = desk.teach("--ids", "1", keys=keys)
+    assert (status, desk.received) == (1, [])
+    assert "nothing was switched off, and nothing recorded" in errors
+    assert not desk.file.exists()
 
 
-@pytest.mark.parametrize(("keys", "expected"), [("\n", "are limp"), ("\nq\n", "are limp")])
-def test_servos_stay_limp_unless_holding_is_confirmed(
-    board: VirtualController, typed: Any, keys: str, expected: str, tmp_path: Path, capsys: Capture
-) -> None:
-    typed(keys)
-    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1-2"]
-    assert main([*words, *PATIENT]) == 0
-    assert f"1 pose recorded; servos 1, 2 {expected}" in capsys.readouterr().err
-    assert [board.servos[each].loaded for each in (1, 2, 3)] == [False, False, True]
+@pytest.mark.parametrize("keys", ["\n", "\nq\n"])
+def test_servos_stay_limp_unless_holding_is_confirmed(desk: Desk, keys: str) -> None:
+    status, _, errors = desk.teach("--yes", "--ids", "1-2", keys=keys)
+    assert status == 0
+    assert "1 pose recorded; servos 1, 2 are limp" in errors
+    assert [desk.board.servos[each].loaded for each in (1, 2, 3)] == [False, False, True]
 
 
-def test_the_hold_option_needs_no_confirmation(
-    board: VirtualController, typed: Any, tmp_path: Path
-) -> None:
-    typed("\n")
-    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--hold"]
-    assert main([*words, "--ids", "2", *PATIENT]) == 0
-    await_that(lambda: board.servos[2].loaded)
+def test_the_hold_option_needs_no_confirmation(desk: Desk) -> None:
+    assert desk.teach("--yes", "--hold", "--ids", "2", keys="\n").status == 0
+    await_that(lambda: desk.board.servos[2].loaded)
 
 
-def test_a_silent_servo_costs_only_the_pose(
-    board: VirtualController, received: list[Message], typed: Any, tmp_path: Path, capsys: Capture
-) -> None:
-    board.servos[2].off = True
-    typed("\nq\ny\n")
-    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1,2,9"]
-    assert main([*words, *PATIENT]) == 1
-    errors = capsys.readouterr().err
+def test_a_silent_servo_costs_only_the_pose(desk: Desk) -> None:
+    desk.board.servos[2].off = True
+    status, _, errors = desk.teach("--yes", "--ids", "1,2,9", keys="\nq\ny\n")
+    assert status == 1
     assert "nothing recorded: " in errors
     assert "are off or missing: servo_ids 2, 9" in errors
     assert "not held: " in errors
-    assert ServoMove not in kinds(received)
-    assert list(tmp_path.iterdir()) == []
+    assert ServoMove not in map(type, desk.received)
+    assert not desk.file.exists()
 
 
-def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(
-    board: VirtualController, typed: Any, tmp_path: Path, capsys: Capture
-) -> None:
-    typed("\nq\ny\n")
-    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--yes", "--ids", "1"]
-    assert main([*words, "--limits", "600..2500", *PATIENT]) == 1
+def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(desk: Desk) -> None:
+    words = ("--yes", "--ids", "1", "--limits", "600..2500")
+    status, _, errors = desk.teach(*words, keys="\nq\ny\n")
     problem = (
         "positions[0].position: 500 is outside the limits 600..2500; "
         "--limits 0..1000 is for what is usual, --limits 500..2500 is for PWM servo boards, "
         "--limits none sends anything\n"
     )
-    errors = capsys.readouterr().err
+    assert status == 1
     assert f"nothing recorded: {problem}" in errors
     assert f"not held: {problem}" in errors
-    assert list(tmp_path.iterdir()) == []
+    assert not desk.file.exists()
 
 
-def test_without_any_servo_nothing_is_released(typed: Any, tmp_path: Path, capsys: Capture) -> None:
-    typed("y\n")
+def test_without_any_servo_nothing_is_released(tmp_path: Path) -> None:
+    words = ("teach", str(tmp_path / "new"), "--port")
     with VirtualController("tcp", servos=[]) as board:
-        assert main(["teach", str(tmp_path / "new"), "--port", board.port, *PATIENT]) == 1
-    assert capsys.readouterr().err == "no servo is there: is the supply of the servos on?\n"
-    words = ["--timeout", "0.01", "--baud", "inf"]
-    assert main(["teach", str(tmp_path / "new"), "--port", "loop://", *words]) == 1
-    assert "no ServoPositions came within" in capsys.readouterr().err
+        done = called(main, *words, board.port, *PATIENT, given="y\n")
+    assert done == (1, "", "no servo is there: is the supply of the servos on?\n")
+    done = called(main, *words, "loop://", "--timeout", "0.01", "--baud", "inf")
+    assert done.status == 1
+    assert "no ServoPositions came within" in done.err
 
 
-def test_more_than_one_motion_moves_are_not_taught(
-    typed: Any, tmp_path: Path, capsys: Capture
-) -> None:
-    with VirtualController("tcp") as board:
-        words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1-84"]
-        assert main([*words, *PATIENT]) == 2
-    assert "84 servos are too many: one motion moves up to 83" in capsys.readouterr().err
+def test_more_than_one_motion_moves_are_not_taught(desk: Desk) -> None:
+    status, _, errors = desk.teach("--ids", "1-84")
+    assert status == 2
+    assert "84 servos are too many: one motion moves up to 83" in errors
 
 
-def test_an_existing_file_is_never_overwritten_without_consent(
-    board: VirtualController, received: list[Message], typed: Any, tmp_path: Path, capsys: Capture
-) -> None:
-    file = tmp_path / "poses.json"
-    file.write_text(poses_of({"positions": {"7": 100}, "time_ms": 50, "pause_s": 0.5}))
-    before = file.read_text()
-    words = ["teach", str(file), "--port", board.port, "--yes", "--ids", "1-3", *PATIENT]
-    assert main(words) == 2
-    assert "exists already; --append adds to its poses" in capsys.readouterr().err
-    assert (received, file.read_text()) == ([], before)
-    typed("q\nn\n")
-    assert main([*words, "--force"]) == 1
-    assert file.read_text() == before
-    typed("\nq\nn\n")
-    assert main([*words, "--append"]) == 0
-    assert [each.positions for each in read_poses(file, POSE)] == [
-        {7: 100},
-        {1: 500, 2: 500, 3: 500},
-    ]
-    assert read_poses(file, POSE)[0] == Recorded({7: 100}, 50, 0.5)
-    typed("\nq\nn\n")
-    assert main([*words, "--force"]) == 0
-    assert [each.positions for each in read_poses(file, POSE)] == [{1: 500, 2: 500, 3: 500}]
+def test_an_existing_file_is_never_overwritten_without_consent(desk: Desk) -> None:
+    before = poses_of({"positions": {"7": 100}, "time_ms": 50, "pause_s": 0.5})
+    desk.file.write_text(before)
+    words = ("--yes", "--ids", "1-3")
+    status, _, errors = desk.teach(*words)
+    assert status == 2
+    assert "exists already; --append adds to its poses" in errors
+    assert (desk.received, desk.file.read_text()) == ([], before)
+    assert desk.teach(*words, "--force", keys="q\nn\n").status == 1
+    assert desk.file.read_text() == before
+    assert desk.teach(*words, "--append", keys="\nq\nn\n").status == 0
+    assert desk.poses == [{7: 100}, {1: 500, 2: 500, 3: 500}]
+    assert read_poses(desk.file, POSE)[0] == Recorded({7: 100}, 50, 0.5)
+    assert desk.teach(*words, "--force", keys="\nq\nn\n").status == 0
+    assert desk.poses == [{1: 500, 2: 500, 3: 500}]
 
 
 class Folder:
@@ -217,27 +186,23 @@ class Folder:
 
 
 def test_where_nobody_can_answer_nothing_is_released(
-    board: VirtualController,
-    received: list[Message],
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    capsys: Capture,
+    desk: Desk, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "stdin", Folder())
-    words = ["teach", str(tmp_path / "new"), "--port", board.port, "--ids", "1", *PATIENT]
+    words = ["teach", str(desk.file), "--port", desk.board.port, "--ids", "1", *PATIENT]
     assert main(words) == 1
     assert "nothing was switched off" in capsys.readouterr().err
-    assert received == []
+    assert desk.received == []
     assert main([*words, "--yes"]) == 1
     assert "0 poses recorded; servo 1 is limp\n" in capsys.readouterr().err
 
 
 def test_limp_servos_are_named_when_a_pose_cannot_be_written(
-    board: VirtualController, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: Capture
+    desk: Desk, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    folder = tmp_path / "folder"
+    folder = desk.file.parent / "folder"
     folder.mkdir()
-    words = ["teach", str(folder / "new"), "--port", board.port, "--ids", "1", "--yes", *PATIENT]
+    words = ["--port", desk.board.port, "--ids", "1", "--yes", *PATIENT]
 
     class Removed(io.StringIO):
         def readline(self, *_: Any) -> Any:
@@ -245,17 +210,16 @@ def test_limp_servos_are_named_when_a_pose_cannot_be_written(
             return "\n"
 
     monkeypatch.setattr(sys, "stdin", Removed())
-    assert main(words) == 2
+    assert main(["teach", str(folder / "new"), *words]) == 2
     errors = capsys.readouterr().err
     assert "0 poses recorded; servo 1 is limp\n" in errors
     assert "new cannot be written: No such file or directory" in errors
 
 
-def test_an_unwritable_file_is_reported_before_any_servo_is_released(
-    tmp_path: Path, capsys: Capture
-) -> None:
-    assert main(["teach", str(tmp_path / "no" / "new"), "--port", "loop://"]) == 2
-    assert "there is no folder" in capsys.readouterr().err
+def test_an_unwritable_file_is_reported_before_any_servo_is_released(desk: Desk) -> None:
+    status, _, errors = desk._replace(file=desk.file / "no" / "new").teach()
+    assert (status, desk.received) == (2, [])
+    assert "there is no folder" in errors
 
 
 # ------------------------------------------------------------------ play
@@ -267,40 +231,33 @@ TWO = (
 )
 
 
-def test_poses_are_played_in_their_order(
-    board: VirtualController, received: list[Message], tmp_path: Path, capsys: Capture
-) -> None:
-    file = tmp_path / "poses.json"
-    file.write_text(poses_of(*TWO))
-    words = ["--port", board.port, "--time-ms", "30", "--repeat", "2"]
-    assert main(["play", str(file), *words]) == 0
+def test_poses_are_played_in_their_order(desk: Desk) -> None:
+    desk.file.write_text(poses_of(*TWO))
+    status, output, errors = desk.play("--time-ms", "30", "--repeat", "2")
     cycle = [
         ServoMove(time_ms=20, targets=[(1, 600), (2, 400)]),
         ServoMove(time_ms=30, targets=[(1, 500)]),
     ]
     # The last of them may be on its way yet.
-    assert received[:3] == [*cycle, cycle[0]]
-    output, errors = capsys.readouterr()
+    assert desk.received[:3] == [*cycle, cycle[0]]
     times = [float(line.split()[0]) for line in output.splitlines()]
     assert [line.split()[1:3] for line in output.splitlines()] == 2 * [["pose", "1"], ["pose", "2"]]
     # Nothing is sent before the motion before it has had its time, and the pause after it.
     waits = [after - before for before, after in itertools.pairwise(times)]
     assert all(wait >= least for wait, least in zip(waits, [0.02, 0.04, 0.02], strict=True))
-    assert errors == "4 of 4 poses played\n"
+    assert (status, errors) == (0, "4 of 4 poses played\n")
 
 
-def test_what_would_be_played_is_shown_and_not_sent(tmp_path: Path, capsys: Capture) -> None:
-    file = tmp_path / "poses.json"
-    file.write_text(poses_of(*TWO))
-    assert main(["play", str(file), "--dry-run", "--pause", "1"]) == 0
-    output, errors = capsys.readouterr()
+def test_what_would_be_played_is_shown_and_not_sent(desk: Desk) -> None:
+    desk.file.write_text(poses_of(*TWO))
+    status, output, errors = called(main, "play", str(desk.file), "--dry-run", "--pause", "1")
     assert output.splitlines() == [
         "    0.000000  pose 1  ServoMove time_ms=20 ms targets=1:600,2:400",
         "    1.033542  pose 2  ServoMove time_ms=1000 ms targets=1:500",
     ]
-    assert errors == "2 poses in 2.054 s: nothing was sent\n"
-    assert main(["play", str(file), "--dry-run", "--baud", "inf"]) == 0
-    assert capsys.readouterr().err == "2 poses in 1.030 s: nothing was sent\n"
+    assert (status, errors) == (0, "2 poses in 2.054 s: nothing was sent\n")
+    assert desk.play("--dry-run", "--baud", "inf").err == "2 poses in 1.030 s: nothing was sent\n"
+    assert desk.received == []
 
 
 GOOD = {"positions": {"1": 500}}
@@ -353,49 +310,44 @@ REFUSED: list[tuple[str, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("text", "expected"), REFUSED, ids=lambda each: each[-60:])
+@in_turn("text, expected", lambda: REFUSED, ids=lambda row: repr(row[1]))
 def test_a_file_is_looked_at_as_a_whole_before_the_port_is_opened(
-    text: str, expected: str, tmp_path: Path, capsys: Capture
+    text: str, expected: str, tmp_path: Path
 ) -> None:
     file = tmp_path / "poses.json"
     file.write_text(text, encoding="utf-8")
-    assert main(["play", str(file), "--port", "no-such-port"]) == 2
-    output, errors = capsys.readouterr()
-    assert output == ""
+    status, output, errors = called(main, "play", str(file), "--port", "no-such-port")
+    assert (status, output) == (2, "")
     assert errors.startswith(f"busservo: error: {file}")
     assert expected in errors
     assert len(errors) < 500
 
 
-def test_an_unreadable_file_is_reported(tmp_path: Path, capsys: Capture) -> None:
+@in_turn("name", lambda: ["missing", "raw", "."])
+def test_an_unreadable_file_is_reported(tmp_path: Path, name: str) -> None:
     (tmp_path / "raw").write_bytes(b"\xff\x00")
-    for name in ("missing", "raw", "."):
-        assert main(["play", str(tmp_path / name), "--dry-run"]) == 2
-        assert "cannot be read: " in capsys.readouterr().err
+    status, _, errors = called(main, "play", str(tmp_path / name), "--dry-run")
+    assert status == 2
+    assert "cannot be read: " in errors
 
 
-def test_positions_for_other_boards_are_played_where_limits_say_so(
-    board: VirtualController, received: list[Message], tmp_path: Path
-) -> None:
-    file = tmp_path / "poses.json"
-    file.write_text(poses_of({"positions": {"1": 2500}, "time_ms": 1}, {"positions": {"1": 500}}))
-    words = ["play", str(file), "--port", board.port, "--time-ms", "1"]
-    assert main([*words, "--limits", "500..2500"]) == 0
-    assert received[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
+def test_positions_for_other_boards_are_played_where_limits_say_so(desk: Desk) -> None:
+    beyond = {"positions": {"1": 2500}, "time_ms": 1}
+    desk.file.write_text(poses_of(beyond, {"positions": {"1": 500}}))
+    assert desk.play("--time-ms", "1", "--limits", "500..2500").status == 0
+    assert desk.received[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
 
 
-def test_send_refuses_what_is_outside_the_limits(
-    board: VirtualController, received: list[Message], capsys: Capture
-) -> None:
-    words = ["send", "--port", board.port, "ServoMove", "time_ms=1", "targets=1:500,2:1500"]
-    assert main(words) == 2
-    assert capsys.readouterr().err == (
+def test_send_refuses_what_is_outside_the_limits(desk: Desk) -> None:
+    words = ("send", "--port", desk.board.port, "ServoMove", "time_ms=1", "targets=1:500,2:1500")
+    problem = (
         "busservo: error: targets[1].position: 1500 is outside the limits 0..1000; "
         "--limits 500..2500 is for PWM servo boards, --limits none sends anything\n"
     )
-    assert received == []
+    assert called(main, *words) == (2, "", problem)
+    assert desk.received == []
     for limits in ("500..2500", "none"):
-        assert main([*words, "--limits", limits]) == 0
+        assert called(main, *words, "--limits", limits).status == 0
 
 
 # ------------------------------------------------------------------ the file
