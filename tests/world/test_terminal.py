@@ -15,7 +15,7 @@ if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)
 
 from tests.lines.boards import no_board_refuses_anything
-from tests.lines.terminal import OnTerminal, run, start
+from tests.lines.terminal import OnTerminal, start
 from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
@@ -110,17 +110,6 @@ def test_a_pipe_that_is_closed_ends_a_monitor(board: VirtualController, tmp_path
     assert len(errors.splitlines()) == 1
 
 
-def test_a_full_disk_behind_standard_output_is_reported() -> None:
-    with open("/dev/full", "w") as full:  # noqa: PTH123 - a device
-        done = run(
-            "decode", "55 55 02 07", stdout=full, stderr=subprocess.PIPE, capture_output=False
-        )
-    assert done.returncode == 2
-    errors = done.stderr.splitlines()
-    assert "the output cannot be written" in errors[-1]
-    assert "Traceback" not in done.stderr
-
-
 @pytest.mark.parametrize("via", ["pty", "tcp"])
 def test_a_lost_line_is_reported_and_the_log_is_kept(tmp_path: Path, via: str) -> None:
     log = tmp_path / "line.hex"
@@ -185,21 +174,6 @@ def test_ctrl_c_ends_a_replay_and_says_how_far_it_got(
         assert rest == ""
     await_that(lambda: board.accepted == 1)
     assert board.rejects.total == 0
-
-
-def test_a_replay_reports_a_lost_line(board: VirtualController, tmp_path: Path) -> None:
-    log = tmp_path / "line.hex"
-    log.write_text("55 55 02 0F  # 0.0 s, host: a\n55 55 02 0F  # 3600.0 s, host: another\n")
-    replay = start("replay", str(log), "--port", board.port)
-    assert replay.stdout is not None
-    assert replay.stdout.readline().endswith("  BatteryVoltageRead | 55 55 02 0F\n")
-    assert replay.stdout.readline().endswith(f"  controller  {BATTERY}\n")
-    board.unplug()
-    _, errors = replay.communicate(timeout=GENEROUS)
-    assert replay.returncode == 3
-    totals, error = errors.splitlines()
-    assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: 6 bytes: 1 message")
-    assert "the line was lost" in error
 
 
 def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualController) -> None:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 import shutil
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import pytest
 from framegen.cli import main
 from framegen.witnesses import DECLARATION, read_witnesses
 
+from tests.commands import called
 from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, ROOT, data_of
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
 # Kind, file and subject.
 Missing: TypeAlias = "tuple[str, str, str]"
 
@@ -59,37 +60,61 @@ NAMED = """\
 """
 
 
+class Project(NamedTuple):
+    """A copy of a spec, of the files written by hand beside it, and of their list."""
+
+    folder: Path
+
+    @property
+    def spec(self) -> Path:
+        """The spec of busservo."""
+        return self.folder / "spec" / "busservo.yaml"
+
+    def edit(self, file: str, *edits: tuple[str, str]) -> None:
+        """Replace texts of a file, each of which is there once."""
+        text = (self.folder / file).read_text(encoding="utf-8")
+        for old, new in edits:
+            assert text.count(old) == 1, old
+            text = text.replace(old, new)
+        self.write(file, text)
+
+    def write(self, file: str, text: str) -> None:
+        """Write a file."""
+        (self.folder / file).write_text(text, encoding="utf-8")
+
+    def declare(self, of: str, text: str, protocol: str = "busservo") -> None:
+        """Declare one witness for a protocol, a file in which nothing is written."""
+        declared = LAYOUT.replace("{of}", of).replace("{text}", text)
+        self.write(DECLARATION, declared.replace("busservo", protocol))
+        self.write("made_up.txt", "")
+
+    def missing(self, spec: Path | None = None) -> list[Missing]:
+        """Return the findings of the command."""
+        status, printed, _ = called(main, "missing", "--json", str(spec or self.spec))
+        found = [json.loads(line) for line in printed.splitlines()]
+        assert status == bool(found)
+        return [(each["kind"], each["in"], each["path"]) for each in found]
+
+    def refusal(self) -> str:
+        """Return what the command says where it can find nothing."""
+        status, printed, errors = called(main, "missing", str(self.spec))
+        assert (status, printed) == (2, "")
+        return errors.removeprefix("framegen: error: ")
+
+
 @pytest.fixture
-def project(tmp_path: Path) -> Path:
-    """Return a copy of the spec, of the files written by hand beside it, and of their list."""
+def project(tmp_path: Path) -> Project:
     witnesses = read_witnesses(ROOT, "busservo") or []
     for path in ("spec/busservo.yaml", DECLARATION, *(each.file for each in witnesses)):
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / path, tmp_path / path)
-    return tmp_path
+    return Project(tmp_path)
 
 
-def edit(file: Path, *edits: tuple[str, str]) -> None:
-    text = file.read_text(encoding="utf-8")
-    for old, new in edits:
-        assert text.count(old) == 1, old
-        text = text.replace(old, new)
-    file.write_text(text, encoding="utf-8")
-
-
-def missing(project: Path, capsys: Capture) -> list[Missing]:
-    """Return the findings of the command in a project."""
-    status = main(["missing", "--json", str(project / "spec" / "busservo.yaml")])
-    found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert status == bool(found)
-    return [(each["kind"], each["in"], each["path"]) for each in found]
-
-
-def test_nothing_is_missing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    status = main(["missing"])
-    printed = capsys.readouterr()
-    said = f"what a change of the spec needs is to be written first:\n\n{printed.out}"
+    status, printed, _ = called(main, "missing")
+    said = f"what a change of the spec needs is to be written first:\n\n{printed}"
     assert status == 0, f"{said}(in a run of all tests, no other test was run)"
 
 
@@ -142,30 +167,26 @@ CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[s
 
 
 @pytest.mark.parametrize("what", CHANGES)
-def test_what_a_change_needs_is_named_until_it_is_there(
-    what: str, project: Path, capsys: Capture
-) -> None:
+def test_what_a_change_needs_is_named_until_it_is_there(what: str, project: Project) -> None:
     changes, needed, written = CHANGES[what]
-    assert missing(project, capsys) == []
-    edit(project / "spec" / "busservo.yaml", *changes)
-    assert missing(project, capsys) == needed
+    assert project.missing() == []
+    project.edit("spec/busservo.yaml", *changes)
+    assert project.missing() == needed
     for file, text in written.items():
-        edit(project / file, text)
+        project.edit(file, text)
         needed = [each for each in needed if each[1] != file]
-        assert missing(project, capsys) == needed
+        assert project.missing() == needed
     assert needed == []
 
 
 def test_the_report_says_where_to_write_what_and_why(
-    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    edit(project / "spec" / "busservo.yaml", *CHANGES["a command"][0])
-    monkeypatch.chdir(project)
-    assert main(["missing"]) == 1
-    printed = capsys.readouterr()
-    first = printed.out.split("\n\n")[0].splitlines()
-    text = (project / "spec" / "busservo.yaml").read_text(encoding="utf-8").splitlines()
-    line = text.index("  HornBlow:") + 1
+    project.edit("spec/busservo.yaml", *CHANGES["a command"][0])
+    monkeypatch.chdir(project.folder)
+    status, printed, errors = called(main, "missing")
+    first = printed.split("\n\n")[0].splitlines()
+    line = project.spec.read_text(encoding="utf-8").splitlines().index("  HornBlow:") + 1
     assert first[:3] == [
         "tests/cases.py: HornBlow has no case",
         f"    = see: spec/busservo.yaml:{line}:3",
@@ -173,8 +194,8 @@ def test_the_report_says_where_to_write_what_and_why(
     ]
     assert first[3].startswith("    = why: ")
     messages = len(data_of(BUSSERVO)["messages"]) + 1
-    assert printed.err.startswith(f"spec/busservo.yaml: {messages} messages, ")
-    assert printed.err.endswith(" files: 3 missing\n")
+    assert errors.startswith(f"spec/busservo.yaml: {messages} messages, ")
+    assert (status, errors.endswith(" files: 3 missing\n")) == (1, True)
 
 
 # ------------------------------------------------------------------ how it is looked for
@@ -190,14 +211,9 @@ busservo:
 """
 
 
-def declare(project: Path, of: str, text: str) -> None:
-    declared = LAYOUT.replace("{of}", of).replace("{text}", text)
-    (project / "tests" / "witnesses.yaml").write_text(declared, encoding="utf-8")
-
-
-@pytest.mark.parametrize(
-    ("of", "text", "written", "found"),
-    [
+@in_turn(
+    "of, text, written, found",
+    lambda: [
         ("messages", "Case({message}(", "Case(ServoMove(1))", True),
         ("messages", "Case({message}(", "Case (\n  ServoMove\n(1))", True),
         ("messages", "Case({message}(", "BadCase(ServoMove(1))", False),
@@ -219,24 +235,30 @@ def declare(project: Path, of: str, text: str) -> None:
     ],
 )
 def test_a_pattern_matches_the_name_or_value_it_is_made_of(
-    of: str, text: str, written: str, found: bool, project: Path, capsys: Capture
+    of: str, text: str, written: str, found: bool, named: Project
 ) -> None:
-    about = "        about: How long the motion takes.\n"
-    named = f"{about}        values: {{never: {{value: 800, about: x}}}}\n"
-    edit(project / "spec" / "busservo.yaml", (about, named))
-    declare(project, of, text)
-    (project / "made_up.txt").write_text(written, encoding="utf-8")
+    named.declare(of, text)
+    named.write("made_up.txt", written)
     names = {
         "fields": "ServoMove.fields.time_ms",
         "values": "ServoMove.fields.time_ms.values.never",
     }
     sought = ("case", "made_up.txt", f"messages.{names.get(of, 'ServoMove')}")
-    assert (sought not in missing(project, capsys)) is found
+    assert (sought not in named.missing()) is found
 
 
-@pytest.mark.parametrize(
-    ("of", "text", "written", "gone"),
-    [
+@pytest.fixture
+def named(project: Project) -> Project:
+    """Return a project in whose spec a value of ServoMove has a name."""
+    about = "        about: How long the motion takes.\n"
+    value = f"{about}        values: {{never: {{value: 800, about: x}}}}\n"
+    project.edit("spec/busservo.yaml", (about, value))
+    return project
+
+
+@in_turn(
+    "of, text, written, gone",
+    lambda: [
         ("fields", "x {message}.{field}", "x Flags.error", "messages.Flags.fields.error"),
         ("bits", "BIT_{FIELD}_{BIT}", "BIT_ERROR_HEAT", "messages.Flags.fields.error.bits.heat"),
         (
@@ -249,74 +271,55 @@ def test_a_pattern_matches_the_name_or_value_it_is_made_of(
     ],
 )
 def test_bits_and_addresses_can_have_witnesses_too(
-    of: str, text: str, written: str, gone: str, project: Path, capsys: Capture
+    of: str, text: str, written: str, gone: str, project: Project
 ) -> None:
-    spec = project / "spec" / "everything.yaml"
+    spec = project.folder / "spec" / "everything.yaml"
     shutil.copy(DEMO.with_name(spec.name), spec)
-    declared = LAYOUT.replace("busservo", "everything")
-    declared = declared.replace("{of}", of).replace("{text}", text)
-    (project / DECLARATION).write_text(declared, encoding="utf-8")
-    (project / "made_up.txt").write_text("", encoding="utf-8")
-    assert main(["missing", "--json", str(spec)]) == 1
-    before = [json.loads(line)["path"] for line in capsys.readouterr().out.splitlines()]
-    (project / "made_up.txt").write_text(written, encoding="utf-8")
-    main(["missing", "--json", str(spec)])
-    after = [json.loads(line)["path"] for line in capsys.readouterr().out.splitlines()]
-    assert [each for each in before if each not in after] == [gone]
+    project.declare(of, text, "everything")
+    before = project.missing(spec)
+    project.write("made_up.txt", written)
+    after = project.missing(spec)
+    assert [path for _, _, path in before if path not in [each[2] for each in after]] == [gone]
 
 
-def test_what_every_frame_has_is_no_field(project: Path, capsys: Capture) -> None:
-    spec = project / "spec" / "everything.yaml"
+def test_what_every_frame_has_is_no_field(project: Project) -> None:
+    spec = project.folder / "spec" / "everything.yaml"
     shutil.copy(DEMO.with_name(spec.name), spec)
-    declared = LAYOUT.replace("busservo", "everything").replace("{of}", "fields")
-    (project / DECLARATION).write_text(declared.replace("{text}", "x {field}"), encoding="utf-8")
-    (project / "made_up.txt").write_text("", encoding="utf-8")
-    main(["missing", str(spec)])
-    printed = capsys.readouterr()
-    assert "Numbers.a_u8 has no case" in printed.out
-    assert "station" not in printed.out
-    assert "sequence" not in printed.out
+    project.declare("fields", "x {field}", "everything")
+    printed = called(main, "missing", str(spec)).out
+    assert "Numbers.a_u8 has no case" in printed
+    assert "station" not in printed
+    assert "sequence" not in printed
 
 
 # ------------------------------------------------------------------ what is no use
 
 
-def refusal(project: Path, capsys: Capture) -> str:
-    assert main(["missing", str(project / "spec" / "busservo.yaml")]) == 2
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    return printed.err.removeprefix("framegen: error: ")
-
-
 @pytest.mark.parametrize("declared", [None, "kiln: {}\n"])
 def test_without_declarations_nothing_is_reported_complete(
-    declared: str | None, project: Path, capsys: Capture
+    declared: str | None, project: Project
 ) -> None:
-    file = project / "tests" / "witnesses.yaml"
     if declared is None:
-        file.unlink()
+        (project.folder / DECLARATION).unlink()
     else:
-        file.write_text(declared, encoding="utf-8")
-    spec = (project / "spec" / "busservo.yaml").as_posix()
+        project.write(DECLARATION, declared)
     messages = len(data_of(BUSSERVO)["messages"])
-    assert refusal(project, capsys) == (
-        f"{spec} has {messages} messages, and no witness is declared for it: "
+    assert project.refusal() == (
+        f"{project.spec.as_posix()} has {messages} messages, and no witness is declared for it: "
         "nothing was looked for\n  hint: tests/witnesses.yaml declares them, by the name of the "
         "protocol: `busservo: {}` for none\n"
     )
 
 
-def test_a_project_may_have_no_witness(project: Path, capsys: Capture) -> None:
-    (project / "tests" / "witnesses.yaml").write_text("busservo: {}\n", encoding="utf-8")
-    spec = project / "spec" / "busservo.yaml"
-    assert main(["missing", str(spec)]) == 0
-    said = f"{spec.as_posix()}: nothing looked up in 0 files: nothing is missing\n"
-    assert capsys.readouterr().err == said
+def test_a_project_may_have_no_witness(project: Project) -> None:
+    project.write(DECLARATION, "busservo: {}\n")
+    said = f"{project.spec.as_posix()}: nothing looked up in 0 files: nothing is missing\n"
+    assert called(main, "missing", str(project.spec)) == (0, "", said)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
+@in_turn(
+    "old, new, said",
+    lambda: [
         ("messages", "mesages", "3:5: busservo.case.of: nothing of a spec is `mesages`"),
         ("    of: messages\n", "", "2:3: busservo.case.of: is missing"),
         ("    why:", "    because:", "7:5: busservo.case.because: no such key"),
@@ -331,24 +334,25 @@ def test_a_project_may_have_no_witness(project: Path, capsys: Capture) -> None:
     ],
 )
 def test_an_invalid_declaration_is_reported_with_its_place(
-    old: str, new: str, said: str, project: Path, capsys: Capture
+    old: str, new: str, said: str, project: Project
 ) -> None:
-    declare(project, "messages", "Case({message}(")
-    (project / "made_up.txt").write_text("", encoding="utf-8")
-    edit(project / "tests" / "witnesses.yaml", (old, new))
-    refused = refusal(project, capsys)
+    project.declare("messages", "Case({message}(")
+    project.edit(DECLARATION, (old, new))
     place = "" if said.startswith("tests") else "tests/witnesses.yaml:"
-    assert refused.startswith(place + said)
+    assert project.refusal().startswith(place + said)
 
 
-@pytest.mark.parametrize(
-    ("data", "why"), [(None, "No such file or directory"), (b"\xff", "it is not UTF-8 text")]
+@in_turn(
+    "data, why", lambda: [(None, "No such file or directory"), (b"\xff", "it is not UTF-8 text")]
 )
 def test_a_file_that_cannot_be_read_is_reported(
-    data: bytes | None, why: str, project: Path, capsys: Capture
+    data: bytes | None, why: str, project: Project
 ) -> None:
-    declare(project, "messages", "Case({message}(")
-    if data is not None:
-        (project / "made_up.txt").write_bytes(data)
+    project.declare("messages", "Case({message}(")
+    file = project.folder / "made_up.txt"
+    if data is None:
+        file.unlink()
+    else:
+        file.write_bytes(data)
     said = f"made_up.txt, which tests/witnesses.yaml names, cannot be read: {why}\n"
-    assert refusal(project, capsys).startswith(said)
+    assert project.refusal().startswith(said)

@@ -1,7 +1,7 @@
 """Imports point only downwards, in the generator and in the libraries that it makes."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -41,7 +41,6 @@ LAYERS = [
     {"cli"},
     {"__main__"},
 ]
-LAYER = {part: height for height, layer in enumerate(LAYERS) for part in layer}
 
 # The only parts that may import a name: all others are given the result.
 ALONE = {
@@ -92,19 +91,34 @@ def imported(file: Path) -> Iterator[str]:
 MODULES = list(modules())
 
 
-def test_every_part_of_framegen_has_its_layer() -> None:
-    assert {part for part, _ in MODULES} <= set(LAYER)
+def upwards(
+    layers: list[set[str]], modules: Iterable[tuple[str, Path, Iterable[str]]]
+) -> list[tuple[str, str]]:
+    """Return the imports that do not point downwards, of (part, file, parts that it imports).
+
+    Each part has its layer, and each layer its parts.
+    """
+    layer = {part: height for height, those in enumerate(layers) for part in those}
+    known = [*modules]
+    assert {part for part, _, _ in known} == set(layer)
+    return [
+        (file.as_posix(), other)
+        for part, file, others in known
+        for other in others
+        if other != part and layer[other] >= layer[part]
+    ]
+
+
+def parts_imported(file: Path) -> Iterator[str]:
+    """Yield the parts of the generator that one of its modules imports."""
+    names = (name.split(".") for name in imported(file))
+    yield from (_part(tuple(inner)) for package, *inner in names if package == "framegen")
 
 
 def test_imports_point_downwards() -> None:
-    upwards = [
-        (file.relative_to(GENERATOR).as_posix(), name)
-        for part, file in MODULES
-        for name in imported(file)
-        if name.startswith("framegen.")
-        if (other := _part(tuple(name.split(".")[1:]))) != part and LAYER[other] >= LAYER[part]
-    ]
-    assert upwards == []
+    package = [("__version__", GENERATOR / "__init__.py")]
+    found = ((part, file, parts_imported(file)) for part, file in [*package, *MODULES])
+    assert upwards(LAYERS, found) == []
 
 
 @pytest.mark.parametrize("name", ALONE)
@@ -131,9 +145,6 @@ LIBRARY_LAYERS = [
     {"__main__"},
     {"__init__"},
 ]
-LIBRARY_LAYER = {
-    package: height for height, layer in enumerate(LIBRARY_LAYERS) for package in layer
-}
 PARTS = sorted(file.relative_to(LIBRARY) for file in LIBRARY.rglob("*.py"))
 
 
@@ -145,29 +156,12 @@ def needed(path: Path) -> Iterator[str]:
             yield from (name.partition(".")[0] for name in names)
 
 
-def test_every_part_of_a_library_has_its_layer() -> None:
-    assert {path.with_suffix("").parts[0] for path in PARTS} == set(LIBRARY_LAYER)
+def part_of(path: Path) -> str:
+    return path.with_suffix("").parts[0]
 
 
 def test_imports_of_a_library_point_downwards() -> None:
-    upwards = [
-        (path.as_posix(), name)
-        for path in PARTS
-        for name in needed(path)
-        if LIBRARY_LAYER[name] > LIBRARY_LAYER[path.with_suffix("").parts[0]]
-    ]
-    assert upwards == []
-
-
-def test_parts_of_one_layer_do_not_import_each_other() -> None:
-    beside = [
-        (path.as_posix(), name)
-        for path in PARTS
-        for name in needed(path)
-        if name != path.with_suffix("").parts[0]
-        if LIBRARY_LAYER[name] == LIBRARY_LAYER[path.with_suffix("").parts[0]]
-    ]
-    assert beside == []
+    assert upwards(LIBRARY_LAYERS, ((part_of(path), path, needed(path)) for path in PARTS)) == []
 
 
 # ------------------------------------------------------------------ the tables of a library
@@ -185,7 +179,6 @@ TABLES_LAYERS = [
     {"archive"},
     {"__init__"},
 ]
-TABLES_LAYER = {part: height for height, layer in enumerate(TABLES_LAYERS) for part in layer}
 TABLES = [path.relative_to("_tables") for path in PARTS if path.parts[0] == "_tables"]
 
 
@@ -197,11 +190,5 @@ def needed_in_tables(path: Path) -> Iterator[str]:
 
 
 def test_imports_of_tables_point_downwards() -> None:
-    assert {path.with_suffix("").parts[0] for path in TABLES} == set(TABLES_LAYER)
-    upwards = [
-        (path.as_posix(), name)
-        for path in TABLES
-        for name in needed_in_tables(path)
-        if TABLES_LAYER[name] >= TABLES_LAYER[path.with_suffix("").parts[0]]
-    ]
-    assert upwards == []
+    found = ((part_of(path), path, needed_in_tables(path)) for path in TABLES)
+    assert upwards(TABLES_LAYERS, found) == []

@@ -121,11 +121,6 @@ def test_a_run_that_ends_with_the_line_is_still_reported_as_json(
     assert not report["passed"]
 
 
-def test_an_unknown_form_is_refused() -> None:
-    with pytest.raises(Unusable, match="there is no badge for firmware"):
-        run(MODEL, VirtualLine(), form="badge")
-
-
 def test_a_session_writes_nothing_that_is_not_allowed() -> None:
     line = VirtualLine()
     command = commands(permit(MODEL, ["ServoMove"]))[0]

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.contract.independent.firmware import Reader, well_formed
-from tests.factories import BUSSERVO, DEMO, Data, compiled_file, data_of, layout_of
+from tests.factories import BUSSERVO, Data, compiled_file, data_of, layout_of
 from tests.in_turn import in_turn
 from tests.lines.devices import Answer, VirtualLine, by_the_reference
 from tests.protocols.specs import FILES
@@ -180,11 +180,6 @@ def test_what_is_only_acknowledged_is_a_command(name: str, queries: list[str]) -
     assert not set(queries) & set(permission.commands)
 
 
-def test_an_allowed_command_is_not_refused() -> None:
-    stop = bytes.fromhex("55 55 02 07")
-    assert permit(MODEL, ["ActionGroupStop"]).objection(stop) == ""
-
-
 @given(st.lists(st.one_of(st.sampled_from([0x55, 2, 7]), st.integers(0, 255)), max_size=12))
 def test_what_is_not_refused_holds_no_command_for_the_librarys_decoder(ids: list[int]) -> None:
     data = bytes([0x55, 0x55, len(ids) + 3, 21, len(ids), *ids])
@@ -258,14 +253,6 @@ def test_a_name_that_cannot_be_allowed_is_reported_with_those_that_can(
 
 
 SPECS = Path(__file__).parents[3] / "specs"
-
-
-@pytest.mark.parametrize("file", [DEMO, SPECS / "blinds.yaml"], ids=lambda file: file.stem)
-def test_a_device_of_another_protocol_passes(file: Path) -> None:
-    model = model_of(file)
-    done = run(model, VirtualLine(by_the_reference(model)), "--malformed")
-    assert (done.code, done.faults) == (0, [])
-    assert sum(step["malformed"] for step in done.report["steps"]) >= 3
 
 
 # Frames of another kind, whether or not a spec can have them yet.

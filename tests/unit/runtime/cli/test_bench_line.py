@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import re
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
+from unittest import mock
 
 import pytest
 from busservo import BatteryVoltage, Message, ServoPositions
@@ -12,8 +14,12 @@ from busservo._cli import bench_line, main
 from busservo._client.client import Client
 from busservo_simulator import Faults, VirtualController
 
+from tests.commands import called
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
+
+if TYPE_CHECKING:
+    from tests.commands import Ended
 
 Capture = pytest.CaptureFixture[str]
 
@@ -60,37 +66,36 @@ def test_a_line_that_takes_no_time_allows_any_rate(capsys: Capture) -> None:
     assert (found["baud"], found["wire"], found["share"]) == (None, 0.0, None)
 
 
-def test_replies_faster_than_the_line_rate_are_reported(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
+def measured(line: VirtualLine, *words: str) -> Ended:
+    """Measure the line to a device, in its own time."""
     client = Client(line, background=False, clock=line.clock, settle=0)
-    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
-    monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
-    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
-    output = capsys.readouterr().out
+    with (
+        mock.patch.object(bench_line, "open_client", return_value=client),
+        mock.patch.object(bench_line, "time", SimpleNamespace(perf_counter=line.clock)),
+    ):
+        return called(main, "bench-line", "--port", "COM7", *words)
+
+
+def test_replies_faster_than_the_line_rate_are_reported() -> None:
+    line = VirtualLine(lambda _: [(0.001, BatteryVoltage(7500))])
+    status, output, _ = measured(line, "-n", "30")
+    assert status == 0
     assert "it is faster than that rate, so try --baud inf" in output
     assert "too soon        3 questions had a reply that no such wire can have carried" in output
     assert "slips" not in output
 
 
-def test_a_duplicate_reply_is_counted_and_not_taken_for_speed(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_duplicate_reply_is_counted_and_not_taken_for_speed() -> None:
     reply = BatteryVoltage(7500)
     twice: list[tuple[float, bytes | Message]] = [(0.0105, reply), (0.0107, reply)]
     answers = iter([twice])
-    line = VirtualLine(lambda _: next(answers, twice[:1]))
-    client = Client(line, background=False, clock=line.clock, settle=0)
-    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
-    monkeypatch.setattr(bench_line, "time", SimpleNamespace(perf_counter=line.clock))
-    assert main(["bench-line", "--port", "COM7", "-n", "30"]) == 0
-    output = capsys.readouterr().out
+    status, output, _ = measured(VirtualLine(lambda _: next(answers, twice[:1])), "-n", "30")
+    assert status == 0
     assert "faster" not in output
     assert "slips           1 reply to nothing, sent twice or too late: dropped" in output
 
 
-def test_errors_are_counted_by_kind(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_errors_are_counted_by_kind() -> None:
     replies: list[list[tuple[float, bytes | Message]]] = [
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
         [],
@@ -100,19 +105,15 @@ def test_errors_are_counted_by_kind(capsys: Capture, monkeypatch: pytest.MonkeyP
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
     ]
     line = VirtualLine(lambda _: replies.pop(0))
-    client = Client(line, background=False, clock=line.clock, settle=0)
-    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
-    words = ["ServoPositionsRead", "servo_ids=1,2", "-n", "6"]
-    assert main(["bench-line", "--port", "COM7", *words]) == 1
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[0].endswith(" on COM7: 6 requests, 3 answered")
-    assert lines[-2:] == [
-        "  errors          3 no reply, 1 incomplete reply",
-        (
-            "  without a reply 5 bytes came that are no frame: wrong baud rate?; "
-            "1 report came, so the device can be heard"
-        ),
-    ]
+    status, output, _ = measured(line, "ServoPositionsRead", "servo_ids=1,2", "-n", "6")
+    assert status == 1
+    first, *_, errors, without = output.splitlines()
+    assert first.endswith(" on COM7: 6 requests, 3 answered")
+    assert errors == "  errors          3 no reply, 1 incomplete reply"
+    assert without == (
+        "  without a reply 5 bytes came that are no frame: wrong baud rate?; "
+        "1 report came, so the device can be heard"
+    )
 
 
 def test_a_lost_line_ends_the_measurement(capsys: Capture) -> None:
@@ -133,12 +134,10 @@ def test_without_a_reply_there_are_no_times(capsys: Capture) -> None:
     ]
 
 
-def test_silence_is_said_to_be_that(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    line = VirtualLine(lambda _: [])
-    client = Client(line, background=False, clock=line.clock, settle=0)
-    monkeypatch.setattr(bench_line, "open_client", lambda *_, **__: client)
-    assert main(["bench-line", "--port", "COM7", "-n", "2"]) == 1
-    assert "  without a reply nothing came at all: is the device" in capsys.readouterr().out
+def test_silence_is_said_to_be_that() -> None:
+    status, output, _ = measured(VirtualLine(lambda _: []), "-n", "2")
+    assert status == 1
+    assert "  without a reply nothing came at all: is the device" in output
 
 
 def test_a_question_must_be_named_where_each_has_fields(

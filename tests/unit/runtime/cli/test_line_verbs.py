@@ -25,6 +25,7 @@ from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import Faults, VirtualController
 from serial.tools.list_ports_common import ListPortInfo
 
+from tests.commands import called
 from tests.documents import ROOT
 from tests.in_turn import in_turn
 from tests.lines.virtual_line import VirtualLine
@@ -102,7 +103,9 @@ def test_silence_after_a_part_keeps_what_had_come(
 def test_retries_ask_again(capsys: Capture) -> None:
     words = ["--retries", "2", "--timeout", "0.01"]
     assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
-    assert "to 3 requests of BatteryVoltageRead()" in capsys.readouterr().err
+    errors = capsys.readouterr().err
+    assert errors.startswith("no BatteryVoltage came within ")
+    assert "to 3 requests of BatteryVoltageRead()" in errors
 
 
 # `stats` has no port: it is told the rate of a line that was recorded.
@@ -225,72 +228,59 @@ def test_a_local_echo_is_expected_where_it_was_said(
     assert ("leave out local_echo" in errors) == (not echoes)
 
 
-def test_a_missing_reply_has_an_exit_status_of_its_own(capsys: Capture) -> None:
-    words = ["BatteryVoltageRead", "--timeout", "0.01"]
-    assert main(["send", "--port", "loop://", *words]) == 1
-    assert "no BatteryVoltage came" in capsys.readouterr().err
-
-
 def test_ports_lists_or_says_that_there_are_none(capsys: Capture) -> None:
     assert main(["ports"]) == 0
     output, errors = capsys.readouterr()
     assert output or errors.startswith("no serial port is plugged in\n")
 
 
-def test_boards_without_a_serial_port_are_listed(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
+def plugged_in() -> list[ListPortInfo]:
+    """Return an adapter, and a port that is built in."""
+    adapter = ListPortInfo("/dev/ttyUSB0")
+    adapter.vid, adapter.pid, adapter.description = 0x1A86, 0x7523, "USB Serial"
+    return [adapter, ListPortInfo("/dev/ttyS0")]
+
+
+LOBOT = HidDevice(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
+NAMELESS = LOBOT._replace(path="/dev/hidraw2", product="")
+ABOUT = "USB HID, no serial port (not seen on hardware yet)"
+NO_PORT = "no serial port is plugged in\n"
+UNLISTED = (
+    "USB HID devices (0483:5750) have no serial port, and are not listed without "
+    "hidapi: pip install hidapi\n"
+)
+# The ports and the devices that there are, and what is printed of them.
+LISTED: list[tuple[list[ListPortInfo], list[HidDevice] | None, str, str]] = [
+    ([], [], "", NO_PORT),
+    ([], None, "", f"{NO_PORT}{UNLISTED}"),
+    ([], [LOBOT], f"hid://0483:5750   0483:5750  LOBOT, {ABOUT}\n", NO_PORT),
+    (plugged_in(), [], "/dev/ttyS0        -\n/dev/ttyUSB0      1A86:7523  USB Serial\n", ""),
+]
+
+
+@in_turn("ports, devices, output, errors", lambda: LISTED, ids=lambda row: row[2] + row[3])
+def test_ports_are_listed_and_boards_without_one(
+    ports: list[ListPortInfo],
+    devices: list[HidDevice] | None,
+    output: str,
+    errors: str,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    one = HidDevice(0x0483, 0x5750, "/dev/hidraw1", "LOBOT")
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: [one])
-    assert main(["ports"]) == 0
-    output, errors = capsys.readouterr()
-    about = "USB HID, no serial port (not seen on hardware yet)"
-    assert output == f"hid://0483:5750   0483:5750  LOBOT, {about}\n"
-    assert errors == "no serial port is plugged in\n"
-    # Of two of a kind, each has an address of its own.
-    other = one._replace(path="/dev/hidraw2", product="")
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: [one, other])
-    assert main(["ports", "--json"]) == 0
-    assert [json.loads(line) for line in capsys.readouterr().out.splitlines()] == [
-        {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {about}"},
-        {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": about},
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: devices)
+    assert called(main, "ports") == (0, output, errors)
+
+
+def test_ports_are_listed_as_json(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: plugged_in()[:1])
+    devices = [LOBOT, NAMELESS]
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: devices)
+    # Of two boards of a kind, each has an address of its own.
+    assert [json.loads(line) for line in called(main, "ports", "--json").out.splitlines()] == [
+        {"port": "/dev/ttyUSB0", "usb": "1A86:7523", "description": "USB Serial"},
+        {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {ABOUT}"},
+        {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": ABOUT},
     ]
-
-
-def test_where_nobody_can_list_such_boards_it_says_so(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: None)
-    assert main(["ports"]) == 0
-    assert capsys.readouterr().err.splitlines() == [
-        "no serial port is plugged in",
-        (
-            "USB HID devices (0483:5750) have no serial port, and are not listed without "
-            "hidapi: pip install hidapi"
-        ),
-    ]
-
-
-def test_ports_are_listed_with_their_usb_descriptions(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    board = ListPortInfo("/dev/ttyUSB0")
-    board.vid, board.pid, board.description = 0x1A86, 0x7523, "USB Serial"
-    found = [board, ListPortInfo("/dev/ttyS0")]
-    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
-    assert main(["ports"]) == 0
-    assert capsys.readouterr().out.splitlines() == [
-        "/dev/ttyS0        -",
-        "/dev/ttyUSB0      1A86:7523  USB Serial",
-    ]
-    assert main(["ports", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out.splitlines()[1]) == {
-        "port": "/dev/ttyUSB0",
-        "usb": "1A86:7523",
-        "description": "USB Serial",
-    }
 
 
 def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
@@ -404,15 +394,6 @@ def test_an_example_is_a_command_line(line: str) -> None:
         assert given.message is None or in_parts(given.message, given.fields)[0].encode()
     if isinstance(verb, MethodVerb):
         assert all(each.encode() for each in verb.messages(given))
-
-
-def test_no_port_is_said_where_nothing_is_plugged_in(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("serial.tools.list_ports.comports", list)
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", list)
-    assert main(["ports"]) == 0
-    assert capsys.readouterr() == ("", "no serial port is plugged in\n")
 
 
 def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(

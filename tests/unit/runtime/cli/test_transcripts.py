@@ -20,12 +20,12 @@ from busservo._cli.checks.checks import CHECKS, examine
 from busservo._cli.recorder import Recorder
 from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
-from serial.tools.list_ports_common import ListPortInfo
 
 from tests.documents import ROOT
 from tests.lines.patient import board_with, diagnosis_of
 from tests.timeouts import GENEROUS, await_that
 from tests.unit.runtime.cli.checks.test_strangers import CASES, examined
+from tests.unit.runtime.cli.test_line_verbs import plugged_in
 from tests.unit.runtime.cli.test_monitor import Line
 
 if TYPE_CHECKING:
@@ -81,10 +81,7 @@ def without_times(text: str) -> str:
 
 
 def test_ports(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    adapter = ListPortInfo("/dev/ttyUSB0")
-    adapter.vid, adapter.pid, adapter.description = 0x1A86, 0x7523, "USB Serial"
-    found = [adapter, ListPortInfo("/dev/ttyS0")]
-    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
+    monkeypatch.setattr("serial.tools.list_ports.comports", plugged_in)
     assert main(["ports"]) == 0
     assert capsys.readouterr().out == TRANSCRIPTS["getting-started.md", "ports"][1]
 
