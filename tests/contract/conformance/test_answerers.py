@@ -10,7 +10,6 @@ from tests.contract.conformance.answerers import ANSWERERS
 from tests.factories import BUSSERVO, DEMO, compiled_file, vectors_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
-from tests.rows import ALIKE
 from tests.unit.conformance.harness import cases_of, differences, joined
 from tests.unit.site.reference import NODE
 
@@ -23,12 +22,12 @@ SPECS = {
     },
     **FILES,
 }
-# The libraries of the smallest specs are held to the reference as well (test_reference.py), and the
-# scripts of a page are those of the module.
+# All kinds of frames and fields. The libraries of the smallest specs are held to the reference as
+# well (test_reference.py), that of ubx in tests/contract/protocols; a page has the module's code.
 USUAL = {
-    "python": ["busservo", "taken_names", "everything", "lxservo", "modbus", "roboclaw", "ubx"],
-    "page": ["busservo", "taken_names", "everything", "lxservo"],
-    "module": [name for name in SPECS if name not in ALIKE],
+    "python": ["busservo", "taken_names", "everything", "lxservo", "modbus", "roboclaw"],
+    "page": ["busservo", "taken_names", "everything"],
+    "module": ["busservo", "everything", "lxservo", "modbus", "roboclaw", "sbus", "ubx", "visca"],
 }
 ROWS = [
     pytest.param(language, names, marks=marks, id=f"{language}{'' if marks else ' of the usual'}")

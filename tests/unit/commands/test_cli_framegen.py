@@ -19,7 +19,7 @@ from framegen.language.spec import Spec
 from framegen.project import default_spec, project_root
 from framegen.reading.yamltree import Unusable
 from framegen.render import render, render_shared
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.bad_specs import bad_spec
@@ -517,7 +517,6 @@ WORDS = st.one_of(
 )
 
 
-@settings(max_examples=120, deadline=None, derandomize=True)
 @given(
     verb=st.sampled_from(["check", "explain", "rules", "schema"]),
     words=st.lists(WORDS, min_size=1, max_size=4),
@@ -530,7 +529,6 @@ def test_no_command_line_ends_in_a_traceback(verb: str, words: list[str]) -> Non
     assert code != 2 or err.getvalue().startswith("framegen: error: ")
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
 @given(words=st.lists(st.text(), min_size=1, max_size=3))
 def test_no_wrong_verb_ends_in_a_traceback(words: list[str]) -> None:
     out, err = io.StringIO(), io.StringIO()
