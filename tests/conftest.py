@@ -82,7 +82,9 @@ def pytest_configure(config: pytest.Config) -> None:
         config.option.seed = datetime.now(timezone.utc).date().toordinal()
     leave_out_settings(config)
     if config.args_source is not config.ArgsSource.ARGS and something_is_missing():
-        config.args[:] = [f"{ROOT / 'tests' / 'test_missing.py'}::test_nothing_is_missing"]
+        config.args[:] = [
+            f"{ROOT / 'tests' / 'unit' / 'commands' / 'test_missing.py'}::test_nothing_is_missing"
+        ]
 
 
 def leave_out_settings(config: pytest.Config) -> None:
