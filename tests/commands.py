@@ -40,6 +40,13 @@ def called(
     return Ended(status, *(each.text for each in streams))
 
 
+class Terminal(io.StringIO):
+    """A terminal that keeps what is written."""
+
+    def isatty(self) -> bool:
+        return True
+
+
 class _Stream(io.TextIOWrapper):
     """A stream that keeps what is written."""
 

@@ -1,5 +1,7 @@
 """Requests and replies are matched: what was answered, by what, how fast, and what came alone."""
 
+from typing import TypeAlias
+
 import pytest
 from framegen.audit.text import as_text
 
@@ -13,44 +15,62 @@ WHERE, THERE = "55 55 05 15 02 01 02", "55 55 09 15 02 01 F4 01 02 F4 01"
 ONE_THERE, OTHER_THERE = "55 55 06 15 01 02 F4 01", "55 55 06 15 01 09 F4 01"
 HOST, BOARD = "host", "controller"
 
+GATHER, ONE, TWO = "55 55 FE 03 0E F0", "55 55 01 04 0E 01 EB", "55 55 02 04 0E 02 E9"
+ASK_TWO = "55 55 02 03 0E EC"
 # Lines as (time, sender, frame); then requests, answered, unanswered, unsolicited, and times.
-CASES = [
-    ([(0, HOST, ASK), (0.5, BOARD, TELL)], (1, 1, 0, 0), [0.5]),
-    ([(0, HOST, ASK), (9, HOST, ASK), (9.25, BOARD, TELL)], (2, 1, 1, 0), [0.25]),
-    ([(0, HOST, ASK), (0.5, BOARD, TELL), (1, BOARD, TELL)], (1, 1, 0, 1), [0.5]),
-    ([(0, BOARD, TELL), (1, HOST, ASK)], (1, 0, 1, 1), []),
-    ([(0, HOST, ASK), (61, BOARD, TELL)], (1, 0, 1, 1), []),
-    # Another recording begins: its times do.
-    ([(50, HOST, ASK), (0, HOST, ASK), (0.5, BOARD, TELL)], (2, 1, 1, 0), [0.5]),
-]
-POSITIONS = [
-    ([(0, HOST, WHERE), (0.5, BOARD, THERE)], (1, 1, 0, 0)),
-    ([(0, HOST, WHERE), (0.5, BOARD, ONE_THERE)], (1, 1, 0, 0)),
-    ([(0, HOST, WHERE), (0.5, BOARD, OTHER_THERE)], (1, 0, 1, 1)),
-]
+Line: TypeAlias = "tuple[float, str, str]"
+CASES: dict[str, list[tuple[list[Line], tuple[int, int, int, int], list[float]]]] = {
+    "BatteryVoltageRead": [
+        ([(0, HOST, ASK), (0.5, BOARD, TELL)], (1, 1, 0, 0), [0.5]),
+        ([(0, HOST, ASK), (9, HOST, ASK), (9.25, BOARD, TELL)], (2, 1, 1, 0), [0.25]),
+        ([(0, HOST, ASK), (0.5, BOARD, TELL), (1, BOARD, TELL)], (1, 1, 0, 1), [0.5]),
+        ([(0, BOARD, TELL), (1, HOST, ASK)], (1, 0, 1, 1), []),
+        ([(0, HOST, ASK), (61, BOARD, TELL)], (1, 0, 1, 1), []),
+        # Another recording begins: its times do.
+        ([(50, HOST, ASK), (0, HOST, ASK), (0.5, BOARD, TELL)], (2, 1, 1, 0), [0.5]),
+    ],
+    "ServoPositionsRead": [
+        ([(0, HOST, WHERE), (0.5, BOARD, THERE)], (1, 1, 0, 0), [0.5]),
+        ([(0, HOST, WHERE), (0.5, BOARD, ONE_THERE)], (1, 1, 0, 0), [0.5]),
+        ([(0, HOST, WHERE), (0.5, BOARD, OTHER_THERE)], (1, 0, 1, 1), []),
+    ],
+    # Who is asked together with all others answers, or does not.
+    "ServoIdRead": [
+        ([(0, HOST, GATHER)], (1, 0, 0, 0), []),
+        ([(0, HOST, GATHER), (0.25, "servo", ONE)], (1, 1, 0, 0), [0.25]),
+        ([(0, HOST, GATHER), (0.25, "servo", ONE), (0.5, "servo", TWO)], (1, 1, 0, 0), [0.25]),
+        ([(0, "servo", ONE), (1, HOST, GATHER)], (1, 0, 0, 1), []),
+        ([(0, HOST, GATHER), (61, "servo", ONE)], (1, 0, 0, 1), []),
+        # Asked again, it is another request; what comes behind the next one answers that.
+        (
+            [(0, HOST, GATHER), (0.5, "servo", ONE), (1, HOST, GATHER), (1.25, "servo", ONE)],
+            (2, 2, 0, 0),
+            [0.5, 0.25],
+        ),
+        ([(0, HOST, GATHER), (1, HOST, ASK_TWO), (1.5, "servo", ONE)], (2, 0, 1, 1), []),
+        ([(0, HOST, ASK_TWO), (0.25, HOST, GATHER), (0.5, "servo", TWO)], (2, 1, 0, 0), [0.5]),
+    ],
+}
 
 
-def recording(lines: list[tuple[float, str, str]]) -> str:
+def recording(lines: list[Line]) -> str:
     return "".join(f"{frame}  # {at:f} s, {sender}: a\n" for at, sender, frame in lines)
 
 
-@pytest.mark.parametrize(("lines", "counts", "seconds"), CASES)
+@in_turn(
+    "name, lines, counts, seconds", lambda: ((name, *row) for name in CASES for row in CASES[name])
+)
 def test_requests_are_matched_with_their_replies(
-    lines: list[tuple[float, str, str]], counts: tuple[int, ...], seconds: list[float]
+    name: str, lines: list[Line], counts: tuple[int, ...], seconds: list[float]
 ) -> None:
-    found = audited(compiled_file(BUSSERVO).model, recording(lines))
-    each = found.conversations.by_request["BatteryVoltageRead"]
+    is_bus = name == "ServoIdRead"
+    model = model_of("lxservo") if is_bus else compiled_file(BUSSERVO).model
+    found = audited(model, recording(lines))
+    each = found.conversations.by_request[name]
     assert (each.requests, each.answered, each.unanswered, each.unsolicited) == counts
     assert each.seconds == pytest.approx(seconds)
-
-
-@pytest.mark.parametrize(("lines", "counts"), POSITIONS)
-def test_a_reply_repeats_what_it_answers(
-    lines: list[tuple[float, str, str]], counts: tuple[int, ...]
-) -> None:
-    found = audited(compiled_file(BUSSERVO).model, recording(lines))
-    each = found.conversations.by_request["ServoPositionsRead"]
-    assert (each.requests, each.answered, each.unanswered, each.unsolicited) == counts
+    raised = {each.message.name for each in found.raised}
+    assert (name in raised) is (each.answered > 0) or not is_bus
 
 
 def test_without_times_the_order_alone_decides() -> None:
@@ -87,36 +107,6 @@ def test_times_that_run_backwards_are_said() -> None:
     found = audited(model, f"{begun}{again}{begun}{again}")
     assert found.backward == []
     assert "times run backwards" not in "\n".join(as_text(found))
-
-
-GATHER, ONE, TWO = "55 55 FE 03 0E F0", "55 55 01 04 0E 01 EB", "55 55 02 04 0E 02 E9"
-ASK_TWO = "55 55 02 03 0E EC"
-GATHERED = [
-    ([(0, HOST, GATHER)], (1, 0, 0, 0), []),
-    ([(0, HOST, GATHER), (0.25, "servo", ONE)], (1, 1, 0, 0), [0.25]),
-    ([(0, HOST, GATHER), (0.25, "servo", ONE), (0.5, "servo", TWO)], (1, 1, 0, 0), [0.25]),
-    ([(0, "servo", ONE), (1, HOST, GATHER)], (1, 0, 0, 1), []),
-    ([(0, HOST, GATHER), (61, "servo", ONE)], (1, 0, 0, 1), []),
-    # Asked again, it is another request; what comes behind the next one answers that.
-    (
-        [(0, HOST, GATHER), (0.5, "servo", ONE), (1, HOST, GATHER), (1.25, "servo", ONE)],
-        (2, 2, 0, 0),
-        [0.5, 0.25],
-    ),
-    ([(0, HOST, GATHER), (1, HOST, ASK_TWO), (1.5, "servo", ONE)], (2, 0, 1, 1), []),
-    ([(0, HOST, ASK_TWO), (0.25, HOST, GATHER), (0.5, "servo", TWO)], (2, 1, 0, 0), [0.5]),
-]
-
-
-@in_turn("lines, counts, seconds", lambda: GATHERED)
-def test_a_question_to_all_is_answered_by_those_who_answer(
-    lines: list[tuple[float, str, str]], counts: tuple[int, ...], seconds: list[float]
-) -> None:
-    found = audited(model_of("lxservo"), recording(lines))
-    each = found.conversations.by_request["ServoIdRead"]
-    assert (each.requests, each.answered, each.unanswered, each.unsolicited) == counts
-    assert each.seconds == pytest.approx(seconds)
-    assert ("ServoIdRead" in [each.message.name for each in found.raised]) is (each.answered > 0)
 
 
 def test_one_end_alone_says_nothing_of_the_other() -> None:

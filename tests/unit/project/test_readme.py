@@ -11,7 +11,6 @@ from framegen.cli import VERBS as FRAMEGEN
 from framegen.site.guides.markdown import slugs
 from lxservo._cli.examples import VERBS as LXSERVO
 
-from tests import documents
 from tests.documents import PAGES, ROOT, copy_project, played, refresh
 from tests.in_turn import in_turn
 
@@ -159,7 +158,7 @@ def test_a_page_that_changes_what_is_gone_is_named_and_the_others_are_written(
 ) -> None:
     stale, wrong = tmp_path / "stale.md", tmp_path / "wrong.md"
     file = "codegen/framegen/language/number_types.py"
-    monkeypatch.setattr(documents, "_CHANGED", (file,))
+    monkeypatch.setattr("tests.documents._CHANGED", (file,))
     stale.write_text(f"```diff\n--- {file}\n+++ {file}\n@@\n-no such line\n+another\n```\n")
     wrong.write_text("```console\n$ busservo encode ActionGroupStop\n55 55 02 08\n```\n")
     assert refresh([stale, wrong]) == 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from busservo_simulator import VirtualController
 
 from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.timeouts import undoubted
@@ -13,6 +14,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 __all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
+
+
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    """Yield a board with three servos."""
+    with VirtualController("tcp", servos=[1, 2, 3]) as board:
+        yield board
 
 
 @pytest.fixture(autouse=True)

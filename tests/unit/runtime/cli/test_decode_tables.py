@@ -20,6 +20,8 @@ from busservo._cli import recording as reading
 from busservo._tables.extra import need
 from busservo._tables.files import parquet
 
+from tests.commands import Terminal
+
 Capture = pytest.CaptureFixture[str]
 
 CAPTURES = Path(__file__).parents[3] / "captures"
@@ -299,11 +301,6 @@ def test_what_is_missing_is_said_once() -> None:
         need("absent_package")
     assert missing.value.__cause__ is None
     assert missing.value.__suppress_context__
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
 
 
 def test_a_bar_shows_how_far_a_long_file_has_been_read(

@@ -25,19 +25,11 @@ from framegen.targets.python import command_lines
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from busservo import Message
 
 Capture = pytest.CaptureFixture[str]
 
 FAST = ("--timeout", str(GENEROUS), "--baud", "inf")
-
-
-@pytest.fixture
-def board() -> Iterator[VirtualController]:
-    with VirtualController("tcp", servos=[1, 2, 3]) as board:
-        yield board
 
 
 def sent_by(*words: str) -> list[Message]:

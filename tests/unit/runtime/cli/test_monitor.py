@@ -27,6 +27,8 @@ from busservo._cli.progress import Progress
 from busservo._cli.recorder import Recorder
 from busservo._cli.usage_error import UsageError
 
+from tests.commands import Terminal
+
 if TYPE_CHECKING:
     from io import TextIOWrapper
     from pathlib import Path
@@ -260,11 +262,6 @@ def test_a_log_keeps_what_is_not_shown(tmp_path: Path) -> None:
     ]
 
 
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
 @pytest.mark.parametrize(
     ("variables", "coloured"),
     [
@@ -338,10 +335,6 @@ def test_a_recording_whose_end_does_not_fit_is_reported(tmp_path: Path) -> None:
 
 
 def test_an_unchanged_progress_text_is_written_once() -> None:
-    class Terminal(io.StringIO):
-        def isatty(self) -> bool:
-            return True
-
     screen = Terminal()
     progress = Progress(screen)
     for text in ("opening COM7, 1 s", "opening COM7, 1 s", "opening COM7, 2 s"):

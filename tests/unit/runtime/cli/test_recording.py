@@ -17,6 +17,7 @@ from busservo._cli import main, recording
 from busservo._cli.progress import Progress
 from busservo._cli.progress_bar import progress_bar
 
+from tests.commands import Terminal
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -222,11 +223,6 @@ def test_a_recording_can_be_replayed_from_a_pipe(log: Path) -> None:
     left, totals = shown.stderr.splitlines()
     assert left == "left out: 2 frames of controller, 2 pieces of noise"
     assert totals.startswith("2 frames, 8 bytes in ")
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
 
 
 @pytest.mark.parametrize(

@@ -17,14 +17,13 @@ from busservo._cli.settings_file import parsed
 from busservo._cli.settings_save import save
 from busservo._cli.usage_error import UsageError
 from busservo._serial.link_errors import PortNotFoundError
-from busservo_simulator import VirtualController
 from lxservo._cli import link as servo_link
 
 from tests.factories import ROOT
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from busservo_simulator import VirtualController
 
 Capture = pytest.CaptureFixture[str]
 
@@ -50,12 +49,6 @@ def test_the_file_of_the_guide_is_one() -> None:
     assert (found.port, found.ids) == ("/dev/ttyUSB0", (1, 2, 3, 4, 5, 6))
     assert found.limits is not None
     assert found.limits.allowed == {1: (100, 900), 6: None}
-
-
-@pytest.fixture
-def board() -> Iterator[VirtualController]:
-    with VirtualController("tcp", servos=[1, 2, 3]) as board:
-        yield board
 
 
 def refused_port(monkeypatch: pytest.MonkeyPatch, module: Any = link) -> list[tuple[str, float]]:

@@ -8,7 +8,7 @@ import json
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from busservo import Message, ServoMove, ServoPositionsRead, ServoUnload
@@ -23,16 +23,7 @@ from tests.commands import Ended, called
 from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 PATIENT = ("--timeout", str(GENEROUS), "--baud", "inf")
-
-
-@pytest.fixture
-def board() -> Iterator[VirtualController]:
-    with VirtualController("tcp", servos=[1, 2, 3]) as board:
-        yield board
 
 
 class Desk(NamedTuple):
