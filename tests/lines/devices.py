@@ -2,7 +2,6 @@
 
 import heapq
 from collections.abc import Callable, Iterator
-from itertools import count
 from typing import Any
 
 from framegen.conformance.device.step import column
@@ -11,47 +10,29 @@ from framegen.model.exchanges import Exchange
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 
+from tests.lines.timed_line import Pieces, TimedLine
+
 # What a device sends once it has received bytes: after how many seconds, and what.
-Answer = Callable[[bytes], list[tuple[float, bytes]]]
+Answer = Callable[[bytes], Pieces]
 
 
-class VirtualLine:
-    """A transport without any pace: a read moves the clock on, and nothing sleeps."""
+class VirtualLine(TimedLine):
+    """A line without any pace; a read gives one piece, and after `lasts` writes it is lost."""
 
-    def __init__(self, answer: Answer = lambda _: []) -> None:
-        self.now = 0.0
-        self.written: list[bytes] = []
-        self.is_closed = False
-        # So many writes are taken, and then the line is lost.
-        self.lasts = 1_000_000
-        self._answer = answer
-        self._arriving: list[tuple[float, int, bytes]] = []
-        self._number = count()
+    in_order = False
+    lasts = 1_000_000
 
-    def clock(self) -> float:
-        return self.now
-
-    def say(self, data: bytes, delay: float = 0.0) -> None:
-        heapq.heappush(self._arriving, (self.now + delay, next(self._number), data))
-
-    def read(self, timeout: float) -> bytes:
-        until = self.now + max(timeout, 1e-6)
-        if not self._arriving or self._arriving[0][0] > until:
-            self.now = until
-            return b""
-        at, _, data = heapq.heappop(self._arriving)
-        self.now = max(self.now, at)
-        return data
+    @property
+    def is_closed(self) -> bool:
+        return self.closed
 
     def write(self, data: bytes) -> None:
         if len(self.written) >= self.lasts:
             raise OSError("the cable was pulled")
-        self.written.append(data)
-        for delay, answer in self._answer(data):
-            self.say(answer, delay)
+        super().write(data)
 
-    def close(self) -> None:
-        self.is_closed = True
+    def _take(self) -> bytes:
+        return heapq.heappop(self._arriving)[2] if self._is_there() else b""
 
 
 class Observed:
@@ -82,7 +63,7 @@ def by_the_reference(model: Model, device: int | None = None) -> Answer:
     line = ReferenceDecoder(model, [model.roles.sent])
     divided = is_divided(model)
 
-    def answer(data: bytes) -> list[tuple[float, bytes]]:
+    def answer(data: bytes) -> Pieces:
         nonlocal held
         held += data
         events = line.decode(held) if divided else line.decode_so_far(held)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.model.slots import Items, Number
 
+from tests.lines.timed_line import TimedLine
+
 if TYPE_CHECKING:
     from types import ModuleType
 
@@ -14,28 +16,14 @@ if TYPE_CHECKING:
     from framegen.model.model import Model
 
 
-class Line:
-    """A transport in virtual time, with a device at its end; bytes take their time on the wire."""
-
-    name = "line"
+class Line(TimedLine):
+    """A line with a device at its end; bytes take their time on the wire."""
 
     def __init__(self, device: Any, seconds_per_byte: float) -> None:
+        super().__init__()
         self.device = device
-        self.now = 0.0
         self._per_byte = seconds_per_byte
         self._free = 0.0
-        self._arriving: list[tuple[float, bytes]] = []
-
-    def clock(self) -> float:
-        return self.now
-
-    def read(self, timeout: float) -> bytes:
-        # However short the wait, time goes on.
-        until = self.now + max(timeout, 1e-6)
-        self.now = min([until, *(at for at, _ in self._arriving)])
-        arrived = [data for at, data in self._arriving if at <= self.now]
-        self._arriving = [(at, data) for at, data in self._arriving if at > self.now]
-        return b"".join(arrived)
 
     def write(self, data: bytes) -> None:
         self._free = max(self._free, self.now) + len(data) * self._per_byte
@@ -45,13 +33,10 @@ class Line:
         answer += b"".join(report.encode() for report in self.device.take())
         if answer:
             self._free += len(answer) * self._per_byte + 0.001
-            self._arriving.append((max(self._free, self.now), answer))
+            self.say(answer, self._free - self.now)
 
     def drain(self, timeout: float) -> None:
         self.now += timeout
-
-    def close(self) -> None:
-        self.now += 0.0
 
 
 def converse(made: ModuleType, model: Model) -> None:

@@ -1,67 +1,42 @@
-"""A board at the end of a line in real time, that answers at once."""
+"""A board at the end of a line in real time, that answers at once; its faults are hooks."""
 
 from __future__ import annotations
 
-import json
+import asyncio
 import threading
-from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from busservo import (
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ClosedError,
-    Direction,
-    DisconnectedError,
-    Message,
-    Noise,
-    ServoPositions,
-    ServoPositionsRead,
-    StreamDecoder,
-)
-from busservo._client.exchanges import EXCHANGES
-from busservo._codec.rejects import Rejects
+from busservo import ClosedError, DisconnectedError, Message
+
+from tests.lines.receiving import Receiving, answered, example_of
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-
-def answered(message: Message) -> list[Message]:
-    """Return the answer of a board of servos 1 to 200, each at ten times its number."""
-    if isinstance(message, BatteryVoltageRead):
-        return [BatteryVoltage(7500)]
-    if isinstance(message, ServoPositionsRead):
-        return [ServoPositions([(servo, 10 * servo) for servo in message.servo_ids])]
-    exchange = EXCHANGES.get(type(message))
-    if exchange is None or exchange.reply is None:
-        return []
-    return [example_of(exchange.reply)]
+__all__ = ["Gate", "LiveLine", "answered", "example_of", "losing"]
 
 
-def example_of(kind: type[Message]) -> Message:
-    """Return the first example of a message, as the vectors have it."""
-    vectors = json.loads(files("busservo").joinpath("vectors.json").read_text(encoding="utf-8"))
-    return next(
-        kind.decode(bytes.fromhex(vector["hex"]))
-        for vector in vectors["valid"]
-        if vector["message"] == kind.__name__
-    )
+class LiveLine(Receiving):
+    """A transport whose reads block until there are bytes to read, or the time is over.
 
-
-class LiveLine:
-    """A transport whose reads block until there are bytes to read, or the time is over."""
+    What is `before` a method, by its name, is called first, and may wait or raise an error.
+    """
 
     name = "live line"
 
-    def __init__(self, answer: Callable[[Message], list[Message]] = answered) -> None:
-        self.received: list[Message] = []
+    def __init__(
+        self,
+        answer: Callable[[Message], list[Message]] = answered,
+        **before: Callable[[], object],
+    ) -> None:
+        super().__init__()
         self.lost = False
         self.closed = False
         self.drained = 0
+        self.reads = 0
+        self.before = before
         self._answer = answer
-        # No client may ever make this count: see tests/conftest.py.
-        self.rejects = Rejects()
-        self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
         self._arrived = b""
         self._changed = threading.Condition()
 
@@ -75,6 +50,9 @@ class LiveLine:
             self.lost = True
             self._changed.notify_all()
 
+    def _begin(self, method: str) -> None:
+        self.before.get(method, int)()
+
     def _check(self) -> None:
         if self.closed:
             raise ClosedError(self.name, "it has been closed", "open it again")
@@ -82,6 +60,8 @@ class LiveLine:
             raise DisconnectedError(self.name, "the line was lost", "plug it in again")
 
     def read(self, timeout: float) -> bytes:
+        self.reads += 1
+        self._begin("read")
         with self._changed:
             self._changed.wait_for(lambda: self._arrived or self.lost or self.closed, timeout)
             self._check()
@@ -89,24 +69,55 @@ class LiveLine:
             return data
 
     def write(self, data: bytes) -> None:
+        self._begin("write")
         with self._changed:
             self._check()
-            for event in self._decoder.feed(data):
-                if isinstance(event, Noise):
-                    self.rejects.add(event)
-                    continue
-                self.received.append(event)
-                for answer in self._answer(event):
+            for message in self.heard(data):
+                for answer in self._answer(message):
                     self._arrived += answer.encode()
             self._changed.notify_all()
 
     def drain(self, _timeout: float) -> None:
+        self._begin("drain")
         self.drained = len(self.received)
 
     def close(self) -> None:
         with self._changed:
             self.closed = True
             self._changed.notify_all()
+        self._begin("close")
 
     def reopen(self) -> LiveLine:
+        self._begin("reopen")
         return LiveLine(self._answer)
+
+
+class Gate:
+    """A hook that waits until the test lets it go on, and calls `meanwhile` before it waits."""
+
+    def __init__(self, meanwhile: Callable[[], object] = int) -> None:
+        self.meanwhile = meanwhile
+        self.begun, self.go_on = threading.Event(), threading.Event()
+
+    def __call__(self) -> None:
+        self.meanwhile()
+        self.begun.set()
+        assert self.go_on.wait(GENEROUS)
+
+    def wait(self) -> None:
+        """Wait until somebody is at the gate."""
+        assert self.begun.wait(GENEROUS)
+
+    async def reached(self) -> None:
+        """Wait likewise, in a task."""
+        while not self.begun.is_set():
+            await asyncio.sleep(0.001)
+
+
+def losing(what: str = "the line was lost") -> Callable[[], None]:
+    """Return a hook that raises what a line raises that was lost."""
+
+    def lose() -> None:
+        raise DisconnectedError(LiveLine.name, what, "plug it in again")
+
+    return lose

@@ -1,84 +1,74 @@
-"""A line and a board in one, in virtual time: a read moves the clock on, and nothing sleeps."""
+"""A line and a board in one, in virtual time, for threads and for asyncio; and a loop on it."""
 
 from __future__ import annotations
 
-import heapq
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from busservo import Direction, Message, Noise, StreamDecoder
-from busservo._codec.rejects import Rejects
+from busservo import AsyncController, ClosedError, DisconnectedError, Message
+from busservo_simulator import VirtualClock
+from busservo_simulator.virtual_loop import run_virtual
+
+from tests.lines.receiving import Receiving, unanswered
+from tests.lines.timed_line import TimedLine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Coroutine, Iterable
 
-    Answer = Callable[[Message], Iterable["tuple[float, bytes | Message]"]]
+    # What comes for a message: at once, or each so many seconds later.
+    Answer = Callable[[Message], Iterable[Message | tuple[float, bytes | Message]]]
+
+_Result = TypeVar("_Result")
 
 
-def nothing(_message: Message) -> list[tuple[float, bytes | Message]]:
-    return []
-
-
-class VirtualLine:
-    """A transport whose other end answers as `answer` returns: bytes, each after a delay.
-
-    Bytes arrive in the order in which they were sent, whatever their delays.
-    """
+class VirtualLine(Receiving, TimedLine):
+    """A transport whose other end answers messages; `error` is what its reads and writes raise."""
 
     name = "virtual line"
 
-    def __init__(self, answer: Answer = nothing) -> None:
-        self.now = 0.0
+    def __init__(self, answer: Answer = unanswered, timer: VirtualClock | None = None) -> None:
+        Receiving.__init__(self)
+        TimedLine.__init__(self, timer=timer)
         self.answer = answer
-        self.received: list[Message] = []
         self.sent_at: list[float] = []
-        self.closed = False
-        self.drained = False
+        # How many messages had been received when it was drained.
+        self.drained = 0
         self.error: Exception | None = None
-        # No client may ever make this count: see tests/conftest.py.
-        self.rejects = Rejects()
-        self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
-        self._arriving: list[tuple[float, int, bytes]] = []
-        self._number = 0
-        self._last = 0.0
 
-    def clock(self) -> float:
-        return self.now
-
-    def say(self, data: bytes | Message, delay: float = 0.0) -> None:
-        """Let bytes arrive, `delay` seconds from now."""
-        at = self._last = max(self._last, self.now + delay)
-        self._number += 1
-        octets = data if isinstance(data, bytes) else data.encode()
-        heapq.heappush(self._arriving, (at, self._number, octets))
+    def unplug(self) -> None:
+        self.error = DisconnectedError(self.name, "the line was lost", "plug it in again")
+        if self._readable is not None:
+            self._readable()
 
     def read(self, timeout: float) -> bytes:
-        if self.error is not None:
-            raise self.error
-        # However short the wait, time goes on: or else a client that polls would stand still.
-        until = self.now + max(timeout, 1e-6)
-        if not self._arriving or self._arriving[0][0] > until:
-            self.now = until
-            return b""
-        self.now = max(self.now, self._arriving[0][0])
-        data = b""
-        while self._arriving and self._arriving[0][0] <= self.now:
-            data += heapq.heappop(self._arriving)[2]
-        return data
+        self._check()
+        return super().read(timeout)
 
     def write(self, data: bytes) -> None:
-        if self.error is not None:
-            raise self.error
-        for event in self._decoder.feed(data):
-            if isinstance(event, Noise):
-                self.rejects.add(event)
-                continue
-            self.received.append(event)
+        self._check()
+        for message in self.heard(data):
             self.sent_at.append(self.now)
-            for delay, answer in self.answer(event):
+            for each in self.answer(message):
+                delay, answer = each if isinstance(each, tuple) else (0.0, each)
                 self.say(answer, delay)
 
     def drain(self, _timeout: float) -> None:
-        self.drained = True
+        self.drained = len(self.received)
 
-    def close(self) -> None:
-        self.closed = True
+    def reopen(self) -> VirtualLine:
+        return VirtualLine(self.answer, self.timer)
+
+    def _check(self) -> None:
+        if self.closed:
+            raise ClosedError(self.name, "it has been closed", "open it again")
+        if self.error is not None:
+            raise self.error
+
+
+def client(line: VirtualLine, **settings: Any) -> AsyncController:
+    """Return a client for asyncio on the time of its line."""
+    return AsyncController(line, background=False, clock=line.clock, **settings)
+
+
+def run(work: Coroutine[Any, Any, _Result], line: TimedLine | None = None) -> _Result:
+    """Run a coroutine on the time of a line, or of those that it makes itself."""
+    return run_virtual(work, VirtualClock() if line is None else line.timer)

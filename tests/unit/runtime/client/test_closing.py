@@ -25,7 +25,9 @@ from busservo import (
 from busservo._client.async_opening import Opening
 from busservo_simulator import VirtualController
 
-from tests.lines.live_line import LiveLine, answered
+from tests.lines.both_clients import both_live
+from tests.lines.live_line import Gate, LiveLine, answered, losing
+from tests.lines.receiving import unanswered
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS, LIVE, await_that
 
@@ -35,17 +37,23 @@ if TYPE_CHECKING:
 
     from busservo import Message
 
+    from tests.lines.both_clients import Talk
+
+REFUSING = losing("it takes no bytes")
+
 
 def own_threads() -> list[str]:
     return [each.name for each in threading.enumerate() if each.name.startswith("busservo on")]
 
 
 @pytest.fixture(autouse=True)
-def no_thread_is_of_another_test() -> Iterator[None]:
-    """Wait for threads of other tests: closing may not wait long enough on a busy machine."""
+def nothing_is_left_behind() -> Iterator[None]:
+    """Wait for threads, also those of other tests: closing may not wait long enough for them."""
     await_that(lambda: not own_threads())
+    Counted.open = Counted.made = 0
     yield
     await_that(lambda: not own_threads())
+    assert Counted.open == 0
 
 
 def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -53,48 +61,20 @@ def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"busservo._client.{module}.DRAIN_TIMEOUT", 0.02)
 
 
-class Refusing(LiveLine):
-    """A line that takes no bytes."""
-
-    def write(self, _data: bytes) -> None:
-        raise DisconnectedError(self.name, "it takes no bytes", "plug it in again")
-
-
-class Unplugged(LiveLine):
-    """A line that comes back at the third attempt, and counts how often it was opened."""
-
-    attempts = 0
-
-    def reopen(self) -> LiveLine:
-        self.attempts += 1
-        if self.attempts < 3:
-            raise PortNotFoundError(self.name, "there is no such port", "plug it in")
-        return LiveLine()
+async def close(controller: AsyncController) -> None:
+    await controller.close()
 
 
 # -------------------------------------------------------------------- closed by several
 
 
-class SlowToClose(LiveLine):
-    """A line that is drained when the test allows it, and calls `meanwhile` before it waits."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.draining, self.go_on = threading.Event(), threading.Event()
-        self.meanwhile: Callable[[], object] = self.draining.set
-
-    def drain(self, _timeout: float) -> None:
-        self.meanwhile()
-        self.draining.set()
-        assert self.go_on.wait(GENEROUS)
-
-
 def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
-    line = SlowToClose()
+    draining = Gate()
+    line = LiveLine(drain=draining)
     with ThreadPoolExecutor() as pool:
         controller = Controller(line)
         first = pool.submit(controller.close)
-        assert line.draining.wait(GENEROUS)
+        draining.wait()
 
         def close_too() -> bool:
             controller.close()
@@ -103,38 +83,27 @@ def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
         others = [pool.submit(close_too) for _ in range(3)]
         done, _ = wait(others, timeout=0.05)
         assert not done, "the line is not closed yet"
-        line.go_on.set()
+        draining.go_on.set()
         assert [each.result(GENEROUS) for each in others] == [True] * 3
         first.result(GENEROUS)
 
 
 def test_closing_while_closing_does_not_wait_for_itself() -> None:
     """As a handler of signals may, which runs in the middle of anything."""
-    line = SlowToClose()
+    line = LiveLine()
     controller = Controller(line)
-    line.meanwhile = controller.close
-    line.go_on.set()
+    line.before["drain"] = controller.close
     controller.close()
     assert line.closed
-
-
-class Interrupted(LiveLine):
-    """A line whose writer is interrupted by a call of `meanwhile`, as by a signal handler."""
-
-    meanwhile: Callable[[], object]
-
-    def write(self, data: bytes) -> None:
-        self.meanwhile()
-        super().write(data)
 
 
 def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     close_in_a_hurry(monkeypatch)
-    line = Interrupted()
+    line = LiveLine()
     controller = Controller(line)
-    line.meanwhile = controller.close
+    line.before["write"] = controller.close
 
     def send() -> None:
         with pytest.raises(ClosedError):
@@ -149,12 +118,13 @@ def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
 
 
 def test_a_callback_may_close_while_another_thread_does() -> None:
-    line = SlowToClose()
+    draining = Gate()
+    line = LiveLine(drain=draining)
     notified, closed = threading.Event(), threading.Event()
 
     def close_too(_report: Message) -> None:
         notified.set()
-        assert line.draining.wait(GENEROUS)
+        draining.wait()
         controller.close()
         closed.set()
 
@@ -164,9 +134,9 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
         line.say(ActionGroupStopped())
         assert notified.wait(GENEROUS)
         closing = pool.submit(controller.close)
-        assert line.draining.wait(GENEROUS)
+        draining.wait()
         assert closed.wait(GENEROUS), "it waits for nobody who may be waiting for it"
-        line.go_on.set()
+        draining.go_on.set()
         closing.result(GENEROUS)
 
 
@@ -212,16 +182,22 @@ def _watched(warned: list[str]) -> Callable[[Controller], None]:
     return forget
 
 
+class Forgotten(AsyncController):
+    """A client whose warning is kept."""
+
+    warned: list[str] | None = None
+
+    def __del__(self) -> None:  # type: ignore[override]
+        super().__del__(lambda text, *_, **__: (self.warned or []).append(text))
+
+
 def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_back() -> None:
     line = LiveLine()
-    warned: list[str] = []
-
-    class Watched(AsyncController):
-        def __del__(self) -> None:  # type: ignore[override]
-            super().__del__(lambda text, *_, **__: warned.append(text))
+    warned = ["before it"]
 
     async def work() -> None:
-        controller = Watched(line, **LIVE)
+        controller = Forgotten(line, **LIVE)
+        controller.warned = warned
         assert await controller.read_battery_voltage() == 7500
         assert len(own_threads()) == 2
 
@@ -229,7 +205,7 @@ def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_bac
     gc.collect()
     await_that(lambda: line.closed)
     await_that(lambda: not own_threads())
-    assert len(warned) == 1
+    assert len(warned) == 2
 
 
 class ReadsOn(LiveLine):
@@ -243,16 +219,29 @@ class ReadsOn(LiveLine):
             return b""
 
 
-@pytest.mark.parametrize("line", [LiveLine, ReadsOn])
-def test_no_thread_reads_on_where_a_client_for_asyncio_is_closed(line: type[LiveLine]) -> None:
-    async def work() -> AsyncController:
-        async with AsyncController(line(), **LIVE) as controller:
-            assert await controller.read_battery_voltage() == 7500
-        return controller
+class Touchy(LiveLine):
+    """A line whose reads fail once it is closed, in words of their own."""
 
-    controller = asyncio.run(work())
-    await_that(lambda: not own_threads())
-    assert controller.closed
+    def read(self, timeout: float) -> bytes:
+        try:
+            return super().read(timeout)
+        except ClosedError:
+            raise ValueError("file descriptor cannot be a negative integer (-1)") from None
+
+
+@both_live
+@pytest.mark.parametrize("line", [LiveLine, ReadsOn, Touchy])
+def test_no_thread_reads_on_where_a_client_is_closed(
+    talk: Talk, line: type[LiveLine], caplog: pytest.LogCaptureFixture
+) -> None:
+    async def work(controller: Any) -> None:
+        assert await controller.read_battery_voltage() == 7500
+
+    for _ in range(3):
+        talk(line(), work, **LIVE)
+        await_that(lambda: not own_threads())
+    # What a transport says of being closed is no bug.
+    assert caplog.records == []
 
 
 def test_the_warning_is_a_resource_warning() -> None:
@@ -271,90 +260,47 @@ def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
     gc.collect()
 
 
-def test_no_thread_is_left_behind() -> None:
-    for _ in range(10):
-        with Controller(LiveLine(), **LIVE) as controller:
-            controller.read_battery_voltage()
-    await_that(lambda: not own_threads())
-
-
 # -------------------------------------------------------------------- a write that fails
 
 
-def test_a_command_that_the_port_does_not_take_fails_at_once() -> None:
-    with (
-        Controller(Refusing(), background=False) as controller,
-        pytest.raises(DisconnectedError, match="takes no bytes"),
-    ):
-        controller.stop_action_group()
+@both_live
+def test_what_the_port_does_not_take_fails_at_once(talk: Talk) -> None:
+    async def command(controller: Any) -> None:
+        with pytest.raises(DisconnectedError, match="takes no bytes"):
+            await controller.stop_action_group()
 
+    async def question(controller: Any) -> None:
+        began = time.monotonic()
+        with pytest.raises(DisconnectedError, match="takes no bytes"):
+            await controller.read_battery_voltage()
+        assert time.monotonic() - began < GENEROUS / 2
 
-def test_a_command_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
-    async def work() -> None:
-        async with AsyncController(Refusing()) as controller:
-            with pytest.raises(DisconnectedError, match="takes no bytes"):
-                await asyncio.wait_for(controller.stop_action_group(), GENEROUS)
-
-    asyncio.run(work())
-
-
-def test_a_question_that_the_port_does_not_take_fails_at_once_with_asyncio() -> None:
-    async def work() -> None:
-        async with AsyncController(Refusing(), **LIVE) as controller:
-            began = time.monotonic()
-            with pytest.raises(DisconnectedError, match="takes no bytes"):
-                await controller.read_battery_voltage()
-            assert time.monotonic() - began < GENEROUS / 2
-
-    asyncio.run(work())
+    talk(LiveLine(write=REFUSING), command)
+    talk(LiveLine(write=REFUSING), question, **LIVE)
 
 
 def test_a_command_counts_as_sent_only_when_the_port_has_taken_it() -> None:
-    taken = threading.Event()
-
-    class Slow(LiveLine):
-        def write(self, data: bytes) -> None:
-            time.sleep(0.05)
-            super().write(data)
-            taken.set()
+    line = LiveLine(write=lambda: time.sleep(0.05))
 
     async def work() -> None:
-        async with AsyncController(Slow()) as controller:
+        async with AsyncController(line) as controller:
             await controller.stop_action_group()
-            assert taken.is_set()
+            assert line.received
 
     asyncio.run(work())
 
 
-# -------------------------------------------------------------------- a transport of one's own
+@both_live
+def test_a_transport_with_a_bug_ends_in_an_error_that_says_so(talk: Talk) -> None:
+    def broken() -> None:
+        raise KeyError(0.5)
 
-
-class Broken(LiveLine):
-    """A transport with a bug."""
-
-    def read(self, timeout: float) -> bytes:
-        raise KeyError(timeout)
-
-
-def test_a_transport_with_a_bug_ends_in_an_error_that_says_so() -> None:
-    with Controller(Broken(), **LIVE) as controller:
+    async def work(controller: Any) -> None:
         for _ in range(3):
             with pytest.raises(TransportError, match=r"failed .*KeyError.*; mend the transport"):
-                controller.read_battery_voltage()
+                await controller.read_battery_voltage()
 
-
-def test_what_a_transport_says_of_being_closed_is_no_bug(caplog: pytest.LogCaptureFixture) -> None:
-    class Touchy(LiveLine):
-        def read(self, timeout: float) -> bytes:
-            try:
-                return super().read(timeout)
-            except ClosedError:
-                raise ValueError("file descriptor cannot be a negative integer (-1)") from None
-
-    for _ in range(3):
-        with Controller(Touchy(), **LIVE) as controller:
-            assert controller.read_battery_voltage() == 7500
-    assert caplog.records == []
+    talk(LiveLine(read=broken), work, **LIVE)
 
 
 # -------------------------------------------------------------------- closed
@@ -388,7 +334,6 @@ def test_close_that_is_cancelled_is_done_all_the_same() -> None:
     # The loop ends while the frame is still on its way.
     asyncio.run(work())
     assert line.closed
-    await_that(lambda: not own_threads())
 
 
 def test_closing_from_within_a_callback_ends_all_the_same() -> None:
@@ -397,7 +342,10 @@ def test_closing_from_within_a_callback_ends_all_the_same() -> None:
     controller.on_report(lambda _: controller.close())
     line.say(ActionGroupStopped())
     await_that(lambda: line.closed)
-    await_that(lambda: not own_threads())
+
+
+def late(message: Message) -> list[tuple[float, bytes | Message]]:
+    return [(0.1, each) for each in answered(message)]
 
 
 def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
@@ -410,7 +358,7 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
                 raise KeyboardInterrupt
             return super().read(timeout)
 
-    line = Once(lambda message: [(0.1, each) for each in answered(message)])
+    line = Once(late)
     with Controller(line, background=False, clock=line.clock, settle=0) as controller:
         with pytest.raises(KeyboardInterrupt):
             controller.read_battery_voltage()
@@ -438,7 +386,7 @@ def test_ctrl_c_as_the_line_is_given_to_others_leaves_it_usable() -> None:
             self._lock.release()
             raise KeyboardInterrupt
 
-    line = VirtualLine(lambda message: [(0.1, each) for each in answered(message)])
+    line = VirtualLine(late)
     with Controller(line, background=False, clock=line.clock, settle=0) as controller:
         whole = controller._lock
         controller._lock = Interrupting(whole)  # type: ignore[assignment]
@@ -477,8 +425,8 @@ def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> 
         transport = board.transport if via == "memory" else open_transport(board.port)
         began = time.monotonic()
         with Controller(transport) as controller:
-            controller.unload_servos(range(1, 101))
-        assert time.monotonic() - began >= 105 / 960
+            controller.unload_servos(range(1, 61))
+        assert time.monotonic() - began >= 65 / 960
         await_that(lambda: board.accepted == 1)
         assert board.rejects.total == 0
 
@@ -486,43 +434,36 @@ def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> 
 # -------------------------------------------------------------------- opened again
 
 
-def test_a_line_that_does_not_come_back_says_why_until_it_does() -> None:
-    line = Unplugged()
-    with Controller(line, **LIVE) as controller:
+@both_live
+def test_a_line_that_does_not_come_back_says_why_until_it_does(talk: Talk) -> None:
+    attempts = iter([False, False, True])
+
+    def reopen() -> None:
+        if not next(attempts):
+            raise PortNotFoundError(LiveLine.name, "there is no such port", "plug it in")
+
+    line = LiveLine(reopen=reopen)
+
+    async def work(controller: Any) -> None:
         line.unplug()
         for _ in range(2):
             with pytest.raises(PortNotFoundError, match="plug it in"):
-                controller.reconnect()
+                await controller.reconnect()
             with pytest.raises(PortNotFoundError, match="plug it in"):
-                controller.read_battery_voltage()
-        controller.reconnect()
-        assert controller.read_battery_voltage() == 7500
+                await controller.read_battery_voltage()
+        await controller.reconnect()
+        assert await controller.read_battery_voltage() == 7500
 
-
-def test_a_line_that_does_not_come_back_says_why_until_it_does_with_asyncio() -> None:
-    line = Unplugged()
-
-    async def work() -> None:
-        async with AsyncController(line, **LIVE) as controller:
-            line.unplug()
-            for _ in range(2):
-                with pytest.raises(PortNotFoundError, match="plug it in"):
-                    await controller.reconnect()
-                with pytest.raises(PortNotFoundError, match="plug it in"):
-                    await controller.read_battery_voltage()
-            await controller.reconnect()
-            assert await controller.read_battery_voltage() == 7500
-
-    asyncio.run(work())
+    talk(line, work, **LIVE)
 
 
 class Counted(LiveLine):
-    """A line that takes a moment to open, and counts how many are and were open."""
+    """A line that counts how many are and were open, and is opened again through a gate."""
 
     open = made = 0
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, opening: Callable[[], object] = int) -> None:
+        super().__init__(reopen=opening)
         Counted.open += 1
         Counted.made += 1
 
@@ -533,38 +474,22 @@ class Counted(LiveLine):
 
     def reopen(self) -> LiveLine:
         assert Counted.open == 0, "the port was opened twice"
-        time.sleep(0.05)
+        self._begin("reopen")
         return Counted()
 
 
-class Held(Counted):
-    """A line that is reopened only when the test allows it."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.begun, self.go_on = threading.Event(), threading.Event()
-
-    def reopen(self) -> LiveLine:
-        self.begun.set()
-        assert self.go_on.wait(GENEROUS)
-        return super().reopen()
-
-
 def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
-    Counted.open = 0
-    line = Counted()
+    line = Counted(lambda: time.sleep(0.05))
     with Controller(line, **LIVE) as controller, ThreadPoolExecutor(8) as pool:
         line.unplug()
         list(pool.map(lambda _: controller.reconnect(), range(8)))
         assert controller.read_battery_voltage() == 7500
         assert Counted.open == 1
         await_that(lambda: len(own_threads()) == 1)
-    assert Counted.open == 0
 
 
 def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
-    Counted.open = 0
-    line = Counted()
+    line = Counted(lambda: time.sleep(0.05))
 
     async def work() -> None:
         async with AsyncController(line, **LIVE) as controller:
@@ -575,65 +500,75 @@ def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
             await_that(lambda: len(own_threads()) == 2)
 
     asyncio.run(work())
-    assert Counted.open == 0
 
 
-def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then() -> None:
-    Counted.open = 0
-    line = Held()
-    controller = Controller(line)
+@pytest.mark.parametrize("patient", [True, False])
+def test_what_is_closed_while_it_is_opened_again_is_given_back(
+    patient: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By then; but closing waits only for a while for a port that does not open."""
+    if not patient:
+        close_in_a_hurry(monkeypatch)
+    opening = Gate()
+    controller = Controller(Counted(opening))
     with ThreadPoolExecutor(2) as pool:
         again = pool.submit(controller.reconnect)
-        assert line.begun.wait(GENEROUS)
+        opening.wait()
         closing = pool.submit(controller.close)
-        done, _ = wait([closing], timeout=0.05)
-        line.go_on.set()
-        assert not done, "the port may be open"
-        closing.result(GENEROUS)
-        assert Counted.open == 0
-        with pytest.raises(ClosedError):
-            again.result(GENEROUS)
-    assert Counted.open == 0
-
-
-def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    close_in_a_hurry(monkeypatch)
-    Counted.open = 0
-    line = Held()
-    controller = Controller(line)
-    with ThreadPoolExecutor(1) as pool:
-        again = pool.submit(controller.reconnect)
-        assert line.begun.wait(GENEROUS)
-        controller.close()
+        done, _ = wait([closing], timeout=0.05 if patient else GENEROUS)
         assert not again.done()
-        line.go_on.set()
+        opening.go_on.set()
+        assert bool(done) is not patient, "the port may be open"
+        closing.result(GENEROUS)
+        assert not patient or Counted.open == 0
         with pytest.raises(ClosedError):
             again.result(GENEROUS)
-    assert Counted.open == 0
+
+
+@pytest.mark.parametrize("patient", [True, False])
+def test_what_is_closed_while_it_is_opened_again_is_given_back_with_asyncio(
+    patient: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not patient:
+        close_in_a_hurry(monkeypatch)
+    opening = Gate()
+
+    async def work() -> None:
+        controller = AsyncController(Counted(opening))
+        await controller.stop_action_group()
+        again = asyncio.ensure_future(controller.reconnect())
+        await opening.reached()
+        closing = asyncio.ensure_future(controller.close())
+        done, _ = await asyncio.wait([closing], timeout=0.05 if patient else GENEROUS)
+        assert not again.done()
+        opening.go_on.set()
+        assert bool(done) is not patient, "the port may be open"
+        await closing
+        assert not patient or Counted.open == 0
+        for reconnecting in (again, controller.reconnect()):
+            with pytest.raises(ClosedError):
+                await reconnecting
+
+    asyncio.run(work())
 
 
 def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
-    Counted.open = Counted.made = 0
-    line = Held()
+    opening = Gate()
 
     async def work() -> None:
-        async with AsyncController(line, **LIVE) as controller:
+        async with AsyncController(Counted(opening), **LIVE) as controller:
             again = asyncio.ensure_future(controller.reconnect())
-            while not line.begun.is_set():
-                await asyncio.sleep(0.001)
+            await opening.reached()
             again.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await again
-            line.go_on.set()
+            opening.go_on.set()
             while Counted.made < 2 or Counted.open:
                 await asyncio.sleep(0.001)
             await controller.reconnect()
             assert await controller.read_battery_voltage() == 7500
 
     asyncio.run(work())
-    assert Counted.open == 0
 
 
 def test_reconnecting_from_within_a_callback() -> None:
@@ -652,61 +587,12 @@ def test_reconnecting_from_within_a_callback() -> None:
         await_that(lambda: len(own_threads()) == 1)
 
 
-def test_what_is_closed_while_it_is_opened_again_is_given_back_by_then_with_asyncio() -> None:
-    Counted.open = 0
-    line = Held()
-
-    async def work() -> None:
-        controller = AsyncController(line)
-        await controller.stop_action_group()
-        again = asyncio.ensure_future(controller.reconnect())
-        while not line.begun.is_set():
-            await asyncio.sleep(0.001)
-        closing = asyncio.ensure_future(controller.close())
-        done, _ = await asyncio.wait([closing], timeout=0.05)
-        line.go_on.set()
-        assert not done, "the port may be open"
-        await closing
-        assert Counted.open == 0
-        with pytest.raises(ClosedError):
-            await again
-        with pytest.raises(ClosedError):
-            await controller.reconnect()
-
-    asyncio.run(work())
-    assert Counted.open == 0
-
-
-def test_closing_waits_only_for_a_while_for_a_port_that_does_not_open_with_asyncio(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    close_in_a_hurry(monkeypatch)
-    Counted.open = 0
-    line = Held()
-
-    async def work() -> None:
-        controller = AsyncController(line)
-        await controller.stop_action_group()
-        again = asyncio.ensure_future(controller.reconnect())
-        while not line.begun.is_set():
-            await asyncio.sleep(0.001)
-        await controller.close()
-        assert not again.done()
-        line.go_on.set()
-        with pytest.raises(ClosedError):
-            await again
-
-    asyncio.run(work())
-    assert Counted.open == 0
-
-
 def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
-    begun, go_on = threading.Event(), threading.Event()
+    opening = Gate()
 
     class Gone(LiveLine):
         def reopen(self) -> LiveLine:
-            begun.set()
-            assert go_on.wait(GENEROUS)
+            opening()
             raise PortNotFoundError(self.name, "there is no such port", "plug it in")
 
     async def work() -> None:
@@ -714,92 +600,59 @@ def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
         asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
         async with AsyncController(Gone()) as controller:
             again = asyncio.ensure_future(controller.reconnect())
-            while not begun.is_set():
-                await asyncio.sleep(0.001)
+            await opening.reached()
             again.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await again
-            go_on.set()
+            opening.go_on.set()
             await asyncio.sleep(0.01)
         assert errors == []
 
     asyncio.run(work())
 
 
-class Stuck(LiveLine):
-    """A line whose reads end not when it is closed, but when the test allows it, by an error."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.let_go = threading.Event()
-        self.ended = threading.Event()
-
-    def read(self, _timeout: float) -> bytes:
-        assert self.let_go.wait(GENEROUS)
-        self.ended.set()
-        raise DisconnectedError(self.name, "the line was lost", "plug it in again")
-
-    def reopen(self) -> LiveLine:
-        return LiveLine()
-
-
+@both_live
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
-    monkeypatch: pytest.MonkeyPatch,
+    talk: Talk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Its reads end not when it is closed, but when the test allows it, by an error."""
     close_in_a_hurry(monkeypatch)
-    line = Stuck()
-    with Controller(line, **LIVE) as controller:
-        controller.reconnect()
-        line.let_go.set()
-        await_that(lambda: len(own_threads()) == 1)
-        assert controller.read_battery_voltage() == 7500
+    stuck = Gate()
 
+    def read() -> None:
+        stuck()
+        losing()()
 
-def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one_with_asyncio(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    close_in_a_hurry(monkeypatch)
-    line = Stuck()
+    async def work(controller: Any) -> None:
+        before = len(own_threads())
+        await controller.reconnect()
+        stuck.go_on.set()
+        await_that(lambda: len(own_threads()) == before)
+        assert await controller.read_battery_voltage() == 7500
 
-    async def work() -> None:
-        async with AsyncController(line, **LIVE) as controller:
-            await controller.reconnect()
-            line.let_go.set()
-            await_that(lambda: len(own_threads()) == 2)
-            assert await controller.read_battery_voltage() == 7500
-
-    asyncio.run(work())
+    talk(LiveLine(read=read), work, **LIVE)
 
 
 # -------------------------------------------------------------------- a driver that gives trouble
 
 
-class Troublesome(LiveLine):
-    """A line that can be used, but neither drained nor closed without an error."""
-
-    def drain(self, _timeout: float) -> None:
-        raise OSError("no status")
-
-    def close(self) -> None:
-        super().close()
+@both_live
+def test_what_cannot_be_drained_is_closed_all_the_same(
+    talk: Talk, caplog: pytest.LogCaptureFixture
+) -> None:
+    def fail() -> None:
         raise OSError("it is gone")
 
+    async def work(controller: Any) -> None:
+        await controller.stop_action_group()
 
-def test_what_cannot_be_drained_is_closed_all_the_same(caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level("DEBUG", "busservo")
-    lines = [Troublesome(), Troublesome()]
-    with Controller(lines[0]) as controller:
-        controller.stop_action_group()
-
-    async def work() -> None:
-        async with AsyncController(lines[1]) as controller:
-            await controller.stop_action_group()
-
-    asyncio.run(work())
-    assert all(line.closed and len(line.received) == 1 for line in lines)
-    assert caplog.text.count("live line could not be drained") == 2
-    assert caplog.text.count("live line could not be closed") == 2
-    await_that(lambda: not own_threads())
+    line = LiveLine(drain=fail, close=fail)
+    talk(line, work)
+    assert line.closed
+    assert len(line.received) == 1
+    assert caplog.text.count("live line could not be drained") == 1
+    assert caplog.text.count("live line could not be closed") == 1
 
 
 def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing() -> None:
@@ -819,7 +672,6 @@ def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing
 
     asyncio.run(work())
     assert line.received == [ServoUnload(range(250))]
-    await_that(lambda: not own_threads())
 
 
 def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent() -> None:
@@ -850,14 +702,7 @@ def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent(
 
 
 def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
-    class WithoutInput(Refusing):
-        reads = 0
-
-        def read(self, timeout: float) -> bytes:
-            self.reads += 1
-            return super().read(timeout)
-
-    line = WithoutInput()
+    line = LiveLine(write=REFUSING)
 
     async def work() -> None:
         async with AsyncController(line) as controller:
@@ -881,13 +726,6 @@ def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
 # -------------------------------------------------------------------- a loop that is no more
 
 
-class Forgotten(AsyncController):
-    """A client whose warning is of no interest."""
-
-    def __del__(self) -> None:  # type: ignore[override]
-        super().__del__(lambda *_, **__: None)
-
-
 def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
     line = LiveLine()
 
@@ -908,19 +746,13 @@ def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
 
 
 def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
-    begun, go_on = threading.Event(), threading.Event()
-
-    class Slow(LiveLine):
-        def write(self, _data: bytes) -> None:
-            begun.set()
-            assert go_on.wait(GENEROUS)
-
-    line = Slow()
+    writing = Gate()
+    line = LiveLine(write=writing)
 
     async def work() -> None:
         controller = Forgotten(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
-        assert await asyncio.get_running_loop().run_in_executor(None, begun.wait, GENEROUS)
+        await writing.reached()
         asking.cancel()
         with pytest.raises(asyncio.CancelledError):
             await asking
@@ -930,7 +762,7 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
     asyncio.run(work())
     gc.collect()
     await_that(lambda: line.closed)
-    go_on.set()
+    writing.go_on.set()
     # Nobody is left to notify that the question is written, and the thread that wrote it ends.
     await_that(lambda: not own_threads())
 
@@ -945,9 +777,6 @@ def test_what_a_loop_that_has_ended_left_unsent_is_sent_by_closing_in_another() 
             controller.send_latest(each)
         return controller
 
-    async def close(controller: AsyncController) -> None:
-        await controller.close()
-
     controller = asyncio.run(use())
     for _ in range(2):
         asyncio.run(close(controller))
@@ -956,11 +785,7 @@ def test_what_a_loop_that_has_ended_left_unsent_is_sent_by_closing_in_another() 
 
 
 def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() -> None:
-    line = LiveLine(lambda _: [])
-
-    async def close(controller: AsyncController) -> None:
-        await controller.close()
-
+    line = LiveLine(unanswered)
     loop = asyncio.new_event_loop()
     # That a task of it is never resumed is what is tried here.
     loop.set_exception_handler(lambda *_: None)
@@ -980,18 +805,16 @@ def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() ->
 
 
 def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() -> None:
-    line = SlowToClose()
+    draining = Gate()
+    line = LiveLine(drain=draining)
 
     async def begin() -> AsyncController:
         controller = AsyncController(line)
         await controller.stop_action_group()
         asyncio.ensure_future(controller.close())  # noqa: RUF006 - the client keeps it
-        assert await asyncio.get_running_loop().run_in_executor(None, line.draining.wait, GENEROUS)
-        asyncio.get_running_loop().call_soon(line.go_on.set)
+        await draining.reached()
+        asyncio.get_running_loop().call_soon(draining.go_on.set)
         return controller
-
-    async def close(controller: AsyncController) -> None:
-        await controller.close()
 
     controller = asyncio.run(begin())
     assert line.closed
@@ -1002,12 +825,10 @@ def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() ->
 
 
 def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
-    line = LiveLine()
-    begun, go_on = threading.Event(), threading.Event()
+    line, gate = LiveLine(), Gate()
 
     def open_late() -> Any:
-        begun.set()
-        assert go_on.wait(GENEROUS)
+        gate()
         return line
 
     async def open_it() -> None:
@@ -1015,12 +836,11 @@ def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
 
     async def work() -> None:
         opening = asyncio.ensure_future(open_it())
-        while not begun.is_set():
-            await asyncio.sleep(0.001)
+        await gate.reached()
         opening.cancel()
         with pytest.raises(asyncio.CancelledError):
             await opening
-        go_on.set()
+        gate.go_on.set()
         while not line.closed:
             await asyncio.sleep(0.001)
 

@@ -19,9 +19,8 @@ from busservo import (
 )
 from busservo_simulator import VirtualClock, VirtualController
 
-from tests.lines.live_line import LiveLine
-from tests.lines.loop_line import LoopLine, client, run
-from tests.lines.virtual_line import VirtualLine
+from tests.lines.live_line import LiveLine, answered
+from tests.lines.virtual_line import VirtualLine, client, run
 from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
@@ -195,11 +194,11 @@ def test_a_move_that_never_left_ends_with_the_error(virtual: Virtual) -> None:
 
 
 def test_a_motion_is_waited_for_in_a_task() -> None:
-    line = LoopLine()
+    line = VirtualLine(answered)
 
     async def work() -> None:
         async with client(line, **LIVE) as controller:
-            began = line.clock.now()
+            began = line.now
             motion = await controller.move_servos([(1, 800)], time_ms=50)
             assert isinstance(motion, AsyncMotion)
             assert isinstance(await controller.send(ServoMove(0, SIX)), AsyncMotion)
@@ -207,7 +206,7 @@ def test_a_motion_is_waited_for_in_a_task() -> None:
             line.say(ActionGroupStopped())
             assert await asyncio.wait_for(motion.wait(), GENEROUS)
             assert motion.remaining == 0.0
-            assert line.clock.now() == pytest.approx(began + 0.05, abs=1e-4)
+            assert line.now == pytest.approx(began + 0.05, abs=1e-4)
             assert await motion.wait(), "it may be waited for again"
             received = [report async for report in controller.reports(timeout=0)]
             assert received == [ActionGroupStopped()]
@@ -217,7 +216,7 @@ def test_a_motion_is_waited_for_in_a_task() -> None:
 
 def test_in_a_task_the_latest_move_takes_the_place_of_what_waits() -> None:
     async def work() -> None:
-        line = LoopLine()
+        line = VirtualLine(answered)
         async with client(line, baud=1000) as controller:
             motions = [
                 await controller.move_servos([(1, position)], 20, latest=True)
@@ -239,7 +238,7 @@ def test_in_a_task_the_latest_move_takes_the_place_of_what_waits() -> None:
 def test_in_a_task_a_line_that_is_lost_or_closed_ends_the_wait(latest: bool) -> None:
     async def work() -> None:
         for error in (DisconnectedError, ClosedError):
-            line = LoopLine()
+            line = VirtualLine(answered)
             async with client(line, baud=1000) as controller:
                 await controller.move_servos([(1, 500)], 20)
                 motion = await controller.move_servos([(1, 800)], LONG, latest=latest)
@@ -257,7 +256,7 @@ def test_in_a_task_a_line_that_is_lost_or_closed_ends_the_wait(latest: bool) -> 
 
 def test_a_wait_that_is_cancelled_leaves_the_line_usable() -> None:
     async def work() -> None:
-        async with client(LoopLine(), **LIVE) as controller:
+        async with client(VirtualLine(answered), **LIVE) as controller:
             motion = await controller.move_servos([(1, 800)], LONG)
             with pytest.raises(asyncio.TimeoutError):
                 await asyncio.wait_for(motion.wait(), 0.01)

@@ -9,7 +9,7 @@ import pickle
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import lxservo
@@ -31,16 +31,19 @@ from busservo._client.line_threads import LineThreads
 from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, data_of, files_of, library
-from tests.lines.device_line import client_of
+from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine
-from tests.lines.loop_line import LoopLine, client, run
-from tests.lines.virtual_line import VirtualLine
+from tests.lines.receiving import unanswered
+from tests.lines.timed_line import client_of
+from tests.lines.virtual_line import VirtualLine, client, run
 from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from busservo import Message
+
+    from tests.lines.both_clients import Talk
 
 # Where the servos are: on their way, outside the limits, or off.
 THERE = {1: 433, 2: 612, 3: 1500, 4: 65535}
@@ -50,10 +53,6 @@ LONG = 5000
 def where(message: Message) -> list[Message]:
     if isinstance(message, ServoPositionsRead):
         return [ServoPositions([(each, THERE[each]) for each in message.servo_ids])]
-    return []
-
-
-def nothing(_message: Message) -> list[Message]:
     return []
 
 
@@ -73,10 +72,7 @@ def release(*servos: int) -> Step:
 
 
 def lose(_controller: object, line: Any) -> None:
-    if isinstance(line, LoopLine):
-        line.unplug()
-    else:
-        line.error = DisconnectedError(line.name, "the line was lost", "plug it in again")
+    line.unplug()
 
 
 def stop(*_: object) -> None:
@@ -149,7 +145,7 @@ CASES = [
         [move(1)],
         NO_ANSWER,
         {1: "no answer"},
-        answer=nothing,
+        answer=unanswered,
         cause=NoReplyError,
     ),
     Case(
@@ -157,7 +153,7 @@ CASES = [
         [move(1)],
         NO_ANSWER[:1],
         {1: "there was no time"},
-        answer=nothing,
+        answer=unanswered,
         given={"reply_timeout": 60.0},
     ),
     Case(
@@ -187,56 +183,34 @@ class Outcome:
     error: BaseException | None
 
 
-def by_threads(case: Case) -> Outcome:
-    line = VirtualLine(lambda message: [(0.0, each) for each in case.answer(message)])
-    given = {"settle": 0, "on_exit": case.on_exit, **case.given}
+def carried_out(case: Case, talk: Talk) -> Outcome:
+    line = VirtualLine(case.answer)
     error, count, began = None, 0, 0.0
+
+    async def work(controller: Any) -> None:
+        nonlocal count, began
+        try:
+            for step in case.body:
+                awaited = step(controller, line)
+                if inspect.isawaitable(awaited):
+                    await awaited
+        finally:
+            count, began = len(line.received), line.now
+
     try:
-        with Controller(line, background=False, clock=line.clock, **given) as controller:
-            try:
-                for step in case.body:
-                    step(controller, line)
-            finally:
-                count, began = len(line.received), line.now
+        talk(line, work, settle=0, on_exit=case.on_exit, **case.given)
     except (Stopped, NotHeldError) as raised:
         error = raised
     assert line.closed
     return Outcome(line.received[count:], line.now - began, error)
 
 
-def by_tasks(case: Case) -> Outcome:
-    line = LoopLine(case.answer)
-    given = {"settle": 0, "on_exit": case.on_exit, **case.given}
-    error, count, began = None, 0, 0.0
-
-    async def work() -> None:
-        nonlocal count, began
-        async with client(line, **given) as controller:
-            try:
-                for step in case.body:
-                    awaited = step(controller, line)
-                    if inspect.isawaitable(awaited):
-                        await awaited
-            finally:
-                count, began = len(line.received), line.clock.now()
-
-    try:
-        run(work(), line)
-    except (Stopped, NotHeldError) as raised:
-        error = raised
-    assert line.closed
-    return Outcome(line.received[count:], line.clock.now() - began, error)
-
-
-both = pytest.mark.parametrize("carry_out", [by_threads, by_tasks])
-
-
 @both
 def test_what_was_moved_is_held_or_released_last_of_all(
-    carry_out: Callable[[Case], Outcome], caplog: pytest.LogCaptureFixture
+    talk: Talk, caplog: pytest.LogCaptureFixture
 ) -> None:
     for case in CASES:
-        done = carry_out(case)
+        done = carried_out(case, talk)
         assert done.sent == [*case.sent], case.about
         assert done.seconds < 2.2, case.about
         error = done.error
@@ -250,12 +224,10 @@ def test_what_was_moved_is_held_or_released_last_of_all(
 
 
 @both
-def test_an_exception_that_is_under_way_wins(
-    carry_out: Callable[[Case], Outcome], caplog: pytest.LogCaptureFixture
-) -> None:
+def test_an_exception_that_is_under_way_wins(talk: Talk, caplog: pytest.LogCaptureFixture) -> None:
     for case in CASES:
         caplog.clear()
-        done = carry_out(Case(**{**vars(case), "body": [*case.body, stop]}))
+        done = carried_out(replace(case, body=[*case.body, stop]), talk)
         assert isinstance(done.error, Stopped), case.about
         assert done.sent == [*case.sent], case.about
         notes = getattr(done.error, "__notes__", [])
@@ -314,7 +286,7 @@ def test_ctrl_c_stops_a_motion_that_is_waited_for_and_a_second_one_just_leaves(
 def test_a_task_that_is_cancelled_holds_and_one_that_is_cancelled_twice_just_leaves(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    async def work(line: LoopLine, cancels: int) -> float:
+    async def work(line: VirtualLine, cancels: int) -> float:
         async def motion() -> None:
             async with client(line, on_exit="hold", settle=0) as arm:
                 await (await arm.move_servos([(1, 900)], LONG)).wait()
@@ -323,22 +295,22 @@ def test_a_task_that_is_cancelled_holds_and_one_that_is_cancelled_twice_just_lea
         for _ in range(cancels):
             await asyncio.sleep(0.1)
             task.cancel()
-        began = line.clock.now()
+        began = line.now
         with pytest.raises(asyncio.CancelledError):
             await task
         while not line.closed:
             await asyncio.sleep(0.01)
-        return line.clock.now() - began
+        return line.now - began
 
-    line = LoopLine(where)
+    line = VirtualLine(where)
     run(work(line, 1), line)
     assert line.received == [ServoMove(LONG, [(1, 900)]), *held((1, 433))]
     assert not caplog.records
-    line = LoopLine(nothing)
+    line = VirtualLine(unanswered)
     assert run(work(line, 2), line) < 0.1
     assert line.received == [ServoMove(LONG, [(1, 900)]), ServoPositionsRead([1])]
     [record] = caplog.records
-    assert record.getMessage() == "loop line: servos not held: 1 (no answer)"
+    assert record.getMessage() == "virtual line: servos not held: 1 (no answer)"
 
 
 class Failing(LiveLine):
@@ -407,7 +379,7 @@ def test_a_client_for_asyncio_holds_what_it_is_told_to_without_having_done_anyth
     async def work() -> None:
         await client(line, on_exit="hold", ids=(2,), settle=0).close()
 
-    line = LoopLine(where)
+    line = VirtualLine(where)
     run(work(), line)
     assert line.received == held((2, 612))
 

@@ -1,0 +1,71 @@
+"""What a board receives, in whatever time it lives, and what it answers."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+from busservo import (
+    BatteryVoltage,
+    BatteryVoltageRead,
+    Direction,
+    Message,
+    Noise,
+    ServoPositions,
+    ServoPositionsRead,
+    StreamDecoder,
+)
+from busservo._client.exchanges import EXCHANGES
+from busservo._codec.rejects import Rejects
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+def answered(message: Message) -> list[Message]:
+    """Return the answer of a board of servos 1 to 200, each at ten times its number."""
+    if isinstance(message, BatteryVoltageRead):
+        return [BatteryVoltage(7500)]
+    if isinstance(message, ServoPositionsRead):
+        return [ServoPositions([(servo, 10 * servo) for servo in message.servo_ids])]
+    exchange = EXCHANGES.get(type(message))
+    if exchange is None or exchange.reply is None:
+        return []
+    return [example_of(exchange.reply)]
+
+
+def unanswered(_message: Message) -> list[Message]:
+    return []
+
+
+def example_of(kind: type[Message]) -> Message:
+    """Return the first example of a message, as the vectors have it."""
+    valid = _vectors()["valid"]
+    text = next(each["hex"] for each in valid if each["message"] == kind.__name__)
+    return kind.decode(bytes.fromhex(text))
+
+
+@cache
+def _vectors() -> Any:
+    return json.loads(files("busservo").joinpath("vectors.json").read_text(encoding="utf-8"))
+
+
+class Receiving:
+    """The ear of a board: what it receives is kept, and what is no message is counted."""
+
+    def __init__(self) -> None:
+        self.received: list[Message] = []
+        # No client may ever make this count: see tests/lines/boards.py.
+        self.rejects = Rejects()
+        self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
+
+    def heard(self, data: bytes) -> Iterator[Message]:
+        """Yield the messages that these bytes complete."""
+        for event in self._decoder.feed(data):
+            if isinstance(event, Noise):
+                self.rejects.add(event)
+                continue
+            self.received.append(event)
+            yield event
