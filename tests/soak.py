@@ -26,6 +26,7 @@ from busservo import AsyncController, Controller, open_transport
 from busservo_simulator import Faults, VirtualClock, VirtualController
 
 from tests.contract.independent import long_run
+from tests.lines.at_board import client_at
 from tests.lines.conversation import (
     Ledger,
     converse,
@@ -112,12 +113,8 @@ def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
     faults = Faults(seed=seed, **VIRTUAL, **BOTH)
     with VirtualController(clock=clock, faults=faults) as board:
         ledger = Ledger(board)
-        with Controller(
-            board.transport,
-            background=False,
-            clock=clock.now,
-            baud=math.inf,
-            reply_timeout=REPLY_TIMEOUT,
+        with client_at(
+            board, Controller, baud=math.inf, reply_timeout=REPLY_TIMEOUT, settle=None
         ) as controller:
             watch = Watch("virtual time", ledger, controller)
             for turn in range(rounds):

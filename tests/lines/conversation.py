@@ -11,7 +11,7 @@ import asyncio
 import threading
 import time
 from random import Random
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from busservo import (
     BatteryVoltage,
@@ -24,6 +24,7 @@ from busservo import (
 )
 from busservo_simulator.board_fault_injector import REPLIES
 
+from tests.lines.both_clients import Awaited, done_at_once
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
@@ -147,8 +148,13 @@ def turns(seed: int, count: int) -> Iterator[list[int] | str]:
             yield random.sample(range(1, 7), random.randint(1, 6))
 
 
-def converse(
-    controller: Controller,
+def converse(controller: Controller, *given: Any, **more: Any) -> None:
+    """Make so many calls, with a client for threads."""
+    done_at_once(converse_async(Awaited(controller), *given, **more))
+
+
+async def converse_async(
+    controller: Any,
     ledger: Ledger,
     seed: int,
     count: int,
@@ -156,40 +162,6 @@ def converse(
     bound: float = BOUND,
 ) -> None:
     """Make `count` calls. Whatever goes wrong: a right value or a declared error, in time."""
-    for turn in turns(seed, count):
-        before, began = ledger.questions, now()
-        try:
-            if turn == "battery":
-                ledger.given(before, {controller.read_battery_voltage()})
-            elif turn == "move":
-                controller.move_servos([(1, 500)], time_ms=20)
-            elif turn == "unload":
-                controller.unload_servos([200])
-            elif isinstance(turn, list):
-                ledger.given_all(before, turn, controller.read_servo_positions(turn))
-        except NoReplyError:
-            ledger.refused += 1
-        except IncompleteReplyError as error:
-            assert isinstance(turn, list)
-            ledger.given_part(before, turn, error)
-        except DisconnectedError:
-            assert now() - began <= bound
-            ledger.board.plug_in()
-            _again(controller)
-            ledger.reconnected += 1
-            continue
-        assert now() - began <= bound
-
-
-async def converse_async(
-    controller: AsyncController,
-    ledger: Ledger,
-    seed: int,
-    count: int,
-    now: Callable[[], float] = time.monotonic,
-    bound: float = BOUND,
-) -> None:
-    """Make `count` calls, for asyncio."""
     for turn in turns(seed, count):
         before, began = ledger.questions, now()
         try:
@@ -209,24 +181,13 @@ async def converse_async(
         except DisconnectedError:
             assert now() - began <= bound
             ledger.board.plug_in()
-            await _again_async(controller)
+            await _again(controller)
             ledger.reconnected += 1
             continue
         assert now() - began <= bound
 
 
-def _again(controller: Controller) -> None:
-    end = time.monotonic() + BOUND
-    while True:
-        try:
-            controller.reconnect()
-        except TransportError:
-            assert time.monotonic() < end
-        else:
-            return
-
-
-async def _again_async(controller: AsyncController) -> None:
+async def _again(controller: Any) -> None:
     end = time.monotonic() + BOUND
     while True:
         try:

@@ -142,6 +142,13 @@ class Board:
         )
 
     @property
+    def last_event(self) -> float:
+        """When the last of what is under way is sent, or with the host."""
+        moments = [at for at, _ in self._arriving]
+        moments += [at for at, *_ in self._due] + [at for at, *_ in self._leaving]
+        return max(moments, default=0.0)
+
+    @property
     def in_transit(self) -> int:
         """How many bytes of the host are still on their way."""
         return len(self._arriving)

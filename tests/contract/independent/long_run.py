@@ -20,6 +20,7 @@ from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
 from tests.contract.independent.conversation import SIX, Conversation, wire_time
 from tests.contract.independent.ports import TcpPort, VirtualPort
+from tests.lines.timed_line import client_on
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
@@ -130,9 +131,7 @@ def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
     random = Random(seed)  # noqa: S311 - to be repeated
     board = Board(baud=BAUD, thinks=0.001, faults=scheduled(random, any_fault))
     port = VirtualPort(board)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
         watch = Rounds("independent board, paced", board, controller)
         talk = Conversation(board, port.clock)
         for _ in range(rounds):

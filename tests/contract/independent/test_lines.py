@@ -19,6 +19,7 @@ from tests.contract.independent.board import BITS_PER_BYTE, Board
 from tests.contract.independent.conversation import SIX, Conversation, wire_time
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
+from tests.lines.timed_line import client_on
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25
@@ -30,9 +31,7 @@ def conversation(
     """Read the battery so often, one after the other."""
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, baud=baud, settle=0
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, baud=baud) as controller:
         for _ in range(reads):
             talk.ask(controller, None)
     return talk, controller, port
@@ -79,9 +78,7 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
     board = Board(thinks=0.002, faults={6: faults.duplicated(0.001)}.get)
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, baud=baud, settle=0
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, baud=baud) as controller:
         for _ in range(12):
             talk.ask(controller, None)
         assert [talk.calls.index(each) for each in talk.stale] == [6, 7, 8, 9, 10, 11]
@@ -124,9 +121,7 @@ class Pausing(VirtualPort):
 def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind: int) -> None:
     board = Board(baud=BAUD)
     port = Pausing(board, behind)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
         for number in (1, 2, 3):
             positions = controller.read_servo_positions(SIX)
             assert {position for _, position in positions} == {number}
@@ -139,8 +134,8 @@ def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind
 def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
     board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
     port = VirtualPort(board)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, local_echo=True
+    with client_on(
+        port, Controller, reply_timeout=REPLY_TIMEOUT, local_echo=True, settle=None
     ) as controller:
         controller.stop_action_group()
         controller.run_action_group(9, times=1)
@@ -164,8 +159,8 @@ def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
 def test_an_echo_that_is_missing_is_an_error() -> None:
     port = VirtualPort(Board(baud=BAUD))
     with (
-        Controller(
-            port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, local_echo=True
+        client_on(
+            port, Controller, reply_timeout=REPLY_TIMEOUT, local_echo=True, settle=None
         ) as controller,
         pytest.raises(EchoError),
     ):
@@ -189,14 +184,7 @@ def test_an_echo_that_is_damaged_ends_one_call_alone() -> None:
     # Two reads of 10 bytes each, echo and reply, and then the second byte of an echo.
     board = Board(baud=BAUD, echo=True, thinks=0.001)
     port = Damaging(board, 22)
-    with Controller(
-        port,
-        background=False,
-        clock=port.clock,
-        reply_timeout=REPLY_TIMEOUT,
-        local_echo=True,
-        settle=0,
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, local_echo=True) as controller:
         assert [controller.read_battery_voltage() for _ in range(2)] == [1, 2]
         with pytest.raises(EchoError):
             controller.read_battery_voltage()
@@ -228,9 +216,7 @@ def test_a_reply_meant_for_a_program_that_was_killed_is_not_taken_for_ours(
     question = firmware.positions_question(list(SIX)) if requested else firmware.battery_question()
     board.write(question, -(len(question) * BITS_PER_BYTE / BAUD) + after)
     talk = Conversation(board, port.clock)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
         for _ in range(3):
             talk.ask(controller, requested)
     assert (talk.stale, talk.failed) == ([], [])
@@ -241,8 +227,6 @@ def test_what_is_in_the_buffer_at_opening_is_not_taken_for_ours() -> None:
     board.write(firmware.battery_question(), -1)
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
         talk.ask(controller, None)
     assert (talk.stale, talk.failed) == ([], [])

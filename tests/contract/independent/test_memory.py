@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from tests.bad_specs import BASES
 from tests.contract.independent.memory import BYTE, MemoryPort
 from tests.factories import compiled_file, library, library_files
+from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,9 +35,7 @@ def memory() -> Iterator[ModuleType]:
 def test_the_late_answer_of_another_size_is_dropped(memory: ModuleType, by: float) -> None:
     """Also where the right answer never comes, so that this is the only one."""
     port = MemoryPort({1: by, 2: 5.0})
-    with memory.Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
-    ) as host:
+    with client_on(port, memory.Controller, reply_timeout=REPLY_TIMEOUT) as host:
         with pytest.raises(memory.NoReplyError):
             host.read_bytes(16, count=2)
         with pytest.raises(memory.NoReplyError):
@@ -53,9 +52,7 @@ def test_a_read_gets_as_many_bytes_as_it_asks_for_and_never_goes_back(
 ) -> None:
     port = MemoryPort(late)
     read = []
-    with memory.Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
-    ) as host:
+    with client_on(port, memory.Controller, reply_timeout=REPLY_TIMEOUT) as host:
         for count in counts:
             began = port.now
             try:

@@ -16,6 +16,7 @@ from tests.contract.independent.conversation import SIX, Conversation, wire_time
 from tests.contract.independent.faults import Piece
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
+from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
     from tests.contract.independent.conversation import Requested
@@ -113,12 +114,12 @@ class Run:
         )
         port = VirtualPort(self.board)
         self.talk = Conversation(self.board, port.clock)
-        with Controller(
-            port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
-        ) as controller:
+        with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
             for _ in range(reads):
                 self.talk.ask(controller, requested)
-            self.reports = [each.encode() for each in controller.reports(timeout=2)]
+            # All that is still to come is with the host by then, and the line has been quiet since.
+            quiet = self.board.last_event - port.now + 0.2
+            self.reports = [each.encode() for each in controller.reports(timeout=quiet)]
             self.counters = controller.counters
 
     def check(self, requested: Requested) -> None:

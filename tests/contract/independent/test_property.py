@@ -17,6 +17,7 @@ from tests.contract.independent.board import Board
 from tests.contract.independent.conversation import SIX, Conversation, wire_time
 from tests.contract.independent.faults import Piece
 from tests.contract.independent.ports import VirtualPort
+from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
     from tests.contract.independent.conversation import Requested
@@ -97,9 +98,7 @@ def test_every_read_is_right_or_excused_by_a_fault(
     port = VirtualPort(board)
     talk = Conversation(board, port.clock)
     received: list[bytes] = []
-    with Controller(
-        port, background=False, clock=port.clock, reply_timeout=REPLY_TIMEOUT, settle=0
-    ) as controller:
+    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
         for _ in range(HEALTHY):
             talk.ask(controller, None)
         for step in steps:

@@ -16,6 +16,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.lines.at_board import virtual_board
+from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,11 +38,11 @@ BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 class Simulated:
     """A simulated board that numbers its replies, with a record of the values and times."""
 
-    def __init__(self, board: VirtualController, clock: VirtualClock) -> None:
+    def __init__(self, board: VirtualController) -> None:
         self.questions = 0
         self.reported: list[bytes] = []
         self.calm_at = float("inf")
-        self._clock = clock
+        self.clock = board.clock.now
         self._transport: MemoryEnd = board.transport
         self._stream = bytearray()
         # How many bytes there were by then, and when that was.
@@ -78,7 +80,7 @@ class Simulated:
         data = self._transport.read(timeout)
         self._stream += data
         self._sizes.append(len(self._stream))
-        self._times.append(self._clock.now())
+        self._times.append(self.clock())
         return data
 
     def write(self, data: bytes) -> None:
@@ -137,12 +139,15 @@ holed = st.builds(
 def test_every_read_from_the_faulty_simulator_is_right_or_excused(
     faults: Faults, requested: list[tuple[int, ...] | None]
 ) -> None:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(clock=clock, baud=BAUD) as board:
-        simulated = Simulated(board, clock)
-        talk = Conversation(simulated, clock.now)
+    with virtual_board(baud=BAUD) as board:
+        simulated = Simulated(board)
+        talk = Conversation(simulated, simulated.clock)
         with Controller(
-            simulated, background=False, clock=clock.now, reply_timeout=REPLY_TIMEOUT, settle=0
+            simulated,
+            background=False,
+            clock=board.clock.now,
+            reply_timeout=REPLY_TIMEOUT,
+            settle=0,
         ) as controller:
             for _ in range(HEALTHY):
                 talk.ask(controller, None)
@@ -152,7 +157,7 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
                 talk.ask(controller, each)
             board.faults = Faults()
             received = [each.encode() for each in controller.reports(timeout=QUIET)]
-            simulated.calm_at = clock.now()
+            simulated.calm_at = board.clock.now()
             for _ in range(3):
                 talk.ask(controller, None)
             talk.check(BAUD, BOUND)
@@ -165,11 +170,9 @@ def test_reads_come_no_faster_than_the_line_allows() -> None:
         clock = VirtualClock(follow_reads=True)
         faults = Faults(seed=seed, delays=0.04, longest_delay=1.0)
         with VirtualController(clock=clock, baud=BAUD, faults=faults) as board:
-            simulated = Simulated(board, clock)
-            talk = Conversation(simulated, clock.now)
-            with Controller(
-                simulated, background=False, clock=clock.now, reply_timeout=REPLY_TIMEOUT, settle=0
-            ) as controller:
+            simulated = Simulated(board)
+            talk = Conversation(simulated, simulated.clock)
+            with client_on(simulated, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
                 for _ in range(100):
                     talk.ask(controller, None)
             least = 0.95 * wire_time(None, BAUD)

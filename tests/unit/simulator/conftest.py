@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from busservo._frame.protocol import BAUD
 from busservo._serial.serial_port import open_transport
-from busservo_simulator import VirtualClock, VirtualController
+from busservo_simulator import VirtualController
 
+from tests.lines.at_board import virtual_board
 from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.lines.hosts import Host, host_of
 
@@ -24,7 +25,7 @@ WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"
 @pytest.fixture
 def board() -> Iterator[VirtualController]:
     """Yield a board whose time goes on when somebody waits for it, and never by itself."""
-    with VirtualController(clock=VirtualClock(follow_reads=True)) as board:
+    with virtual_board() as board:
         yield board
 
 

@@ -17,8 +17,9 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo_simulator import ActionGroup, Step, VirtualClock, VirtualController
+from busservo_simulator import ActionGroup, Step, VirtualController
 
+from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
 
 NOD = ActionGroup([Step(300, {1: 600}), Step(200, {1: 400})])
@@ -141,7 +142,7 @@ def test_a_servo_says_what_it_does(board: VirtualController, host: Host) -> None
 
 @pytest.fixture
 def nodding() -> VirtualController:
-    return VirtualController(clock=VirtualClock(follow_reads=True), groups={5: NOD})
+    return virtual_board(groups={5: NOD})
 
 
 def test_a_group_starts_runs_and_ends_with_a_report_each(nodding: VirtualController) -> None:
@@ -195,8 +196,7 @@ def test_a_speed_of_nothing_is_ignored(nodding: VirtualController) -> None:
 
 
 def test_the_report_that_a_group_starts_can_be_left_out() -> None:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(clock=clock, groups={5: NOD}, start_report=False) as board:
+    with virtual_board(groups={5: NOD}, start_report=False) as board:
         assert host_of(board).ask(ActionGroupRun(5, 1)) == ActionGroupCompleted(5, 1)
 
 
@@ -266,7 +266,7 @@ def test_the_battery_runs_down_but_not_below_empty(board: VirtualController, hos
 
 @pytest.mark.parametrize("asked_for", [0, 4700, 6000, 65535])
 def test_a_battery_begins_where_it_is_asked_to(asked_for: int) -> None:
-    with VirtualController(clock=VirtualClock(follow_reads=True), battery_mv=asked_for) as board:
+    with virtual_board(battery_mv=asked_for) as board:
         assert voltage(host_of(board)) == asked_for
         board.advance(500 * 3600)
         assert voltage(host_of(board)) == (asked_for if asked_for <= 6000 else 35535)

@@ -56,9 +56,8 @@ def start() -> Iterator[Callable[..., tuple[subprocess.Popen[str], str]]]:
 
 
 @not_windows
-@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
 def test_it_answers_prints_what_happens_and_ends_cleanly(
-    start: Callable[..., tuple[subprocess.Popen[str], str]], tmp_path: Path, kind: signal.Signals
+    start: Callable[..., tuple[subprocess.Popen[str], str]], tmp_path: Path
 ) -> None:
     link = tmp_path / "COM7"
     process, port = start(
@@ -71,7 +70,7 @@ def test_it_answers_prints_what_happens_and_ends_cleanly(
         [(1, 500), (3, 500), (4, 65535)]
     )
     host.hang_up()
-    process.send_signal(kind)
+    process.send_signal(signal.SIGTERM)
     output, errors = process.communicate(timeout=GENEROUS)
     assert process.returncode == 0
     assert "LED2      blinks: BatteryVoltageRead()" in output
@@ -80,18 +79,22 @@ def test_it_answers_prints_what_happens_and_ends_cleanly(
 
 
 @not_windows
-def test_over_tcp_it_can_be_quiet(
+def test_over_tcp_it_can_be_quiet_and_says_where_the_network_reaches_it(
     start: Callable[..., tuple[subprocess.Popen[str], str]],
 ) -> None:
-    process, port = start("--tcp", "--quiet", "--baud", "inf", "--fault", "noise=1", "--seed", "3")
-    assert port.startswith("socket://127.0.0.1:")
+    process, port = start(
+        *("--tcp", "--quiet", "--baud", "inf", "--fault", "noise=1", "--seed", "3"),
+        *("--host", "0.0.0.0"),  # noqa: S104 - it is what is asked for
+    )
+    assert port.startswith("socket://0.0.0.0:")
     host = Host(open_transport(port))
     assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
     assert host.noise()
     host.hang_up()
     process.send_signal(signal.SIGINT)
-    output, _ = process.communicate(timeout=GENEROUS)
+    output, errors = process.communicate(timeout=GENEROUS)
     assert (process.returncode, output) == (0, "")
+    assert errors.startswith("busservo-simulator: the network reaches it at 0.0.0.0\n")
 
 
 def test_help_teaches_by_example(capsys: pytest.CaptureFixture[str]) -> None:
@@ -139,18 +142,6 @@ def test_its_options_change_what_is_on_the_wire(words: str, expected: bytes) -> 
         host.hang_up()
 
 
-@not_windows
-def test_it_reports_a_host_at_another_rate(
-    start: Callable[..., tuple[subprocess.Popen[str], str]],
-) -> None:
-    process, port = start()
-    host = Host(open_transport(port, baud=115200))
-    host.say(BatteryVoltageRead())
-    assert process.stdout is not None
-    assert "the host is at 115200 baud, the board at 9600\n" in process.stdout.readline()
-    host.hang_up()
-
-
 @in_turn(
     "arguments, words",
     lambda: [
@@ -175,7 +166,10 @@ def test_what_it_cannot_do_is_an_error(
     capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
 ) -> None:
     assert main(arguments) == 2
-    assert words in capsys.readouterr().err
+    shown = capsys.readouterr().err
+    assert words in shown
+    # A host that cannot be listened at is not said to be reached.
+    assert "reaches" not in shown
 
 
 @pytest.mark.parametrize(("text", "servos"), [("1", [1]), ("1-3", [1, 2, 3]), ("1-2,9", [1, 2, 9])])
@@ -196,23 +190,6 @@ def test_the_line_is_as_slow_as_the_real_one_unless_told_otherwise(
     words: str, pace: float | None
 ) -> None:
     assert line_options.pace(parser_of(PROGRAM).parse_args(words.split())) == pace
-
-
-def test_a_host_that_cannot_be_listened_at_is_not_said_to_be_reached(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    assert main(["--tcp", "0", "--host", "203.0.113.7"]) == 2
-    assert capsys.readouterr().err.startswith("busservo-simulator: error: 203.0.113.7, port 0 ")
-
-
-@not_windows
-def test_a_board_that_the_network_reaches_says_so(
-    start: Callable[..., tuple[subprocess.Popen[str], str]],
-) -> None:
-    process, _ = start("--tcp", "--host", "0.0.0.0")  # noqa: S104 - it is what is asked for
-    process.send_signal(signal.SIGTERM)
-    _, errors = process.communicate(timeout=GENEROUS)
-    assert errors.startswith("busservo-simulator: the network reaches it at 0.0.0.0\n")
 
 
 @not_windows

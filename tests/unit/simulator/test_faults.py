@@ -15,10 +15,11 @@ from busservo import (
     ServoPositionsRead,
 )
 from busservo._serial.link_errors import DisconnectedError, TransportError
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator import Faults, VirtualController
 from busservo_simulator.faults import CHANCES, DURATIONS
 
 from tests.in_turn import in_turn
+from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
 from tests.timeouts import await_that
 
@@ -31,8 +32,7 @@ ASK = BatteryVoltageRead()
 
 def faulty(**faults: float) -> VirtualController:
     """Return a board with faults, seeded alike."""
-    clock = VirtualClock(follow_reads=True)
-    return VirtualController(clock=clock, faults=Faults(seed=7, **faults))
+    return virtual_board(faults=Faults(seed=7, **faults))
 
 
 def test_there_are_no_faults_by_default() -> None:
@@ -120,7 +120,7 @@ def test_a_late_reply_is_overtaken_by_what_is_sent_meanwhile() -> None:
 
 
 def test_late_replies_come_in_order_and_whole() -> None:
-    with VirtualController(clock=VirtualClock(follow_reads=True), baud=9600) as board:
+    with virtual_board(baud=9600) as board:
         board.faults = Faults(late=1, late_by=0.05)
         host = host_of(board)
         for servo_id in range(1, 7):
@@ -292,8 +292,7 @@ NEW = {"duplicated": 0.3, "late": 0.3, "lost_bytes": 0.1, "wrong_count": 0.3}
 @pytest.mark.parametrize("name", NEW)
 def test_a_seed_repeats_a_fault_and_another_does_not(name: str) -> None:
     def run(seed: int) -> bytes:
-        clock = VirtualClock(follow_reads=True)
-        with VirtualController(clock=clock, faults=Faults(seed, **{name: NEW[name]})) as board:
+        with virtual_board(faults=Faults(seed, **{name: NEW[name]})) as board:
             host = host_of(board)
             for servo_id in range(1, 7):
                 host.say(ServoPositionsRead([servo_id]))

@@ -25,6 +25,7 @@ from busservo_simulator.line import Line
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
 from tests.timeouts import GENEROUS
 
@@ -32,7 +33,7 @@ HOST = Direction.HOST_TO_CONTROLLER
 
 
 def paced() -> VirtualController:
-    return VirtualController(clock=VirtualClock(follow_reads=True), baud=9600)
+    return virtual_board(baud=9600)
 
 
 def test_a_wire_carries_a_byte_in_ten_bits() -> None:

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ActionGroupStop, BatteryVoltage, BatteryVoltageRead, ServoMove
-from busservo_simulator import Board, Faults, VirtualClock, VirtualController
+from busservo_simulator import Board, Faults
 from busservo_simulator.line import Line
 
+from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
 
 if TYPE_CHECKING:
@@ -39,21 +40,19 @@ def test_what_is_no_frame_comes_back_as_well(connect: Callable[..., tuple[Any, H
 
 
 def test_an_echo_is_paced_as_what_is_sent() -> None:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(clock=clock, baud=9600, local_echo=True) as board:
+    with virtual_board(baud=9600, local_echo=True) as board:
         host = host_of(board)
         host.transport.write(MOVE)
         assert host.collect(10) == MOVE
-        assert clock.now() == pytest.approx(10 / 960)
+        assert board.clock.now() == pytest.approx(10 / 960)
         host.transport.write(ASK)
         assert host.collect(10) == ASK + REPLY
-        assert clock.now() == pytest.approx(20 / 960)
+        assert board.clock.now() == pytest.approx(20 / 960)
 
 
 def test_it_is_the_adapter_that_echoes_whatever_the_board_does() -> None:
     faults = Faults(dropped=1, bit_flips=1, lost_bytes=1, late=1)
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(clock=clock, local_echo=True, faults=faults) as board:
+    with virtual_board(local_echo=True, faults=faults) as board:
         host = host_of(board)
         board.reboot(1.0)
         for data in (ASK, MOVE, ActionGroupStop().encode()):

@@ -14,6 +14,7 @@ from busservo_simulator.line_faults import LineFaults
 from lxservo_simulator import VirtualBus
 from lxservo_simulator.cli import main
 
+from tests.lines.at_board import client_at
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def bus() -> Iterator[VirtualBus]:
 
 @pytest.fixture
 def client(bus: VirtualBus) -> Iterator[lxservo.Controller]:
-    with lxservo.Controller(bus.transport, background=False, clock=bus.clock.now) as made:
+    with client_at(bus, lxservo.Controller, settle=None) as made:
         yield made
 
 
@@ -162,7 +163,7 @@ def test_faults_happen_and_replies_are_matched_all_the_same() -> None:
     faults = LineFaults(seed=3, noise=0.3, bit_flips=0.01, dropped=0.1, duplicated=0.2, splits=0.3)
     with (
         VirtualBus(servos=[1, 2], baud=BAUD, clock=clock, faults=faults) as bus,
-        lxservo.Controller(bus.transport, background=False, clock=clock.now, retries=8) as client,
+        client_at(bus, lxservo.Controller, retries=8, settle=None) as client,
     ):
         bus.servos[2].move(300, 0)
         bus.advance(2)

@@ -10,6 +10,8 @@ from busservo import AsyncController
 from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.virtual_loop import VirtualLoop, run_virtual
 
+from tests.lines.at_board import client_at
+
 
 def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
     clock = VirtualClock()
@@ -95,9 +97,7 @@ def test_a_board_speaks_at_its_own_time() -> None:
 
     async def main() -> None:
         with VirtualController(clock=clock, baud=9600) as board:
-            async with AsyncController(
-                board.transport, background=False, clock=clock.now, settle=0
-            ) as controller:
+            async with client_at(board, AsyncController) as controller:
                 assert await controller.read_battery_voltage() == 7500
                 assert clock.now() == pytest.approx((4 + 6) / 960, abs=1e-5)
                 motion = await controller.move_servos([(1, 900)], time_ms=1000)

@@ -31,6 +31,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.lines.live_line import LiveLine
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
@@ -270,7 +271,7 @@ def of_group_8(message: Message) -> Iterable[tuple[float, bytes | Message]]:
 
 def test_a_run_that_the_board_ignores_is_seen_by_the_client_for_threads() -> None:
     line = VirtualLine(of_group_8)
-    with Controller(line, background=False, clock=line.clock) as controller:
+    with client_on(line, Controller, settle=None) as controller:
         ignored = controller.run_action_group(7, times=1)
         while line.now < 1:
             controller.read_battery_voltage()

@@ -13,6 +13,7 @@ from tests.factories import data_of, files_of, library
 from tests.lines.device_line import client_of
 from tests.lines.scripted_line import ScriptedLine
 from tests.lines.servo_bus import READ_ID, READ_POSITION, frame
+from tests.lines.timed_line import client_on
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def test_a_client_numbers_its_frames() -> None:
     question = mavlink.ParameterRead(
         1, index=2, target_system=1, target_component=1, name="", sequence=9
     )
-    with mavlink.Controller(line, background=False, clock=line.clock) as ground:
+    with client_on(line, mavlink.Controller, settle=None) as ground:
         for _ in range(300):
             ground.send(question)
     sent = [mavlink.decode(each, question.DIRECTION).sequence for each in line.written]

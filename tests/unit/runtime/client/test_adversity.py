@@ -17,7 +17,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 import serial
@@ -39,11 +39,12 @@ from busservo import (
     open_controller,
     open_transport,
 )
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator import Faults, VirtualController
 from busservo_simulator.virtual_loop import run_virtual
 from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
 
+from tests.lines.at_board import client_at, virtual_board
 from tests.lines.rfc2217_server import Rfc2217Server
 from tests.timeouts import GENEROUS, LIVE, await_that
 
@@ -74,15 +75,8 @@ def bounded(seconds: float = BOUND) -> Iterator[None]:
     assert time.monotonic() - began < seconds
 
 
-@contextmanager
-def virtual_board() -> Iterator[tuple[VirtualController, VirtualClock]]:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(clock=clock) as board:
-        yield board, clock
-
-
-def on_time_of(clock: VirtualClock, board: VirtualController) -> Controller:
-    return Controller(board.transport, background=False, clock=clock.now, reply_timeout=SHORT)
+def client_on_its_time(board: VirtualController) -> Any:
+    return client_at(board, Controller, reply_timeout=SHORT, settle=None)
 
 
 def again(controller: Controller) -> None:
@@ -223,7 +217,7 @@ def test_another_reader_of_the_port_costs_replies_and_makes_none_wrong() -> None
 
 def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
     answer = BatteryVoltage(7500)
-    with virtual_board() as (board, clock), on_time_of(clock, board) as controller:
+    with virtual_board() as board, client_on_its_time(board) as controller:
         assert controller.request(BatteryVoltageRead()) == answer
         # It is silent for longer than anybody waits here, until the test ends that.
         board.reboot(60)
@@ -234,7 +228,7 @@ def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
         # The port was there all the while, so there is nothing to reconnect; it does no harm.
         controller.reconnect()
         assert controller.request(BatteryVoltageRead(), retries=3) == answer
-        assert clock.now() < 2
+        assert board.clock.now() < 2
 
 
 def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController) -> None:
@@ -319,34 +313,34 @@ def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController
 
 @pytest.mark.parametrize("nonsense", [b"\x55", b"\x55\x55\xfe\x15", bytes(range(256))])
 def test_a_board_that_sends_nonsense_alone_ends_in_an_error(nonsense: bytes) -> None:
-    with virtual_board() as (board, clock), on_time_of(clock, board) as controller:
+    with virtual_board() as board, client_on_its_time(board) as controller:
         board.spurious_output(nonsense, per_second=500)
         for _ in range(2):
-            began = clock.now()
+            began = board.clock.now()
             with pytest.raises(NoReplyError):
                 controller.read_battery_voltage()
             # Its own time, and that of the late reply of the one before.
-            assert clock.now() - began < 3 * SHORT + 0.2
+            assert board.clock.now() - began < 3 * SHORT + 0.2
         board.spurious_output(None)
         assert controller.request(BatteryVoltageRead(), retries=3) == BatteryVoltage(7500)
         assert controller.counters.noise
 
 
 def test_a_board_that_sends_nonsense_alone_ends_in_an_error_with_asyncio() -> None:
-    async def work(board: VirtualController, clock: VirtualClock) -> None:
-        async with AsyncController(
-            board.transport, background=False, clock=clock.now, reply_timeout=SHORT
+    async def work(board: VirtualController) -> None:
+        async with client_at(
+            board, AsyncController, reply_timeout=SHORT, settle=None
         ) as controller:
             board.spurious_output(b"\x55", per_second=500)
             with pytest.raises(NoReplyError):
                 await controller.read_battery_voltage()
-            assert clock.now() < 3 * SHORT + 0.2
+            assert board.clock.now() < 3 * SHORT + 0.2
             board.spurious_output(None)
             answer = await controller.request(BatteryVoltageRead(), retries=3)
             assert answer == BatteryVoltage(7500)
 
-    with virtual_board() as (board, clock):
-        run_virtual(work(board, clock), clock)
+    with virtual_board() as board:
+        run_virtual(work(board), board.clock)  # type: ignore[arg-type]
 
 
 # -------------------------------------------------------------------- closed, cancelled

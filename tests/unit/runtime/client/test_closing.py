@@ -28,6 +28,7 @@ from busservo_simulator import VirtualController
 from tests.lines.both_clients import both_live
 from tests.lines.live_line import Gate, LiveLine, answered, losing
 from tests.lines.receiving import unanswered
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS, LIVE, await_that
 
@@ -312,7 +313,7 @@ def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
             raise KeyboardInterrupt
 
     line = Interrupted()
-    controller = Controller(line, background=False, clock=line.clock)
+    controller = client_on(line, Controller, settle=None)
     controller.move_servos([(servo, 500) for servo in range(60)], 100)
     with pytest.raises(KeyboardInterrupt):
         controller.close()
@@ -359,7 +360,7 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
             return super().read(timeout)
 
     line = Once(late)
-    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
+    with client_on(line, Controller) as controller:
         with pytest.raises(KeyboardInterrupt):
             controller.read_battery_voltage()
         assert controller.read_servo_positions([1]) == ((1, 10),)
@@ -387,9 +388,9 @@ def test_ctrl_c_as_the_line_is_given_to_others_leaves_it_usable() -> None:
             raise KeyboardInterrupt
 
     line = VirtualLine(late)
-    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
+    with client_on(line, Controller) as controller:
         whole = controller._lock
-        controller._lock = Interrupting(whole)  # type: ignore[assignment]
+        controller._lock = Interrupting(whole)
         try:
             with pytest.raises(KeyboardInterrupt):
                 controller.read_battery_voltage()

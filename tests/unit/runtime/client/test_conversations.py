@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import AsyncController, Controller
@@ -18,6 +18,7 @@ from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.lines.at_board import client_at, virtual_board
 from tests.lines.conversation import (
     Ledger,
     converse,
@@ -54,9 +55,13 @@ schedules = st.builds(
 )
 
 
+LINE: dict[str, Any] = {"baud": math.inf, "reply_timeout": REPLY_TIMEOUT, "settle": None}
+
+
 def virtual(faults: Faults) -> tuple[VirtualController, Ledger, VirtualClock]:
-    clock = VirtualClock(follow_reads=True)
-    board = VirtualController(clock=clock, faults=faults)
+    board = virtual_board(faults=faults)
+    clock = board.clock
+    assert isinstance(clock, VirtualClock)
     return board, Ledger(board), clock
 
 
@@ -67,14 +72,7 @@ def test_answers_and_reports_are_right_under_any_schedule_of_faults(
     board, ledger, clock = virtual(faults)
     with (
         board,
-        Controller(
-            board.transport,
-            background=False,
-            clock=clock.now,
-            baud=math.inf,
-            reply_timeout=REPLY_TIMEOUT,
-            retries=retries,
-        ) as controller,
+        client_at(board, Controller, **LINE, retries=retries) as controller,
     ):
         converse(controller, ledger, seed, 15, clock.now, bound=MOST + retries * REPLY_TIMEOUT)
         assert list(controller.reports(timeout=1)) == ledger.reported
@@ -86,13 +84,7 @@ def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, c
     board, ledger, clock = virtual(replace(faults, hang_up=cut, splits_to_board=0))
     with (
         board,
-        Controller(
-            board.transport,
-            background=False,
-            clock=clock.now,
-            baud=math.inf,
-            reply_timeout=REPLY_TIMEOUT,
-        ) as controller,
+        client_at(board, Controller, **LINE) as controller,
     ):
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
         # A cut may be due yet, behind a frame that is late.
@@ -115,14 +107,7 @@ def test_answers_and_reports_are_right_under_any_schedule_of_faults_with_asyncio
     board, ledger, clock = virtual(faults)
 
     async def work() -> None:
-        async with AsyncController(
-            board.transport,
-            background=False,
-            clock=clock.now,
-            baud=math.inf,
-            reply_timeout=REPLY_TIMEOUT,
-            retries=retries,
-        ) as controller:
+        async with client_at(board, AsyncController, **LINE, retries=retries) as controller:
             tasks, turns = (1, 15) if cut else (3, 5)
             # Each may have to wait for all that the others ask.
             questions = 1 + (tasks - 1) * turns
@@ -147,13 +132,7 @@ def test_requests_that_arrive_damaged_give_no_wrong_value(seed: int, flips: floa
     board, ledger, clock = virtual(Faults(seed=seed, bit_flips_to_board=flips, noise_to_board=0.5))
     with (
         board,
-        Controller(
-            board.transport,
-            background=False,
-            clock=clock.now,
-            baud=math.inf,
-            reply_timeout=REPLY_TIMEOUT,
-        ) as controller,
+        client_at(board, Controller, **LINE) as controller,
     ):
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
 
@@ -184,9 +163,7 @@ def test_a_hundred_tasks_share_a_line_with_faults(seed: int) -> None:
     board, ledger, clock = virtual(replace(FAULTS["mixed"], seed=seed))
 
     async def work() -> None:
-        async with AsyncController(
-            board.transport, background=False, clock=clock.now, baud=math.inf
-        ) as controller:
+        async with client_at(board, AsyncController, baud=math.inf, settle=None) as controller:
             talks = (
                 converse_async(controller, ledger, each, 1, clock.now, math.inf)
                 for each in range(100)

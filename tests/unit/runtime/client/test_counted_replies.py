@@ -12,6 +12,7 @@ from framegen.model.codec import encode
 from tests.bad_specs import BASES
 from tests.contract.independent.memory import MemoryPort
 from tests.factories import compiled_file, library, library_files, vectors_of
+from tests.lines.timed_line import Pieces, TimedLine, client_on
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -38,48 +39,18 @@ def frame(message: str, **values: Any) -> bytes:
     return encode(MODEL.messages[message], values)
 
 
-class Line:
-    """A transport whose other end answers each frame with bytes, each so many seconds later."""
+class Line(TimedLine):
+    """A line that answers each frame with bytes, each so many seconds later."""
 
-    name = "memory line"
+    in_order = False
 
-    def __init__(self, *answers: list[tuple[float, bytes]]) -> None:
-        self.now = 0.0
-        self._answers = [*answers]
-        self._coming: list[tuple[float, bytes]] = []
-
-    def clock(self) -> float:
-        return self.now
-
-    def read(self, timeout: float) -> bytes:
-        until = self.now + max(timeout, 1e-6)
-        due = sorted(each for each in self._coming if each[0] <= until)
-        if not due:
-            self.now = until
-            return b""
-        self.now = max(self.now, due[0][0])
-        self._coming.remove(due[0])
-        return due[0][1]
-
-    def write(self, _data: bytes) -> None:
-        answer = self._answers.pop(0) if self._answers else []
-        self._coming += [(self.now + after, data) for after, data in answer]
-
-    def drain(self, _timeout: float) -> None:
-        """Nothing is held back."""
-
-    def close(self) -> None:
-        """Nothing is open."""
+    def __init__(self, *answers: Pieces) -> None:
+        script = [*answers]
+        super().__init__(lambda _: script.pop(0) if script else [])
 
 
 def client(memory: ModuleType, line: Line) -> Any:
-    return memory.Controller(
-        line,
-        background=False,
-        clock=line.clock,
-        reply_timeout=REPLY_TIMEOUT,
-        settle=0,
-    )
+    return client_on(line, memory.Controller, reply_timeout=REPLY_TIMEOUT)
 
 
 TWO, ONE = frame("Bytes", stored=[1, 2]), frame("Bytes", stored=[7])

@@ -12,6 +12,7 @@ from busservo_simulator.virtual_loop import run_virtual
 
 from tests.lines.scripted_line import ScriptedLine
 from tests.lines.servo_bus import MOVE, READ_POSITION, ServoBus, frame
+from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -227,9 +228,7 @@ def test_nothing_answers_a_question_that_has_not_come_back_yet() -> None:
         return replies[number - 1] + question + replies[number]
 
     line = ScriptedLine(lambda question: question + replies[1])
-    with lxservo.Controller(
-        line, background=False, clock=line.clock, settle=0, local_echo=True, baud=float("inf")
-    ) as bus:
+    with client_on(line, lxservo.Controller, local_echo=True, baud=float("inf")) as bus:
         assert bus.read_position(1) == 1
         line.answer = answer
         for number in range(2, 20):

@@ -26,6 +26,8 @@ from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.lines.at_board import client_at
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
@@ -77,13 +79,8 @@ def test_a_servo_that_only_rises_is_never_read_going_down(
 ) -> None:
     line = OvertakingLine()
     line.answer = rising(line, {place: late_by})  # type: ignore[assignment]
-    client = Controller(
-        line,
-        baud=9600,
-        reply_timeout=REPLY_TIMEOUT,
-        retries=retries,
-        background=False,
-        clock=line.clock,
+    client = client_on(
+        line, Controller, baud=9600, reply_timeout=REPLY_TIMEOUT, retries=retries, settle=None
     )
     read = []
     for _ in range(place + 8):
@@ -104,8 +101,8 @@ def test_the_same_holds_for_asyncio() -> None:
 
     async def work(board: VirtualController) -> list[int]:
         read: list[int] = []
-        async with AsyncController(
-            board.transport, reply_timeout=REPLY_TIMEOUT, background=False, clock=clock.now
+        async with client_at(
+            board, AsyncController, reply_timeout=REPLY_TIMEOUT, settle=None
         ) as controller:
             await controller.move_servos([(1, 1000)], time_ms=5000)
             for number in range(12):

@@ -29,6 +29,7 @@ from busservo.strategies import noise
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
@@ -116,13 +117,8 @@ def test_every_call_returns_the_right_value_or_an_error_in_bounded_time(
 ) -> None:
     board = FaultyBoard(plan)
     line = VirtualLine(board.answer)
-    client = Controller(
-        line,
-        reply_timeout=REPLY_TIMEOUT,
-        retries=retries,
-        background=False,
-        clock=line.clock,
-        baud=9600,
+    client = client_on(
+        line, Controller, reply_timeout=REPLY_TIMEOUT, retries=retries, baud=9600, settle=None
     )
     for question in questions:
         before, began = board.questions, line.now
@@ -161,7 +157,7 @@ def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
     line = VirtualLine()
     for at, data in enumerate(spurious):
         line.say(data * (40 if flood else 1), 0.02 * at)
-    client = Controller(line, reply_timeout=REPLY_TIMEOUT, background=False, clock=line.clock)
+    client = client_on(line, Controller, reply_timeout=REPLY_TIMEOUT, settle=None)
     with pytest.raises(NoReplyError) as caught:
         client.read_battery_voltage()
     assert caught.value.waited <= 1
@@ -177,7 +173,7 @@ def test_a_flood_of_reports_hides_no_reply() -> None:
                 yield at * 0.007, BatteryVoltage(7500).encode()
 
     line = VirtualLine(answer)
-    client = Controller(line, background=False, clock=line.clock, report_limit=16)
+    client = client_on(line, Controller, report_limit=16, settle=None)
     assert client.read_battery_voltage() == 7500
     kept = list(client.reports(timeout=1))
     # The queue holds 16; the oldest went, and were counted.
@@ -199,7 +195,7 @@ def test_a_soak_with_faults() -> None:
         yield 0.3 if seen % 11 == 0 else 0.01, BatteryVoltage(seen % 65536).encode()
 
     line = VirtualLine(answer)
-    client = Controller(line, background=False, clock=line.clock, baud=math.inf)
+    client = client_on(line, Controller, baud=math.inf, settle=None)
     failed = reports = 0
     for _ in range(3000):
         before = seen

@@ -15,6 +15,7 @@ from busservo import (
 )
 from busservo._codec.careful_decoder import GAP
 
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.unit.runtime.client.test_possible_replies import ask, session
 
@@ -28,7 +29,7 @@ REPORT = ActionGroupCompleted(8, 1)
 @pytest.mark.parametrize("gap", [0.0, 0.001, 0.005, 0.03, 0.049, 0.06, 0.1, 0.2])
 def test_a_hole_and_a_report_after_any_time_are_an_error_and_that_report(gap: float) -> None:
     line = VirtualLine(lambda message: [(0.015, TORN), (gap, REPORT)] if _asks(message) else [])
-    with Controller(line, background=False, clock=line.clock, settle=0) as controller:
+    with client_on(line, Controller) as controller:
         with pytest.raises(NoReplyError, match="4 bytes came that are no frame"):
             controller.read_battery_voltage()
         assert list(controller.reports(timeout=1)) == [REPORT]
@@ -121,7 +122,7 @@ def test_a_frame_that_breaks_off_is_marked_in_the_trace(tmp_path: Path) -> None:
     line = VirtualLine(lambda _: [(0.0, b"\x55\x55\x04")])
     trace = tmp_path / "line.log"
     with (
-        Controller(line, background=False, clock=line.clock, settle=0, trace=trace) as controller,
+        client_on(line, Controller, trace=trace) as controller,
         pytest.raises(NoReplyError),
     ):
         controller.read_battery_voltage()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
@@ -30,6 +30,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.lines.live_line import LiveLine, answered
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
@@ -81,9 +82,9 @@ def changed(message: Message) -> Incoming:
     yield wire(message), bytes(frame)
 
 
-def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -> Controller:
+def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -> Any:
     line = VirtualLine(answer)
-    return Controller(line, background=False, clock=line.clock, settle=0, local_echo=local_echo)
+    return client_on(line, Controller, local_echo=local_echo)
 
 
 @pytest.mark.parametrize("answer", [echoing, in_pieces])

@@ -17,8 +17,8 @@ from busservo import (
     Motion,
     ServoMove,
 )
-from busservo_simulator import VirtualClock, VirtualController
 
+from tests.lines.at_board import client_at, virtual_board
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.virtual_line import VirtualLine, client, run
 from tests.timeouts import GENEROUS, LIVE
@@ -99,13 +99,12 @@ def test_whatever_sends_it_a_move_is_a_motion(virtual: Virtual) -> None:
 
 
 def test_with_a_board_in_virtual_time_the_servo_is_there_when_the_motion_is_over() -> None:
-    clock = VirtualClock(follow_reads=True)
     with (
-        VirtualController(clock=clock, baud=9600) as board,
-        Controller(board.transport, background=False, clock=clock.now) as controller,
+        virtual_board(baud=9600) as board,
+        client_at(board, Controller, settle=None) as controller,
     ):
         controller.move_servos([(1, 800)], 1000).wait()
-        assert 1.0 < clock.now() < 1.1
+        assert 1.0 < board.clock.now() < 1.1
         assert controller.read_servo_positions([1]) == ((1, 800),)
 
 

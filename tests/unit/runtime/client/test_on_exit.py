@@ -34,7 +34,7 @@ from tests.factories import DEMO, data_of, files_of, library
 from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine
 from tests.lines.receiving import unanswered
-from tests.lines.timed_line import client_of
+from tests.lines.timed_line import client_of, client_on
 from tests.lines.virtual_line import VirtualLine, client, run
 from tests.timeouts import GENEROUS, LIVE
 
@@ -272,7 +272,7 @@ def test_ctrl_c_stops_a_motion_that_is_waited_for_and_a_second_one_just_leaves(
     line = Pressed(*times)
     with (
         pytest.raises(KeyboardInterrupt),
-        Controller(line, background=False, clock=line.clock, on_exit="hold", settle=0) as arm,
+        client_on(line, Controller, on_exit="hold") as arm,
     ):
         arm.move_servos([(1, 900)], LONG).wait()
     assert line.received == [ServoMove(LONG, [(1, 900)]), *sent]
@@ -360,7 +360,7 @@ def test_a_line_that_is_lost_while_it_carries_the_last_command_has_held_nobody(
 def test_closing_by_hand_holds_as_well_and_lets_an_exception_go_on() -> None:
     def closed(under_way: bool) -> None:
         line = VirtualLine()
-        controller = Controller(line, background=False, clock=line.clock, on_exit="hold")
+        controller = client_on(line, Controller, on_exit="hold", settle=None)
         try:
             controller.move_servos([(1, 900)], LONG)
             if under_way:

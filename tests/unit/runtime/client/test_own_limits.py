@@ -20,6 +20,7 @@ from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, data_of, files_of, library
 from tests.lines.device_line import client_of
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 OWN = {1: (100, 900), 2: None, 3: (500, 2500)}
@@ -39,7 +40,7 @@ CASES = [
 @pytest.mark.parametrize(("targets", "refusal"), CASES)
 def test_each_servo_is_held_to_its_own_limits(targets: Any, refusal: Any) -> None:
     line = VirtualLine()
-    with Controller(line, background=False, clock=line.clock, limits=OWN) as controller:
+    with client_on(line, Controller, limits=OWN, settle=None) as controller:
         for send in (controller.send, controller.send_latest):
             if refusal is None:
                 send(ServoMove(targets=targets, time_ms=10))

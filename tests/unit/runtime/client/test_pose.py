@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import pickle
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import busservo
@@ -24,8 +25,10 @@ from busservo import (
 )
 from busservo._client.exchanges import LIMITS, POSE
 from busservo._client.limits import Limits
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator import Faults, VirtualController
 
+from tests.lines.at_board import client_at, virtual_board
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import LIVE
 
@@ -38,21 +41,16 @@ MOVE_BEYOND = ServoMove(time_ms=100, targets=[(1, 800), (2, 1001)])
 
 def virtual(servos: Iterable[int] = range(1, 7), **given: Any) -> tuple[VirtualController, Any]:
     """Return a board in virtual time, and a function that makes a client of it."""
-    clock = VirtualClock(follow_reads=True)
-    board = VirtualController(clock=clock, servos=servos, **given)
-
-    def client(**more: Any) -> Controller:
-        return Controller(board.transport, background=False, clock=clock.now, **more)
-
-    return board, client
+    board = virtual_board(servos=servos, **given)
+    return board, partial(client_at, board, Controller, settle=None)
 
 
 def moves(line: VirtualLine) -> list[ServoMove]:
     return [each for each in line.received if isinstance(each, ServoMove)]
 
 
-def client_of(line: VirtualLine, **given: Any) -> Controller:
-    return Controller(line, background=False, clock=line.clock, **given)
+def client_of(line: VirtualLine, **given: Any) -> Any:
+    return client_on(line, Controller, settle=None, **given)
 
 
 # ------------------------------------------------------------------ what a position means
@@ -222,7 +220,7 @@ def test_servo_ids_are_checked_before_anything_is_sent() -> None:
     with client_of(line) as controller:
         for wrong in ([300], ["1"], 5, []):
             with pytest.raises(EncodeError):
-                controller.present_servos(wrong)  # type: ignore[arg-type]
+                controller.present_servos(wrong)
     assert line.received == []
 
 

@@ -14,6 +14,7 @@ from busservo._cli import main
 from busservo._cli.recorder import Recorder
 from busservo._recording.file import RecordingFile
 
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 RECORDED = "55 55 02 0F  # 0 s, host: BatteryVoltageRead()\n"
@@ -90,9 +91,7 @@ def test_a_device_or_a_fifo_is_accepted(tmp_path: Path) -> None:
 
 def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: Path) -> None:
     line, path = VirtualLine(lambda _: []), tmp_path / "line.hex"
-    with Controller(
-        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
-    ) as controller:
+    with client_on(line, Controller, reply_timeout=0.25, trace=path) as controller:
         line.say(bytes.fromhex("55 55 05 08"))
         with pytest.raises(NoReplyError):
             controller.read_battery_voltage()
@@ -110,9 +109,7 @@ def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: 
 
 def test_what_has_begun_to_arrive_when_it_is_closed_is_recorded(tmp_path: Path) -> None:
     line, path = VirtualLine(), tmp_path / "line.hex"
-    with Controller(
-        line, trace=path, background=False, clock=line.clock, baud=math.inf, settle=0
-    ) as controller:
+    with client_on(line, Controller, trace=path, baud=math.inf) as controller:
         line.say(ActionGroupStopped().encode() + bytes.fromhex("55 55 04"))
         assert controller.wait_for(ActionGroupStopped, timeout=1.0) == ActionGroupStopped()
     assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in path.read_text().splitlines()[1:]] == [

@@ -9,6 +9,7 @@ from busservo import BatteryVoltage, BatteryVoltageRead, Controller, ServoPositi
 from busservo._client import reply_matcher
 from busservo._client.session import Session
 
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ def test_a_stream_of_measurements_reaches_who_listens_and_who_asks() -> None:
             yield TRIP, ServoPositions([(1, 500)])
 
     line.answer = answer
-    with Controller(line, background=False, clock=line.clock, baud=9600) as controller:
+    with client_on(line, Controller, baud=9600, settle=None) as controller:
         heard: list[Message] = []
         controller.on_report(heard.append)
         assert list(controller.reports(timeout=1.0)) == []

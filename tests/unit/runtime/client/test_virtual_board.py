@@ -14,7 +14,9 @@ from busservo import (
     NoReportError,
     ServoPosition,
 )
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator import Faults
+
+from tests.lines.at_board import client_at, virtual_board
 
 
 @pytest.mark.parametrize("seed", range(25))
@@ -22,12 +24,11 @@ def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
     faults = Faults(
         seed=seed, noise=0.3, splits=0.5, delays=0.2, dropped=0.2, fewer=0.3, unsolicited=0.4
     )
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(via="memory", servos=range(1, 7), clock=clock, faults=faults) as board:
-        controller = Controller(board.transport, background=False, clock=clock.now, baud=math.inf)
+    with virtual_board(servos=range(1, 7), faults=faults) as board:
+        controller = client_at(board, Controller, baud=math.inf, settle=None)
         for turn in range(12):
             requested = [1 + turn % 3, 4, 6]
-            began = clock.now()
+            began = board.clock.now()
             try:
                 positions: tuple[object, ...] = controller.read_servo_positions(requested)
                 assert len(positions) == 3
@@ -40,15 +41,14 @@ def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
                 assert isinstance(each, ServoPosition)
                 assert each.servo_id in requested
                 assert each.position == 500
-            assert clock.now() - began < 2
+            assert board.clock.now() - began < 2
         controller.close()
         assert board.rejects.total == 0
 
 
 def test_a_motion_and_a_group_from_beginning_to_end() -> None:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(via="memory", servos=range(1, 7), clock=clock) as board:
-        with Controller(board.transport, background=False, clock=clock.now) as controller:
+    with virtual_board(servos=range(1, 7)) as board:
+        with client_at(board, Controller, settle=None) as controller:
             controller.move_servos([(1, 800), (2, 200)], time_ms=1000)
             assert list(controller.reports(timeout=1.1)) == []
             assert controller.read_servo_positions([1, 2]) == ((1, 800), (2, 200))
@@ -69,23 +69,21 @@ def test_a_motion_and_a_group_from_beginning_to_end() -> None:
 
 def test_positions_are_read_at_the_speed_of_the_wire() -> None:
     """By the board's own clock; on the clock of a machine, `python -m benchmarks.line` measures."""
-    clock = VirtualClock(follow_reads=True)
     with (
-        VirtualController(baud=9600, clock=clock) as board,
-        Controller(board.transport, background=False, clock=clock.now, settle=0) as controller,
+        virtual_board(baud=9600) as board,
+        client_at(board, Controller) as controller,
     ):
         for _ in range(200):
             assert len(controller.read_servo_positions(range(1, 7))) == 6
-        assert 200 * 34 / 960 / clock.now() >= 0.999
+        assert 200 * 34 / 960 / board.clock.now() >= 0.999
 
 
 def test_commands_fill_the_wire_and_no_more() -> None:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController(baud=9600, clock=clock) as board:
-        with Controller(board.transport, background=False, clock=clock.now) as controller:
+    with virtual_board(baud=9600) as board:
+        with client_at(board, Controller, settle=None) as controller:
             moves = [(servo, 500) for servo in range(1, 7)]
             for _ in range(100):
                 # What is said of when it will be on the wire holds: no lag builds up unseen.
                 assert controller.move_servos(moves, time_ms=20).delay < 0.005
-        assert clock.now() == pytest.approx(100 * 25 / 960, abs=0.01)
+        assert board.clock.now() == pytest.approx(100 * 25 / 960, abs=0.01)
         assert board.accepted == 100

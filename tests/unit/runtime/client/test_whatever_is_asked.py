@@ -17,10 +17,10 @@ from busservo import (
 )
 from busservo._client.exchanges import EXCHANGES
 from busservo.strategies import messages
-from busservo_simulator import VirtualClock, VirtualController
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.lines.at_board import client_at, virtual_board
 from tests.lines.live_line import LiveLine
 
 numbers = (
@@ -41,8 +41,11 @@ lists = (
 )
 anything = numbers | lists
 calls = st.lists(
-    st.sampled_from(list(EXCHANGES.values())).flatmap(
-        lambda each: st.tuples(st.just(each), st.tuples(*[anything for _ in each.arguments]))
+    st.one_of(
+        [
+            st.tuples(st.just(each), st.tuples(*[anything for _ in each.arguments]))
+            for each in EXCHANGES.values()
+        ]
     ),
     max_size=8,
 )
@@ -51,10 +54,9 @@ REFUSED = (EncodeError, NoReplyError, IncompleteReplyError)
 
 @given(calls)
 def test_any_arguments_make_whole_frames_or_are_refused(requests: list[tuple[Any, Any]]) -> None:
-    clock = VirtualClock(follow_reads=True)
     with (
-        VirtualController(clock=clock) as board,
-        Controller(board.transport, background=False, clock=clock.now, baud=math.inf) as controller,
+        virtual_board() as board,
+        client_at(board, Controller, baud=math.inf, settle=None) as controller,
     ):
         for exchange, arguments in requests:
             before = board.accepted
@@ -71,12 +73,9 @@ def test_any_arguments_make_whole_frames_or_are_refused(requests: list[tuple[Any
 
 @given(st.lists(messages(), max_size=20))
 def test_any_message_is_sent_whole_or_refused(requests: list[Message]) -> None:
-    clock = VirtualClock(follow_reads=True)
     with (
-        VirtualController(clock=clock) as board,
-        Controller(
-            board.transport, background=False, clock=clock.now, baud=math.inf, reply_timeout=0.01
-        ) as controller,
+        virtual_board() as board,
+        client_at(board, Controller, baud=math.inf, reply_timeout=0.01, settle=None) as controller,
     ):
         sent = 0
         for message in requests:
