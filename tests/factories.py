@@ -174,6 +174,12 @@ def library_files(compiled: Compiled) -> dict[str, str]:
     return render_target(python.TARGET, compiled)
 
 
+@cache
+def library_of(file: Path) -> Mapping[str, str]:
+    """Return the library of a spec file, rendered once in a process; nobody changes it."""
+    return library_files(compiled_file(file))
+
+
 def vectors_of(compiled: Compiled) -> dict[str, Any]:
     """Return the test vectors of a protocol, as they are published."""
     (text,) = render_target(vectors.TARGET, compiled).values()
