@@ -93,7 +93,7 @@ class TimedLine:
     def on_readable(self, callback: Callable[[], object]) -> None:
         """Call back once something has arrived, on the time of a loop."""
         if self._readable is None:
-            self.timer.when_due(lambda: self._arriving[0][0] if self._arriving else None)
+            self.timer.when_due(self._next_arrival)
             self.timer.when_moved(self._tell)
         self._readable = callback
 
@@ -102,6 +102,10 @@ class TimedLine:
         while self._is_there():
             data += heapq.heappop(self._arriving)[2]
         return data
+
+    def _next_arrival(self) -> float | None:
+        """Return when more arrives; what is there and nobody reads is no event."""
+        return min((at for at, *_ in self._arriving if at > self.now), default=None)
 
     def _is_there(self) -> bool:
         return bool(self._arriving) and self._arriving[0][0] <= self.now

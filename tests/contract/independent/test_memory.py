@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.bad_specs import BASES
 from tests.contract.independent.memory import BYTE, MemoryPort
-from tests.factories import compiled_file, library, library_files
+from tests.factories import library, library_of
 from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ BOUND = 5 * (REPLY_TIMEOUT + 75 * BYTE)
 @pytest.fixture(scope="module")
 def memory() -> Iterator[ModuleType]:
     """Return the library of a memory."""
-    files = library_files(compiled_file(BASES / "memory.yaml"))
+    files = library_of(BASES / "memory.yaml")
     with library(files) as made:
         yield made
 

@@ -102,7 +102,7 @@ class Run:
         requested: Requested,
         script: Script | None,
         bench: Bench,
-        reads: int = 12,
+        reads: int = 9,
         first: int = 1,
     ) -> None:
         self.board = Board(
@@ -165,7 +165,7 @@ def test_without_faults_each_request_is_sent_and_counted_once() -> None:
         for bench in BENCHES:
             run = Run(requested, None, bench)
             assert (run.talk.failed, run.talk.stale) == ([], [])
-            assert (run.counters.sent, run.counters.replies) == (12, 12)
+            assert (run.counters.sent, run.counters.replies) == (9, 9)
             assert (run.counters.unsolicited, run.counters.impossible) == (0, 0)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import lxservo
 import pytest
 
-from tests.factories import data_of, files_of, library
+from tests.factories import library, library_of
 from tests.lines.device_line import client_of
 from tests.lines.scripted_line import ScriptedLine
 from tests.lines.servo_bus import READ_ID, READ_POSITION, frame
@@ -25,7 +25,7 @@ def libraries() -> Iterator[None]:
     """Return the libraries, imported under their own names."""
     with ExitStack() as stack:
         for name in ("mavlink1", "modbus"):
-            stack.enter_context(library(files_of(data_of(FILES[name]))))
+            stack.enter_context(library(library_of(FILES[name])))
         yield
 
 

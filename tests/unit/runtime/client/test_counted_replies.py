@@ -11,7 +11,7 @@ from framegen.model.codec import encode
 
 from tests.bad_specs import BASES
 from tests.contract.independent.memory import MemoryPort
-from tests.factories import compiled_file, library, library_files, vectors_of
+from tests.factories import compiled_file, library, library_of, vectors_of
 from tests.lines.timed_line import Pieces, TimedLine, client_on
 from tests.protocols.specs import FILES
 
@@ -27,7 +27,7 @@ REPLY_TIMEOUT = 0.25
 @pytest.fixture(scope="module")
 def memory() -> Iterator[ModuleType]:
     """Return the library of a memory."""
-    files = library_files(compiled_file(BASES / "memory.yaml"))
+    files = library_of(BASES / "memory.yaml")
     with library(files) as made:
         importlib.import_module("memory.device")
         yield made
@@ -141,7 +141,7 @@ def test_the_vectors_say_which_replies_answer(spec: Path) -> None:
     compiled = compiled_file(spec)
     model, vectors = compiled.model, vectors_of(compiled)
     sent, received = model.roles.sent, model.roles.received
-    with library(library_files(compiled)) as made:
+    with library(library_of(spec)) as made:
         exchanges = importlib.import_module(f"{made.__name__}._client.exchanges").EXCHANGES
         for vector in vectors["replies"]:
             request, reply = (

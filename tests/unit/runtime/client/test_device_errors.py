@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from framegen.model.codec import encode
 
-from tests.factories import data_of, files_of, library
+from tests.factories import data_of, files_of, library, library_of
 from tests.lines.timed_line import ScriptedLine, client_on
 from tests.protocols.specs import FILES, messages_of
 
@@ -26,7 +26,7 @@ def libraries() -> Iterator[None]:
     """Return the libraries, imported under their own names."""
     with ExitStack() as stack:
         for name in NAMES:
-            stack.enter_context(library(files_of(data_of(FILES[name]))))
+            stack.enter_context(library(library_of(FILES[name])))
         yield
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.factories import Data, data_of, files_of, library
+from tests.factories import Data, data_of, files_of, library, library_of
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -29,8 +29,12 @@ def refusing() -> Data:
 def libraries() -> Iterator[Callable[[str], Any]]:
     """Return what imports a module of a library: `gauges.messages`."""
     with ExitStack() as until:
-        for data in (data_of(FILES["gauges"]), refusing(), data_of(FILES["roboclaw"])):
-            until.enter_context(library(files_of(data)))
+        for files in (
+            library_of(FILES["gauges"]),
+            files_of(refusing()),
+            library_of(FILES["roboclaw"]),
+        ):
+            until.enter_context(library(files))
         yield importlib.import_module
 
 

@@ -30,7 +30,7 @@ from busservo import (
 from busservo._client.line_threads import LineThreads
 from busservo_simulator import VirtualController
 
-from tests.factories import DEMO, data_of, files_of, library
+from tests.factories import DEMO, library, library_of
 from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine
 from tests.lines.receiving import unanswered
@@ -471,7 +471,7 @@ def test_what_is_nothing_to_do_on_exit_is_refused() -> None:
 
 
 def test_other_protocols_hold_and_release_in_words_of_their_own() -> None:
-    with library(files_of(data_of(DEMO.with_name("blinds.yaml")))) as blinds:
+    with library(library_of(DEMO.with_name("blinds.yaml"))) as blinds:
         rolled: list[Any] = []
 
         class Motor(blinds.Device):  # type: ignore[misc, name-defined]

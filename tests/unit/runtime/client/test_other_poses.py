@@ -8,13 +8,13 @@ from typing import Any
 
 import pytest
 
-from tests.factories import DEMO, data_of, files_of, library
+from tests.factories import DEMO, library, library_of
 from tests.lines.device_line import DeviceLine, client_of
 
 
 @pytest.fixture(scope="module")
 def blinds() -> Iterator[ModuleType]:
-    files = files_of(data_of(DEMO.with_name("blinds.yaml")))
+    files = library_of(DEMO.with_name("blinds.yaml"))
     with library(files) as made:
         yield made
 

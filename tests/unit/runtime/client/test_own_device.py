@@ -9,30 +9,27 @@ import lxservo
 import pytest
 from framegen.targets.python.names import names_of
 
-from tests.factories import compiled_file, library, library_files
+from tests.factories import compiled_file, library, library_of
 from tests.lines.every_method import converse_alone
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from framegen.compile import Compiled
-
 
 # The library of one is installed.
 @pytest.mark.each_protocol
 @pytest.mark.parametrize("name", [name for name in FILES if name != "lxservo"])
 def test_each_method_is_answered_by_the_device_of_the_same_library(name: str) -> None:
-    compiled = compiled_file(FILES[name])
-    with library(library_files(compiled)) as made:
-        answered(made, compiled)
+    with library(library_of(FILES[name])) as made:
+        answered(made, name)
 
 
 def test_each_method_of_the_servo_bus_is_answered_by_its_device() -> None:
-    answered(lxservo, compiled_file(FILES["lxservo"]))
+    answered(lxservo, "lxservo")
 
 
-def answered(made: ModuleType, compiled: Compiled) -> None:
+def answered(made: ModuleType, name: str) -> None:
     for module in ("device", "_frame.protocol"):
         importlib.import_module(f"{made.__name__}.{module}")
-    converse_alone(made, names_of(compiled.model).library)
+    converse_alone(made, names_of(compiled_file(FILES[name]).model).library)

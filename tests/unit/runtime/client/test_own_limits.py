@@ -18,7 +18,7 @@ from busservo import (
 from busservo._client.exchanges import LIMITS, POSE
 from busservo_simulator import VirtualController
 
-from tests.factories import DEMO, data_of, files_of, library
+from tests.factories import DEMO, library, library_of
 from tests.lines.device_line import client_of
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -105,7 +105,7 @@ NO_IDS = r"ids: give them here, or to open_controller\(ids=…\)"
 
 
 def test_positions_are_read_of_the_ids_of_the_client() -> None:
-    with library(files_of(data_of(DEMO.with_name("blinds.yaml")))) as blinds:
+    with library(library_of(DEMO.with_name("blinds.yaml"))) as blinds:
         asked: list[tuple[int, ...]] = []
 
         class Motor(blinds.Device):  # type: ignore[misc, name-defined]
