@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 from busservo import (
     ActionGroupCompleted,
@@ -21,6 +23,9 @@ from busservo_simulator import ActionGroup, Step, VirtualController
 
 from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 NOD = ActionGroup([Step(300, {1: 600}), Step(200, {1: 400})])
 # The clock counts in floats.
@@ -140,59 +145,59 @@ def test_a_servo_says_what_it_does(board: VirtualController, host: Host) -> None
 # -------------------------------------------------------------------- action groups
 
 
+Nodding = tuple[VirtualController, Host]
+
+
 @pytest.fixture
-def nodding() -> VirtualController:
-    return virtual_board(groups={5: NOD})
+def nodding() -> Iterator[Nodding]:
+    """Yield a board that knows group 5, and its host."""
+    with virtual_board(groups={5: NOD}) as board:
+        yield board, host_of(board)
 
 
-def test_a_group_starts_runs_and_ends_with_a_report_each(nodding: VirtualController) -> None:
-    with nodding as board:
-        host = host_of(board)
-        assert host.ask(ActionGroupRun(5, 2)) == ActionGroupStarted(5, 2)
-        board.advance(0.15)
-        assert board.servos[1].position == 550
-        board.advance(0.25)
-        assert board.servos[1].position == 500
-        assert host.receive() == ActionGroupCompleted(5, 2)
-        assert board.clock.now() == pytest.approx(1.0)
-        assert board.servos[1].position == 400
+def test_a_group_starts_runs_and_ends_with_a_report_each(nodding: Nodding) -> None:
+    board, host = nodding
+    assert host.ask(ActionGroupRun(5, 2)) == ActionGroupStarted(5, 2)
+    board.advance(0.15)
+    assert board.servos[1].position == 550
+    board.advance(0.25)
+    assert board.servos[1].position == 500
+    assert host.receive() == ActionGroupCompleted(5, 2)
+    assert board.clock.now() == pytest.approx(1.0)
+    assert board.servos[1].position == 400
 
 
-def test_a_group_without_end_runs_until_it_is_stopped(nodding: VirtualController) -> None:
-    with nodding as board:
-        host = host_of(board)
-        assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
-        assert host.receive(timeout=100) is None
-        assert host.ask(ActionGroupStop()) == ActionGroupStopped()
-        assert host.ask(ActionGroupStop()) is None
+def test_a_group_without_end_runs_until_it_is_stopped(nodding: Nodding) -> None:
+    _board, host = nodding
+    assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
+    assert host.receive(timeout=100) is None
+    assert host.ask(ActionGroupStop()) == ActionGroupStopped()
+    assert host.ask(ActionGroupStop()) is None
 
 
 @pytest.mark.parametrize("group", [5, ActionGroupSpeed.GROUP_ALL])
-def test_the_speed_changes_how_long_a_group_takes(nodding: VirtualController, group: int) -> None:
-    with nodding as board:
-        host = host_of(board)
-        host.say(ActionGroupSpeed(group, 200), ActionGroupRun(5, 1))
-        assert host.receive() == ActionGroupStarted(5, 1)
-        assert host.receive() == ActionGroupCompleted(5, 1)
-        assert board.clock.now() == pytest.approx(0.25)
+def test_the_speed_changes_how_long_a_group_takes(nodding: Nodding, group: int) -> None:
+    board, host = nodding
+    host.say(ActionGroupSpeed(group, 200), ActionGroupRun(5, 1))
+    assert host.receive() == ActionGroupStarted(5, 1)
+    assert host.receive() == ActionGroupCompleted(5, 1)
+    assert board.clock.now() == pytest.approx(0.25)
 
 
-def test_a_speed_set_meanwhile_holds_from_the_next_step(nodding: VirtualController) -> None:
-    with nodding as board:
-        host = host_of(board)
-        host.ask(ActionGroupRun(5, 1))
-        host.say(ActionGroupSpeed(5, 50))
-        assert host.receive() == ActionGroupCompleted(5, 1)
-        assert board.clock.now() == pytest.approx(0.3 + 0.4)
+def test_a_speed_set_meanwhile_holds_from_the_next_step(nodding: Nodding) -> None:
+    board, host = nodding
+    host.ask(ActionGroupRun(5, 1))
+    host.say(ActionGroupSpeed(5, 50))
+    assert host.receive() == ActionGroupCompleted(5, 1)
+    assert board.clock.now() == pytest.approx(0.3 + 0.4)
 
 
-def test_a_speed_of_nothing_is_ignored(nodding: VirtualController) -> None:
-    with nodding as board:
-        host = host_of(board)
-        host.say(ActionGroupSpeed(5, 0), ActionGroupRun(5, 1))
-        host.receive()
-        assert host.receive() == ActionGroupCompleted(5, 1)
-        assert board.clock.now() == pytest.approx(0.5)
+def test_a_speed_of_nothing_is_ignored(nodding: Nodding) -> None:
+    board, host = nodding
+    host.say(ActionGroupSpeed(5, 0), ActionGroupRun(5, 1))
+    host.receive()
+    assert host.receive() == ActionGroupCompleted(5, 1)
+    assert board.clock.now() == pytest.approx(0.5)
 
 
 def test_the_report_that_a_group_starts_can_be_left_out() -> None:
@@ -207,22 +212,20 @@ def test_a_group_that_is_not_stored_is_met_with_silence(
     assert "77 is not stored: silence" in str(board.log)
 
 
-def test_a_group_replaces_the_one_that_runs(nodding: VirtualController) -> None:
-    with nodding as board:
-        host = host_of(board)
-        assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
-        assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
-        assert host.receive() == ActionGroupCompleted(5, 1)
-        assert host.receive() is None
+def test_a_group_replaces_the_one_that_runs(nodding: Nodding) -> None:
+    _board, host = nodding
+    assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
+    assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
+    assert host.receive() == ActionGroupCompleted(5, 1)
+    assert host.receive() is None
 
 
-def test_the_button_on_the_board_is_reported_too(nodding: VirtualController) -> None:
-    with nodding as board:
-        host = host_of(board)
-        board.press_button(5)
-        assert host.receive() == ActionGroupStarted(5, 1)
-        board.press_button(None)
-        assert host.receive() == ActionGroupStopped()
+def test_the_button_on_the_board_is_reported_too(nodding: Nodding) -> None:
+    board, host = nodding
+    board.press_button(5)
+    assert host.receive() == ActionGroupStarted(5, 1)
+    board.press_button(None)
+    assert host.receive() == ActionGroupStopped()
 
 
 def test_groups_come_with_the_board(board: VirtualController, host: Host) -> None:
@@ -298,19 +301,18 @@ def test_a_wrong_frame_is_met_with_silence(board: VirtualController, host: Host)
 
 
 def test_a_board_that_restarts_receives_nothing_and_forgets_speeds_and_groups(
-    nodding: VirtualController,
+    nodding: Nodding,
 ) -> None:
-    with nodding as board:
-        host = host_of(board)
-        host.say(ActionGroupSpeed(5, 200))
-        host.ask(ActionGroupRun(5, 0))
-        host.transport.write(b"\x55\x55\x08\x03")
-        board.reboot(2.0)
-        assert host.ask(BatteryVoltageRead()) is None or board.clock.now() >= 2.0
-        board.advance(2)
-        assert voltage(host) == 7500
-        begun = board.clock.now()
-        assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
-        assert host.receive() == ActionGroupCompleted(5, 1)
-        assert board.clock.now() - begun == pytest.approx(0.5)
-        assert board.rejects.total == 0
+    board, host = nodding
+    host.say(ActionGroupSpeed(5, 200))
+    host.ask(ActionGroupRun(5, 0))
+    host.transport.write(b"\x55\x55\x08\x03")
+    board.reboot(2.0)
+    assert host.ask(BatteryVoltageRead()) is None or board.clock.now() >= 2.0
+    board.advance(2)
+    assert voltage(host) == 7500
+    begun = board.clock.now()
+    assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
+    assert host.receive() == ActionGroupCompleted(5, 1)
+    assert board.clock.now() - begun == pytest.approx(0.5)
+    assert board.rejects.total == 0

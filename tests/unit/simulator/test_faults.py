@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -24,20 +25,21 @@ from tests.lines.hosts import Host, host_of
 from tests.timeouts import await_that
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 VOLTAGE = BatteryVoltage(7500)
 ASK = BatteryVoltageRead()
 
 
-def faulty(**faults: float) -> VirtualController:
-    """Return a board with faults, seeded alike."""
-    return virtual_board(faults=Faults(seed=7, **faults))
+@contextmanager
+def faulty(**faults: float) -> Iterator[tuple[VirtualController, Host]]:
+    """Yield a board with faults, seeded alike, and its host."""
+    with virtual_board(faults=Faults(seed=7, **faults)) as board:
+        yield board, host_of(board)
 
 
 def test_there_are_no_faults_by_default() -> None:
-    with faulty() as board:
-        host = host_of(board)
+    with faulty() as (_board, host):
         assert [host.ask(ASK) for _ in range(50)] == [VOLTAGE] * 50
         assert host.bytes == VOLTAGE.encode() * 50
 
@@ -57,16 +59,14 @@ def test_seconds_are_0_or_more(name: str, seconds: float) -> None:
 
 
 def test_noise_comes_in_front_of_frames_and_costs_none() -> None:
-    with faulty(noise=1) as board:
-        host = host_of(board)
+    with faulty(noise=1) as (_board, host):
         assert [host.ask(ASK) for _ in range(200)] == [VOLTAGE] * 200
         assert host.noise()
         assert len(host.bytes) > 200 * len(VOLTAGE.encode())
 
 
 def test_bits_are_turned_over() -> None:
-    with faulty(bit_flips=0.05) as board:
-        host = host_of(board)
+    with faulty(bit_flips=0.05) as (_board, host):
         for _ in range(50):
             host.say(ASK)
             host.receive(0.01)
@@ -77,8 +77,7 @@ def test_bits_are_turned_over() -> None:
 
 
 def test_frames_come_in_two_pieces() -> None:
-    with faulty(splits=1) as board:
-        host = host_of(board)
+    with faulty(splits=1) as (board, host):
         host.say(ASK)
         first, rest = board.transport.read(1), board.transport.read(1)
         assert first + rest == VOLTAGE.encode()
@@ -88,8 +87,7 @@ def test_frames_come_in_two_pieces() -> None:
 
 
 def test_frames_come_together() -> None:
-    with faulty(coalesced=1) as board:
-        host = host_of(board)
+    with faulty(coalesced=1) as (board, host):
         host.say(ASK, ASK, ASK)
         assert board.transport.read(1) == VOLTAGE.encode() * 3
         host.say(ASK)
@@ -98,8 +96,7 @@ def test_frames_come_together() -> None:
 
 
 def test_frames_come_late_and_in_order() -> None:
-    with faulty(delays=1, longest_delay=0.2) as board:
-        host = host_of(board)
+    with faulty(delays=1, longest_delay=0.2) as (board, host):
         board.press_button(8)
         assert host.ask(ASK) == ActionGroupStarted(8, 1)
         assert isinstance(host.receive(), BatteryVoltage)
@@ -107,8 +104,7 @@ def test_frames_come_late_and_in_order() -> None:
 
 
 def test_a_late_reply_is_overtaken_by_what_is_sent_meanwhile() -> None:
-    with faulty(late=1, late_by=1000) as board:
-        host = host_of(board)
+    with faulty(late=1, late_by=1000) as (board, host):
         host.say(ASK)
         assert host.receive(999) is None
         board.faults = Faults()
@@ -131,8 +127,7 @@ def test_late_replies_come_in_order_and_whole() -> None:
 
 
 def test_a_late_reply_finds_the_host_that_is_there_by_then() -> None:
-    with faulty(late=1, late_by=1.0) as board:
-        host = host_of(board)
+    with faulty(late=1, late_by=1.0) as (board, host):
         host.say(ASK)
         board.unplug()
         board.advance(0.5)
@@ -146,16 +141,14 @@ def test_a_late_reply_finds_the_host_that_is_there_by_then() -> None:
 
 
 def test_a_board_that_restarts_forgets_its_late_replies() -> None:
-    with faulty(late=1, coalesced=1) as board:
-        host = host_of(board)
+    with faulty(late=1, coalesced=1) as (board, host):
         host.say(ASK)
         board.reboot(0.1)
         assert host.receive() is None
 
 
 def test_a_reply_comes_twice_and_a_report_once() -> None:
-    with faulty(duplicated=1) as board:
-        host = host_of(board)
+    with faulty(duplicated=1) as (board, host):
         assert host.ask(ASK) == VOLTAGE
         assert host.receive() == VOLTAGE
         board.press_button(8)
@@ -166,8 +159,7 @@ def test_a_reply_comes_twice_and_a_report_once() -> None:
 
 def test_bytes_are_lost() -> None:
     clean = VOLTAGE.encode()
-    with faulty(lost_bytes=0.1) as board:
-        host = host_of(board)
+    with faulty(lost_bytes=0.1) as (board, host):
         sizes = []
         for _ in range(50):
             host.say(ASK)
@@ -180,8 +172,7 @@ def test_bytes_are_lost() -> None:
 
 
 def test_a_reply_counts_one_too_many_or_too_few() -> None:
-    with faulty(wrong_count=1) as board:
-        host = host_of(board)
+    with faulty(wrong_count=1) as (board, host):
         frames = set()
         for _ in range(20):
             host.say(ServoPositionsRead([1, 2]))
@@ -191,8 +182,7 @@ def test_a_reply_counts_one_too_many_or_too_few() -> None:
 
 
 def test_replies_are_dropped_and_reports_are_not() -> None:
-    with faulty(dropped=1) as board:
-        host = host_of(board)
+    with faulty(dropped=1) as (board, host):
         board.press_button(8)
         assert host.ask(ASK) == ActionGroupStarted(8, 1)
         assert host.receive() == ActionGroupCompleted(8, 1)
@@ -200,8 +190,7 @@ def test_replies_are_dropped_and_reports_are_not() -> None:
 
 
 def test_servos_are_left_out_or_reported_to_be_off() -> None:
-    with faulty(fewer=0.3, absent=0.3) as board:
-        host = host_of(board)
+    with faulty(fewer=0.3, absent=0.3) as (_board, host):
         counts, values = set(), set()
         for _ in range(50):
             reply = host.ask(ServoPositionsRead(range(1, 7)))
@@ -213,8 +202,7 @@ def test_servos_are_left_out_or_reported_to_be_off() -> None:
 
 
 def test_unsolicited_reports_are_sent() -> None:
-    with faulty(unsolicited=1) as board:
-        host = host_of(board)
+    with faulty(unsolicited=1) as (_board, host):
         kinds = set()
         for _ in range(30):
             kinds.add(type(host.ask(ASK)))
@@ -223,8 +211,7 @@ def test_unsolicited_reports_are_sent() -> None:
 
 
 def test_the_line_is_cut_in_the_middle_of_a_frame() -> None:
-    with faulty(hang_up=1) as board:
-        host = host_of(board)
+    with faulty(hang_up=1) as (board, host):
         host.say(ASK)
         assert board.transport.read(1) == VOLTAGE.encode()[:3]
         with pytest.raises(DisconnectedError):
@@ -236,8 +223,7 @@ def test_the_line_is_cut_in_the_middle_of_a_frame() -> None:
 
 
 def test_a_cable_that_is_put_back_is_not_cut_by_what_was_due_before() -> None:
-    with faulty(hang_up=1, delays=1, longest_delay=0.5) as board:
-        host = host_of(board)
+    with faulty(hang_up=1, delays=1, longest_delay=0.5) as (board, host):
         host.say(ASK)
         board.advance(0.001)
         board.faults = Faults()
@@ -249,24 +235,21 @@ def test_a_cable_that_is_put_back_is_not_cut_by_what_was_due_before() -> None:
 
 @pytest.mark.garbage
 def test_noise_on_the_way_to_the_board_costs_no_frame() -> None:
-    with faulty(noise_to_board=1) as board:
-        host = host_of(board)
+    with faulty(noise_to_board=1) as (board, host):
         assert [host.ask(ASK) for _ in range(200)] == [VOLTAGE] * 200
         assert (board.accepted, board.rejects.total) == (200, 200)
 
 
 @pytest.mark.garbage
 def test_bits_are_turned_over_on_the_way_to_the_board() -> None:
-    with faulty(bit_flips_to_board=1) as board:
-        host = host_of(board)
+    with faulty(bit_flips_to_board=1) as (board, host):
         host.say(ASK)
         assert host.receive(1) is None
         assert (board.accepted, board.rejects.total) == (0, 1)
 
 
 def test_what_the_host_writes_arrives_in_two_pieces() -> None:
-    with faulty(splits_to_board=1) as board:
-        host = host_of(board)
+    with faulty(splits_to_board=1) as (board, host):
         assert [host.ask(ASK) for _ in range(20)] == [VOLTAGE] * 20
         assert 20 * 0.001 <= board.clock.now() <= 20 * 0.02
         host.say(ASK, ASK)
@@ -278,8 +261,7 @@ def test_what_the_host_writes_arrives_in_two_pieces() -> None:
 
 
 def test_faults_can_be_set_at_any_time() -> None:
-    with faulty(dropped=1) as board:
-        host = host_of(board)
+    with faulty(dropped=1) as (board, host):
         assert host.ask(ASK) is None
         board.faults = Faults()
         assert board.faults == Faults()

@@ -32,10 +32,6 @@ from tests.timeouts import GENEROUS
 HOST = Direction.HOST_TO_CONTROLLER
 
 
-def paced() -> VirtualController:
-    return virtual_board(baud=9600)
-
-
 def test_a_wire_carries_a_byte_in_ten_bits() -> None:
     wire = Channel(10 / 9600)
     wire.put(b"abc", 1.0)
@@ -55,7 +51,7 @@ def test_a_wire_without_a_rate_keeps_pieces_apart() -> None:
 
 
 def test_reading_six_servos_takes_as_long_as_the_wire_needs() -> None:
-    with paced() as board:
+    with virtual_board(baud=9600) as board:
         host = host_of(board)
         for _ in range(100):
             assert host.ask(ServoPositionsRead(range(1, 7)))
@@ -63,7 +59,7 @@ def test_reading_six_servos_takes_as_long_as_the_wire_needs() -> None:
 
 
 def test_commands_queue_on_the_wire_and_drain_waits_for_them() -> None:
-    with paced() as board:
+    with virtual_board(baud=9600) as board:
         move = ServoMove(100, [(1, 600)])
         for _ in range(10):
             board.transport.write(move.encode())

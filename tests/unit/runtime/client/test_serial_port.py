@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-import select
 import socket
 import threading
 import time
@@ -19,150 +18,58 @@ from busservo import (
     BatteryVoltage,
     BatteryVoltageRead,
     ClosedError,
-    Direction,
     DisconnectedError,
-    Noise,
     PortAddressError,
     PortBusyError,
     PortNotFoundError,
     PortPermissionError,
-    StreamDecoder,
     TransportError,
     WriteStuckError,
     open_async_controller,
     open_controller,
     open_transport,
 )
-from busservo._codec.rejects import Rejects
 from busservo._serial import serial_port
 from busservo._serial.hid_port import HidPort
 from busservo._serial.port_errors import not_opened
 from busservo._serial.serial_port import SerialPort
+from busservo_simulator import VirtualController
 
-from tests.lines.live_line import answered
-from tests.timeouts import GENEROUS, LIVE
+from tests.lines.live_line import Gate
+from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
-pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
-import tty  # noqa: E402 - as pty
+pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
 
 
-class Board:
-    """A board that answers at the other end of something that can be read and written."""
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[VirtualController]:
+    """Yield a board behind a pseudo-terminal; its name is a link, which leads nowhere once closed.
 
-    def __init__(self, read: Callable[[], bytes], write: Callable[[bytes], object]) -> None:
-        self.write = write
-        self.mute = False
-        self.received = threading.Event()
-        # No client may ever make this count: see tests/conftest.py.
-        self.rejects = Rejects()
-        self._read = read
-        self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
-
-    def _run(self) -> None:
-        decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
-        while True:
-            try:
-                data = self._read()
-            except OSError:
-                return
-            if not data:
-                return
-            for event in decoder.feed(data):
-                self.received.set()
-                if isinstance(event, Noise):
-                    self.rejects.add(event)
-                    continue
-                for answer in [] if self.mute else answered(event):
-                    try:
-                        self.write(answer.encode())
-                    except OSError:  # nobody is there any more
-                        return
-
-    def join(self) -> None:
-        self._thread.join(GENEROUS)
-
-
-class PtyBoard(Board):
-    """A board at one end of a pseudo-terminal; `port` is a link to the other.
-
-    The system soon gives the name of a pseudo-terminal that is closed to another one, which any
-    process may have; a link of our own leads nowhere then.
+    The system soon gives the name of a pseudo-terminal that is closed to another one.
     """
-
-    def __init__(self, link: Path) -> None:
-        self.gone = False
-        self._ends = pty.openpty()
-        tty.setraw(self._ends[1])
-        link.symlink_to(os.ttyname(self._ends[1]))
-        self._link = link
-        self.port = str(link)
-        super().__init__(self._some, lambda data: os.write(self._ends[0], data))
-
-    def _some(self) -> bytes:
-        # Never blocked in a read: a descriptor that is being read is not closed by closing it.
-        while not self.gone:
-            if select.select([self._ends[0]], [], [], 0.01)[0]:
-                return os.read(self._ends[0], 256)
-        return b""
-
-    def unplug(self) -> None:
-        """Close both ends, after which whoever has the port open finds it gone."""
-        if not self.gone:
-            self.gone = True
-            self.join()
-            self._link.unlink()
-            for end in self._ends:
-                os.close(end)
+    with VirtualController("pty", link=tmp_path / "port") as made:
+        yield made
 
 
 @pytest.fixture
-def board(tmp_path: Path) -> Iterator[PtyBoard]:
-    made = PtyBoard(tmp_path / "port")
-    yield made
-    made.unplug()
+def tcp() -> Iterator[VirtualController]:
+    with VirtualController("tcp") as made:
+        yield made
 
 
-@pytest.fixture
-def tcp() -> Iterator[tuple[str, list[socket.socket]]]:
-    listener = socket.create_server(("127.0.0.1", 0))
-    accepted: list[socket.socket] = []
-
-    def serve() -> None:
-        try:
-            connection, _ = listener.accept()
-        except OSError:
-            return
-        accepted.append(connection)
-        Board(lambda: connection.recv(256), connection.sendall)
-
-    thread = threading.Thread(target=serve, daemon=True)
-    thread.start()
-    yield f"socket://127.0.0.1:{listener.getsockname()[1]}", accepted
-    # Whoever has called is let in first, so that both ends of the call are closed.
-    thread.join(GENEROUS)
-    listener.close()
-    for each in accepted:
-        each.close()
-
-
-def test_a_session_over_a_pseudo_terminal(board: PtyBoard) -> None:
+@pytest.mark.parametrize("way", ["board", "tcp"])
+def test_a_session_over_a_port(way: str, request: pytest.FixtureRequest) -> None:
+    board: VirtualController = request.getfixturevalue(way)
     with open_controller(board.port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
-        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
-        board.write(ActionGroupStopped().encode())
+        assert controller.read_servo_positions([1, 2]) == ((1, 500), (2, 500))
+        board.report(ActionGroupStopped())
         assert next(controller.reports(timeout=GENEROUS)) == ActionGroupStopped()
     assert controller.closed
-
-
-def test_a_session_over_a_socket(tcp: tuple[str, list[socket.socket]]) -> None:
-    with open_controller(tcp[0], **LIVE) as controller:
-        assert controller.read_battery_voltage() == 7500
-        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
 
 
 def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
@@ -190,19 +97,19 @@ def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
     assert len(pieces) < 10
 
 
-def test_a_socket_sends_small_frames_at_once(tcp: tuple[str, list[socket.socket]]) -> None:
-    transport = open_transport(tcp[0])
+def test_a_socket_sends_small_frames_at_once(tcp: VirtualController) -> None:
+    transport = open_transport(tcp.port)
     assert isinstance(transport, SerialPort)
     assert transport._port._socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
     transport.close()
 
 
-def test_a_session_with_asyncio(board: PtyBoard) -> None:
+def test_a_session_with_asyncio(board: VirtualController) -> None:
     async def work() -> None:
         async with open_async_controller(board.port, **LIVE) as controller:
             assert await controller.read_battery_voltage() == 7500
         awaited = await open_async_controller(board.port, **LIVE)
-        assert await awaited.read_servo_positions([3]) == ((3, 30),)
+        assert await awaited.read_servo_positions([3]) == ((3, 500),)
         await awaited.close()
         with pytest.raises(PortNotFoundError):
             async with open_async_controller(f"{board.port}0000"):
@@ -217,7 +124,7 @@ def test_a_port_of_pyserial_that_answers_itself() -> None:
         controller.read_battery_voltage()
 
 
-def test_a_port_is_exclusive_by_default(board: PtyBoard) -> None:
+def test_a_port_is_exclusive_by_default(board: VirtualController) -> None:
     with open_controller(board.port, **LIVE) as first:
         with pytest.raises(PortBusyError, match="it is in use; close the other program"):
             open_controller(board.port)
@@ -355,49 +262,27 @@ def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) ->
         open_controller("/dev/ttyUSB0")
 
 
-def test_unplugged_in_the_middle_of_a_reply(board: PtyBoard) -> None:
-    board.mute = True
-    with open_controller(board.port, **LIVE) as controller:
-
-        def half() -> None:
-            board.received.wait(GENEROUS)
-            board.write(BatteryVoltage(7500).encode()[:4])
-            board.unplug()
-
-        thread = threading.Thread(target=half)
-        thread.start()
-        with pytest.raises(DisconnectedError, match=r"the line was lost .*; check the cable"):
-            controller.read_battery_voltage()
-        thread.join()
-        with pytest.raises(DisconnectedError):
-            controller.stop_action_group()
-        with pytest.raises(TransportError):
-            controller.reconnect()
-
-
-def test_hung_up_by_the_other_end(tcp: tuple[str, list[socket.socket]]) -> None:
-    url, accepted = tcp
-    with open_controller(url, **LIVE) as controller:
+def test_hung_up_by_the_other_end(tcp: VirtualController) -> None:
+    with open_controller(tcp.port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
-        accepted[0].shutdown(socket.SHUT_RDWR)
+        tcp.unplug()
         with pytest.raises(DisconnectedError):
             controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
 
 
-def test_reconnecting_to_the_same_port(board: PtyBoard) -> None:
+def test_reconnecting_to_the_same_port(board: VirtualController) -> None:
     with open_controller(board.port, **LIVE) as controller:
         controller.reconnect()
         assert controller.read_battery_voltage() == 7500
 
 
-def test_nothing_of_the_last_frame_is_cut_off(board: PtyBoard) -> None:
-    board.mute = True
+def test_nothing_of_the_last_frame_is_cut_off(board: VirtualController) -> None:
     with open_controller(board.port) as controller:
-        controller.unload_servos(range(1, 253))
-    assert board.received.wait(GENEROUS)
+        controller.unload_servos(range(1, 61))
+    await_that(lambda: board.accepted == 1)
 
 
-def test_a_transport_on_its_own(board: PtyBoard) -> None:
+def test_a_transport_on_its_own(board: VirtualController) -> None:
     transport = open_transport(board.port)
     assert transport.name == board.port
     assert transport.read(0.0) == b""
@@ -417,7 +302,7 @@ def test_a_transport_on_its_own(board: PtyBoard) -> None:
 
 @pytest.mark.parametrize("port", ["a pseudo-terminal", "loop://"])
 @pytest.mark.parametrize("timeout", [0.0, 0.01, 0.12])
-def test_a_read_waits_for_its_timeout(board: PtyBoard, port: str, timeout: float) -> None:
+def test_a_read_waits_for_its_timeout(board: VirtualController, port: str, timeout: float) -> None:
     transport = open_transport(port if "://" in port else board.port)
     first = time.monotonic()
     taken = GENEROUS
@@ -432,8 +317,7 @@ def test_a_read_waits_for_its_timeout(board: PtyBoard, port: str, timeout: float
     transport.close()
 
 
-def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:
-    board.mute = True
+def test_closing_ends_a_read_in_another_thread(board: VirtualController) -> None:
     transport = open_transport(board.port)
     ended = threading.Event()
 
@@ -449,7 +333,9 @@ def test_closing_ends_a_read_in_another_thread(board: PtyBoard) -> None:
     thread.join()
 
 
-def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(board: PtyBoard) -> None:
+def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(
+    board: VirtualController,
+) -> None:
     with pytest.raises(ValueError, match="reply_timeout"):
         open_controller(board.port, reply_timeout=0)
 
@@ -593,13 +479,12 @@ def test_draining_waits_until_the_driver_has_sent_all_and_no_longer_than_its_tim
 def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    reading, go_on = threading.Event(), threading.Event()
+    reading = Gate()
 
     class Stuck(Driver):
         @property
         def in_waiting(self) -> int:  # type: ignore[override]
-            reading.set()
-            assert go_on.wait(GENEROUS)
+            reading()
             raise OSError("gone")
 
     driver = Stuck()
@@ -611,7 +496,7 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
 
     thread = threading.Thread(target=read)
     thread.start()
-    assert reading.wait(GENEROUS)
+    reading.wait()
     acquire = port._reading.acquire
 
     class Impatient:
@@ -626,41 +511,34 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     monkeypatch.setattr(port, "_reading", Impatient())
     port.close()
     assert driver.closed
-    go_on.set()
+    reading.go_on.set()
     thread.join(GENEROUS)
     assert not thread.is_alive()
 
 
 class SlowToClose(Driver):
-    """A port that is closed only when the test allows it, and calls `meanwhile` before it waits."""
+    """A port that is closed through a gate."""
 
-    def __init__(self) -> None:
+    def __init__(self, gate: Gate) -> None:
         super().__init__()
-        self.closing, self.go_on = threading.Event(), threading.Event()
-        self.meanwhile: Callable[[], object] = self.closing.set
+        self.gate = gate
 
     def close(self) -> None:
-        self.meanwhile()
-        self.closing.set()
-        assert self.go_on.wait(GENEROUS)
+        self.gate()
         super().close()
 
 
-def slow_serial_port() -> tuple[SlowToClose, SerialPort]:
-    driver = SlowToClose()
-    return driver, driven_by(driver)
+def by_hid(driver: Driver) -> HidPort:
+    return HidPort("hid://", driver, 64, lambda: by_hid(driver))
 
 
-def slow_hid_port() -> tuple[SlowToClose, HidPort]:
-    driver = SlowToClose()
-    return driver, HidPort("hid://", driver, 64, lambda: slow_hid_port()[1])
-
-
-@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+@pytest.mark.parametrize("made", [driven_by, by_hid])
 def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
-    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+    made: Callable[[Driver], SerialPort | HidPort],
 ) -> None:
-    driver, port = made()
+    closing = Gate()
+    driver = SlowToClose(closing)
+    port = made(driver)
 
     def close_too() -> bool:
         port.close()
@@ -668,22 +546,24 @@ def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
 
     with ThreadPoolExecutor() as pool:
         first = pool.submit(port.close)
-        assert driver.closing.wait(GENEROUS)
+        closing.wait()
         second = pool.submit(close_too)
         done, _ = wait([second], timeout=0.05)
-        driver.go_on.set()
+        closing.go_on.set()
         assert not done, "the port is not closed yet"
         assert second.result(GENEROUS)
         first.result(GENEROUS)
 
 
-@pytest.mark.parametrize("made", [slow_serial_port, slow_hid_port])
+@pytest.mark.parametrize("made", [driven_by, by_hid])
 def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
-    made: Callable[[], tuple[SlowToClose, SerialPort | HidPort]],
+    made: Callable[[Driver], SerialPort | HidPort],
 ) -> None:
-    driver, port = made()
-    driver.meanwhile = port.close
-    driver.go_on.set()
+    closing = Gate()
+    driver = SlowToClose(closing)
+    port = made(driver)
+    closing.meanwhile = port.close
+    closing.go_on.set()
     port.close()
     assert driver.closed
 
@@ -701,7 +581,7 @@ def test_an_unknown_error_at_opening_is_reported_in_its_own_words(
 
 
 def test_a_pseudo_terminal_is_opened_though_it_keeps_no_parity(
-    board: PtyBoard, monkeypatch: pytest.MonkeyPatch
+    board: VirtualController, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(serial_port, "PARITY", "even")
     with open_controller(board.port, **LIVE) as controller:
