@@ -44,7 +44,7 @@ SPOKEN = {
 }
 
 
-@pytest.mark.parametrize("part", PARTS)
+@in_turn("part", lambda: PARTS)
 def test_it_shares_no_code_with_what_it_tests(part: str) -> None:
     tree = ast.parse((HERE / f"{part}.py").read_text(encoding="utf-8"))
     names = [

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.contract.independent.levels import received
 from tests.contract.independent.strangers import Print, Stranger
+from tests.in_turn import in_turn
 
 
 @given(data=st.binary(max_size=40), rate=st.sampled_from([9600.0, 115200.0]))
@@ -32,7 +32,7 @@ LEVELS = [
 ]
 
 
-@pytest.mark.parametrize(("sent", "rate", "inverted", "read"), LEVELS)
+@in_turn("sent, rate, inverted, read", lambda: LEVELS)
 def test_a_port_reads_the_levels_by_its_own_rate(
     sent: str, rate: float, inverted: bool, read: str
 ) -> None:

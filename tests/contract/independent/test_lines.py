@@ -61,7 +61,7 @@ def test_a_line_that_is_said_to_be_faster_is_believed() -> None:
     assert max(times(talk)) < 0.001
 
 
-@pytest.mark.parametrize("baud", [BAUD, math.inf])
+@in_turn("baud", lambda: [BAUD, math.inf])
 def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> None:
     board = Board(thinks=0.002, faults={6: faults.duplicated()}.get)
     talk, controller, _ = conversation(board, 20, baud=baud)
@@ -69,7 +69,7 @@ def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> N
     assert controller.counters.unsolicited == 1
 
 
-@pytest.mark.parametrize("baud", [BAUD, math.inf])
+@in_turn("baud", lambda: [BAUD, math.inf])
 def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> None:
     """A line that is fast, be that learnt or said, and a reply that comes again while the board
     thinks about the next question: without a pause, each read gets the answer to the one
@@ -90,7 +90,7 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
         assert talk.failed == []
 
 
-@pytest.mark.parametrize("faster", [1.005, 1.02, 1.04])
+@in_turn("faster", lambda: [1.005, 1.02, 1.04])
 def test_a_board_whose_clock_runs_ahead_is_not_slowed(faster: float) -> None:
     """The oscillators of two UARTs may differ by a few per cent, and nothing is wrong with that."""
     talk, controller, _ = conversation(Board(baud=BAUD * faster), 20)

@@ -150,7 +150,7 @@ def test_after_any_fault_the_second_next_read_is_right(read: str, name: str) -> 
 HEADERS = {"every high byte": 0x5500, "some a header": 0x5550}
 
 
-@pytest.mark.parametrize("numbers", HEADERS)
+@in_turn("numbers", lambda: HEADERS)
 @in_turn("read, name", all_faults)
 def test_after_any_fault_in_replies_that_end_in_headers_reads_recover(
     read: str, name: str, numbers: str
@@ -177,7 +177,7 @@ def test_a_healthy_read_takes_what_the_wire_takes() -> None:
                 assert taken == pytest.approx(wire_time(requested, BAUD) + thinks, abs=1e-4)
 
 
-@pytest.mark.parametrize("read", READS)
+@in_turn("read", lambda: READS)
 def test_a_duplicate_shifts_nothing(read: str) -> None:
     """A reply that came twice made 77 of 80 reads stale, without an error or a count."""
     for bench in BENCHES:
@@ -190,7 +190,7 @@ def test_a_duplicate_shifts_nothing(read: str) -> None:
         assert run.counters.replies == 80
 
 
-@pytest.mark.parametrize("gap", [0.0, 0.005, 0.010, 0.049, 0.051, 0.1, 0.2])
+@in_turn("gap", lambda: [0.0, 0.005, 0.010, 0.049, 0.051, 0.1, 0.2])
 def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
     """`55 55 04 0F` and a report behind it were read as 21845 mV: the report's header."""
     run = Run(None, faults.cut(4, later(gap)), Bench())
@@ -199,7 +199,7 @@ def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
     assert run.talk.calls[FAULTY - 1].number is None
 
 
-@pytest.mark.parametrize("report", [STOPPED, REPORT])
+@in_turn("report", lambda: [STOPPED, REPORT])
 def test_a_report_that_fills_what_is_missing_is_no_part_of_the_reply(report: bytes) -> None:
     run = Run(SIX, faults.cut(-len(report), later(0.0, report)), Bench())
     run.check(SIX)
@@ -218,7 +218,7 @@ WINDOW = {
 }
 
 
-@pytest.mark.parametrize("name", WINDOW)
+@in_turn("name", lambda: WINDOW)
 def test_one_read_at_most_is_stale_where_time_cannot_distinguish_replies(name: str) -> None:
     after, stale = WINDOW[name]
     run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.008))
@@ -228,7 +228,7 @@ def test_one_read_at_most_is_stale_where_time_cannot_distinguish_replies(name: s
     assert run.talk.failed == []
 
 
-@pytest.mark.parametrize("after", [10.1, 14, 18])
+@in_turn("after", lambda: [10.1, 14, 18])
 def test_one_read_at_most_is_stale_where_a_board_thinks_for_longer_than_the_wire_takes(
     after: float,
 ) -> None:

@@ -21,6 +21,7 @@ from busservo import (
 )
 from busservo_simulator import ActionGroup, Step, VirtualController
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
 
@@ -267,7 +268,7 @@ def test_the_battery_runs_down_but_not_below_empty(board: VirtualController, hos
     assert voltage(host) == 6000
 
 
-@pytest.mark.parametrize("asked_for", [0, 4700, 6000, 65535])
+@in_turn("asked_for", lambda: [0, 4700, 6000, 65535])
 def test_a_battery_begins_where_it_is_asked_to(asked_for: int) -> None:
     with virtual_board(battery_mv=asked_for) as board:
         assert voltage(host_of(board)) == asked_for

@@ -122,9 +122,9 @@ ASK = BatteryVoltageRead().encode()
 REPLY = BatteryVoltage(7500).encode()
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
+@in_turn(
+    "words, expected",
+    lambda: [
         ("--local-echo --baud 96000", ASK + REPLY),
         ("--fault duplicated=1", REPLY + REPLY),
         ("--fault late=1 --late-by 0.02", REPLY),
@@ -172,20 +172,18 @@ def test_what_it_cannot_do_is_an_error(
     assert "reaches" not in shown
 
 
-@pytest.mark.parametrize(("text", "servos"), [("1", [1]), ("1-3", [1, 2, 3]), ("1-2,9", [1, 2, 9])])
+@in_turn("text, servos", lambda: [("1", [1]), ("1-3", [1, 2, 3]), ("1-2,9", [1, 2, 9])])
 def test_servos_are_listed_as_people_write_them(text: str, servos: list[int]) -> None:
     assert parse_servos(text) == servos
 
 
-@pytest.mark.parametrize("text", ["", "3-1", "254", "x", "-1"])
+@in_turn("text", lambda: ["", "3-1", "254", "x", "-1"])
 def test_what_names_no_servo_is_refused(text: str) -> None:
     with pytest.raises(ValueError):  # noqa: PT011 - argparse shows its own words
         parse_servos(text)
 
 
-@pytest.mark.parametrize(
-    ("words", "pace"), [("", 9600), ("--baud 96000", 96000), ("--baud inf", None)]
-)
+@in_turn("words, pace", lambda: [("", 9600), ("--baud 96000", 96000), ("--baud inf", None)])
 def test_the_line_is_as_slow_as_the_real_one_unless_told_otherwise(
     words: str, pace: float | None
 ) -> None:

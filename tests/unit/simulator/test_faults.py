@@ -51,8 +51,8 @@ def test_a_chance_is_from_0_to_1(name: str, chance: float) -> None:
         Faults(**{name: chance})  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("name", DURATIONS)
-@pytest.mark.parametrize("seconds", [-0.1, float("inf"), float("nan")])
+@in_turn("name", lambda: DURATIONS)
+@in_turn("seconds", lambda: [-0.1, float("inf"), float("nan")])
 def test_seconds_are_0_or_more(name: str, seconds: float) -> None:
     with pytest.raises(ValueError, match=f"{name} is"):
         Faults(**{name: seconds})  # type: ignore[arg-type]
@@ -271,7 +271,7 @@ def test_faults_can_be_set_at_any_time() -> None:
 NEW = {"duplicated": 0.3, "late": 0.3, "lost_bytes": 0.1, "wrong_count": 0.3}
 
 
-@pytest.mark.parametrize("name", NEW)
+@in_turn("name", lambda: NEW)
 def test_a_seed_repeats_a_fault_and_another_does_not(name: str) -> None:
     def run(seed: int) -> bytes:
         with virtual_board(faults=Faults(seed, **{name: NEW[name]})) as board:

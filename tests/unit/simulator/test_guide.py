@@ -62,7 +62,7 @@ def marks(block: str) -> Iterator[pytest.MarkDecorator]:
 SHOWN = [pytest.param(block, marks=list(marks(block))) for block in BLOCKS]
 
 
-@pytest.mark.parametrize("words", COMMANDS)
+@in_turn("words", lambda: COMMANDS)
 def test_a_command_puts_a_board_behind_a_port(words: str) -> None:
     with _board(parser_of(PROGRAM).parse_args(words.split())) as board:
         assert board.port

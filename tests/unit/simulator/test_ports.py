@@ -29,6 +29,7 @@ from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.tcp_end import TcpEnd
 from busservo_simulator.waker import Waker
 
+from tests.in_turn import in_turn
 from tests.lines.hosts import Host
 from tests.timeouts import GENEROUS, await_that
 
@@ -218,7 +219,7 @@ class Hasty:
         return getattr(self._guest, name)
 
 
-@pytest.mark.parametrize("size", [0, 3, 20_000])
+@in_turn("size", lambda: [0, 3, 20_000])
 def test_over_tcp_a_host_that_comes_as_another_leaves_is_let_in(size: int) -> None:
     end = TcpEnd()
     end.plug_in()

@@ -24,6 +24,7 @@ from busservo_simulator.uart import sampled
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.hosts import Host
 from tests.timeouts import await_that
 
@@ -51,9 +52,9 @@ def seeded(seed: int) -> Random:
 # -------------------------------------------------------------------- the UART
 
 
-@pytest.mark.parametrize(
-    ("sent_at", "read_at", "read"),
-    [
+@in_turn(
+    "sent_at, read_at, read",
+    lambda: [
         pytest.param(9600, 9600, "55 55 02 0f", id="the same"),
         pytest.param(9600, 9900, "55 55 02 0f", id="3 % off is read all the same"),
         pytest.param(9900, 9600, "55 55 02 0f", id="and so the other way round"),
@@ -223,7 +224,7 @@ def test_a_rate_kept_as_a_number_is_read(monkeypatch: pytest.MonkeyPatch) -> Non
     assert read_rate(0) == 54321
 
 
-@pytest.mark.parametrize("via", ["memory", "tcp"])
+@in_turn("via", lambda: ["memory", "tcp"])
 def test_there_is_no_rate_without_a_pty(via: Any) -> None:
     with VirtualController(via) as board:
         assert board._end.host_baud is None

@@ -30,6 +30,7 @@ from busservo._client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.live_line import LiveLine
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -66,9 +67,9 @@ def ran(line: Session, group: int = 8, now: float = 0.0) -> Run:
     return request.sent
 
 
-@pytest.mark.parametrize(
-    ("report", "started"),
-    [
+@in_turn(
+    "report, started",
+    lambda: [
         (ActionGroupStarted(8, 1), True),
         (ActionGroupStarted(8, 2), None),
         (ActionGroupStarted(7, 1), None),

@@ -44,6 +44,7 @@ from busservo_simulator.virtual_loop import run_virtual
 from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.rfc2217_server import Rfc2217Server
 from tests.timeouts import GENEROUS, LIVE, await_that
@@ -311,7 +312,7 @@ def test_a_flood_of_reports_hides_no_reply_with_asyncio(board: VirtualController
     asyncio.run(work())
 
 
-@pytest.mark.parametrize("nonsense", [b"\x55", b"\x55\x55\xfe\x15", bytes(range(256))])
+@in_turn("nonsense", lambda: [b"\x55", b"\x55\x55\xfe\x15", bytes(range(256))])
 def test_a_board_that_sends_nonsense_alone_ends_in_an_error(nonsense: bytes) -> None:
     with virtual_board() as board, client_on_its_time(board) as controller:
         board.spurious_output(nonsense, per_second=500)
@@ -431,7 +432,7 @@ def test_a_port_by_the_name_that_windows_would_give_it(
         assert controller.read_battery_voltage() == 7500
 
 
-@pytest.mark.parametrize("port", ["rfc2217://127.0.0.1:1", "rfc2217://nowhere", "cp2110://"])
+@in_turn("port", lambda: ["rfc2217://127.0.0.1:1", "rfc2217://nowhere", "cp2110://"])
 def test_a_url_that_leads_nowhere_is_an_error_that_says_so(port: str) -> None:
     with bounded(), pytest.raises(TransportError, match=port):
         open_transport(port)

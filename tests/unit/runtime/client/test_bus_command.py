@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import lxservo
 import pytest
 from lxservo._cli import main
+from lxservo._cli.checks import heard
+from lxservo._client import session
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,6 +59,13 @@ def served(device: Any) -> Iterator[str]:
 def port() -> Iterator[str]:
     with served(Servos(1, 3)) as address:
         yield address
+
+
+@pytest.fixture(autouse=True)
+def undoubted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Shorten the waits for more bytes: nobody else sends requests, and each reply comes once."""
+    monkeypatch.setattr(session, "_LATENCY", 0.001)
+    monkeypatch.setattr(heard, "PAUSE", 0.001)
 
 
 def sent(port: str, *words: str) -> list[str]:

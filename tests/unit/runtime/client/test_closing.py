@@ -25,6 +25,7 @@ from busservo import (
 from busservo._client.async_opening import Opening
 from busservo_simulator import VirtualController
 
+from tests.in_turn import in_turn
 from tests.lines.both_clients import both_live
 from tests.lines.live_line import Gate, LiveLine, answered, losing
 from tests.lines.receiving import unanswered
@@ -420,7 +421,7 @@ def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> 
     assert line.received[-1] == ServoUnload([7])
 
 
-@pytest.mark.parametrize("via", ["memory", "tcp"])
+@in_turn("via", lambda: ["memory", "tcp"])
 def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> None:
     with VirtualController(via, baud=9600) as board:
         transport = board.transport if via == "memory" else open_transport(board.port)

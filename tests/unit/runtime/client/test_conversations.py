@@ -18,6 +18,7 @@ from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.conversation import (
     Ledger,
@@ -158,7 +159,7 @@ FAULTS = {
 }
 
 
-@pytest.mark.parametrize("seed", range(4))
+@in_turn("seed", lambda: range(4))
 def test_a_hundred_tasks_share_a_line_with_faults(seed: int) -> None:
     board, ledger, clock = virtual(replace(FAULTS["mixed"], seed=seed))
 

@@ -12,6 +12,7 @@ from framegen.model.codec import encode
 from tests.bad_specs import BASES
 from tests.contract.independent.memory import MemoryPort
 from tests.factories import compiled_file, library, library_of, vectors_of
+from tests.in_turn import in_turn
 from tests.lines.timed_line import Pieces, TimedLine, client_on
 from tests.protocols.specs import FILES
 
@@ -134,9 +135,7 @@ def test_the_model_knows_the_size_as_well() -> None:
     assert not some.miscounts(asked, {"status": 0, "found": [1]})
 
 
-@pytest.mark.parametrize(
-    "spec", [BASES / "memory.yaml", FILES["modbus"]], ids=lambda file: file.stem
-)
+@in_turn("spec", lambda: [BASES / "memory.yaml", FILES["modbus"]])
 def test_the_vectors_say_which_replies_answer(spec: Path) -> None:
     compiled = compiled_file(spec)
     model, vectors = compiled.model, vectors_of(compiled)

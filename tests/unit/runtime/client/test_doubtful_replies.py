@@ -6,7 +6,6 @@ import math
 import pickle
 from typing import TYPE_CHECKING, NamedTuple
 
-import pytest
 from busservo import (
     AsyncController,
     BatteryVoltage,
@@ -26,6 +25,7 @@ from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -33,6 +33,7 @@ from tests.lines.virtual_line import VirtualLine
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    import pytest
     from busservo._client.request import Request
 
 REPLY_TIMEOUT = 0.25
@@ -182,7 +183,7 @@ def replied(line: Session, now: float, replies: list[tuple[float, int]]) -> None
         say(line, now + at, *(voltage for when, voltage in replies if when == at))
 
 
-@pytest.mark.parametrize("name", DOUBTS)
+@in_turn("name", lambda: DOUBTS)
 def test_a_question_in_doubt_is_asked_again(name: str) -> None:
     doubt = DOUBTS[name]
     line = prepared(doubt.healthy, lost=doubt.lost, baud=doubt.baud)

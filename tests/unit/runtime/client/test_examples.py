@@ -12,6 +12,7 @@ import pytest
 from busservo import AsyncController, Controller
 from busservo._client.exchanges import EXCHANGES
 
+from tests.in_turn import in_turn
 from tests.lines.live_line import LiveLine
 from tests.timeouts import LIVE
 
@@ -28,7 +29,7 @@ def examples(client: type, exchange: Exchange) -> list[doctest.Example]:
     return found
 
 
-@pytest.mark.parametrize("exchange", METHODS)
+@in_turn("exchange", lambda: METHODS)
 def test_the_examples_of_the_client_for_threads(exchange: Exchange) -> None:
     with Controller(LiveLine(), **LIVE) as controller:
         names: dict[str, Any] = {"controller": controller}
@@ -39,7 +40,7 @@ def test_the_examples_of_the_client_for_threads(exchange: Exchange) -> None:
                 exec(example.source, names)  # noqa: S102 - our own
 
 
-@pytest.mark.parametrize("exchange", METHODS)
+@in_turn("exchange", lambda: METHODS)
 def test_the_examples_of_the_client_for_asyncio(exchange: Exchange) -> None:
     async def run() -> None:
         async with AsyncController(LiveLine(), **LIVE) as controller:
@@ -56,7 +57,7 @@ def test_the_examples_of_the_client_for_asyncio(exchange: Exchange) -> None:
     asyncio.run(run())
 
 
-@pytest.mark.parametrize("exchange", METHODS)
+@in_turn("exchange", lambda: METHODS)
 def test_both_clients_take_the_same_arguments(exchange: Exchange) -> None:
     one, other = (
         inspect.signature(getattr(kind, exchange.method)).parameters

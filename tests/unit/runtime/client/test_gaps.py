@@ -15,6 +15,7 @@ from busservo import (
 )
 from busservo._codec.careful_decoder import GAP
 
+from tests.in_turn import in_turn
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.unit.runtime.client.test_possible_replies import ask, session
@@ -26,7 +27,7 @@ TORN = BatteryVoltage(0x1D4C).encode()[:4]
 REPORT = ActionGroupCompleted(8, 1)
 
 
-@pytest.mark.parametrize("gap", [0.0, 0.001, 0.005, 0.03, 0.049, 0.06, 0.1, 0.2])
+@in_turn("gap", lambda: [0.0, 0.001, 0.005, 0.03, 0.049, 0.06, 0.1, 0.2])
 def test_a_hole_and_a_report_after_any_time_are_an_error_and_that_report(gap: float) -> None:
     line = VirtualLine(lambda message: [(0.015, TORN), (gap, REPORT)] if _asks(message) else [])
     with client_on(line, Controller) as controller:
@@ -52,7 +53,7 @@ def test_a_gap_counts_only_where_the_port_was_found_empty() -> None:
     assert request.reply == BatteryVoltage(7500)
 
 
-@pytest.mark.parametrize(("empty_at", "ends"), [(0.049, False), (0.051, True)])
+@in_turn("empty_at, ends", lambda: [(0.049, False), (0.051, True)])
 def test_a_port_found_empty_for_longer_than_the_gap_ends_a_frame(
     empty_at: float, ends: bool
 ) -> None:

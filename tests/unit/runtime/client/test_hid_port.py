@@ -32,6 +32,7 @@ from busservo._codec.noise import Noise
 from busservo._serial.hid_devices import HidDevice, hid_devices_at_hand, hid_library
 from busservo._serial.hid_port import HidPort, open_hid
 
+from tests.in_turn import in_turn
 from tests.lines.live_line import answered
 from tests.timeouts import GENEROUS, LIVE
 
@@ -170,9 +171,9 @@ def port_on(device: Device) -> HidPort:
     return HidPort("hid://", device, 64, never)
 
 
-@pytest.mark.parametrize(
-    ("padding", "report", "read"),
-    [
+@in_turn(
+    "padding, report, read",
+    lambda: [
         (0, "55 55 04 0F 4C 1D", "55 55 04 0F 4C 1D"),
         # A position of 0 is no padding.
         (0, "55 55 06 15 01 03 00 00", "55 55 06 15 01 03 00 00"),
@@ -273,9 +274,9 @@ def test_silence_is_no_reply(library: Library) -> None:
         controller.read_battery_voltage()
 
 
-@pytest.mark.parametrize(
-    ("found", "port", "error", "expected"),
-    [
+@in_turn(
+    "found, port, error, expected",
+    lambda: [
         ([], "hid://", PortNotFoundError, r"no USB HID device is plugged in \(0483:5750\)"),
         ([OTHER | {"path": b"1"}], "hid://", PortNotFoundError, "no USB HID device"),
         ([plugged()], "hid://0483:0001", PortNotFoundError, "these exist: hid:///dev/null"),

@@ -29,6 +29,7 @@ from busservo._client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -87,7 +88,7 @@ def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -
     return client_on(line, Controller, local_echo=local_echo)
 
 
-@pytest.mark.parametrize("answer", [echoing, in_pieces])
+@in_turn("answer", lambda: [echoing, in_pieces])
 def test_what_was_sent_comes_back_and_is_dropped(answer: Callable[[Message], Incoming]) -> None:
     with virtual(answer) as controller:
         assert controller.read_battery_voltage() == 7500
@@ -117,7 +118,7 @@ def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
     assert line.idle
 
 
-@pytest.mark.parametrize("answer", [silent, without, changed])
+@in_turn("answer", lambda: [silent, without, changed])
 def test_a_missing_echo_is_an_error(answer: Callable[[Message], Incoming]) -> None:
     with virtual(answer) as controller:
         with pytest.raises(EchoError, match="leave out local_echo") as caught:
@@ -164,7 +165,7 @@ class Echoing(LiveLine):
         super().write(data)
 
 
-@pytest.mark.parametrize("answer", [answered, lambda _: []])
+@in_turn("answer", lambda: [answered, lambda _: []])
 def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Message]]) -> None:
     line = Echoing(answer)
     with Controller(
@@ -205,10 +206,7 @@ def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(
     assert "gives back what is sent" in said.getMessage()
 
 
-@pytest.mark.parametrize(
-    "message",
-    [ActionGroupRun(8, 1), ActionGroupStop()],
-)
+@in_turn("message", lambda: [ActionGroupRun(8, 1), ActionGroupStop()])
 def test_a_report_like_a_command_is_no_sign_of_an_echo(message: Message) -> None:
     with virtual(echoing, local_echo=False) as controller:
         controller.send(message)
@@ -217,7 +215,7 @@ def test_a_report_like_a_command_is_no_sign_of_an_echo(message: Message) -> None
         assert controller.counters.echoes == 0
 
 
-@pytest.mark.parametrize("message", [ServoMove(0, [(1, 500)]), ActionGroupStop()])
+@in_turn("message", lambda: [ServoMove(0, [(1, 500)]), ActionGroupStop()])
 def test_noise_is_no_echo(message: Message) -> None:
     with virtual(lambda _: [(0.01, b"\x00\x55\x55\x02")], local_echo=False) as controller:
         controller.send(message)

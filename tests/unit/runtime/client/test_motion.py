@@ -18,6 +18,7 @@ from busservo import (
     ServoMove,
 )
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.virtual_line import VirtualLine, client, run
@@ -233,7 +234,7 @@ def test_in_a_task_the_latest_move_takes_the_place_of_what_waits() -> None:
     run(work())
 
 
-@pytest.mark.parametrize("latest", [False, True])
+@in_turn("latest", lambda: [False, True])
 def test_in_a_task_a_line_that_is_lost_or_closed_ends_the_wait(latest: bool) -> None:
     async def work() -> None:
         for error in (DisconnectedError, ClosedError):

@@ -31,6 +31,7 @@ from busservo._client.line_threads import LineThreads
 from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, library, library_of
+from tests.in_turn import in_turn
 from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine
 from tests.lines.receiving import unanswered
@@ -418,8 +419,8 @@ class Interrupted(LiveLine):
             self.reading.release()
 
 
-@pytest.mark.parametrize("ask", [False, True], ids=["while it waits", "while it asks"])
-@pytest.mark.parametrize("leave", [False, True], ids=["and goes on", "and ends the program"])
+@in_turn("ask", lambda: [False, True])
+@in_turn("leave", lambda: [False, True])
 def test_a_signal_handler_may_close_in_the_middle_of_a_call(ask: bool, leave: bool) -> None:
     line = Interrupted()
     arm = Controller(line, background=False, on_exit="hold", **LIVE)

@@ -19,6 +19,7 @@ from busservo._client.exchanges import LIMITS, POSE
 from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, library, library_of
+from tests.in_turn import in_turn
 from tests.lines.device_line import client_of
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -37,7 +38,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("targets", "refusal"), CASES)
+@in_turn("targets, refusal", lambda: CASES)
 def test_each_servo_is_held_to_its_own_limits(targets: Any, refusal: Any) -> None:
     line = VirtualLine()
     with client_on(line, Controller, limits=OWN, settle=None) as controller:
@@ -61,9 +62,9 @@ def test_each_servo_is_held_to_its_own_limits(targets: Any, refusal: Any) -> Non
     assert len(line.received) == (2 if refusal is None else 0)
 
 
-@pytest.mark.parametrize(
-    ("limits", "problem"),
-    [
+@in_turn(
+    "limits, problem",
+    lambda: [
         ({1: (900, 100)}, r"limits\[1\] is \(900, 100\), and must be the lowest"),
         ({1: 5}, r"limits\[1\] is 5, and must be the lowest"),
         ({"1": (0, 9)}, r"limits has '1', and must have numbers, such as \{1: \(0, 1000\)\}"),
@@ -83,9 +84,13 @@ def test_positions_that_were_read_are_held_within_the_limits_of_each() -> None:
         POSE.targets_of(ServoPositions([(1, 50)]).positions, LIMITS.chosen(OWN))
 
 
-@pytest.mark.parametrize(
-    ("ids", "problem"),
-    [((0,), r"ids has 0, and a servo is 1\.\.253"), ((254,), "ids has 254"), ("1,2", "numbers")],
+@in_turn(
+    "ids, problem",
+    lambda: [
+        ((0,), r"ids has 0, and a servo is 1\.\.253"),
+        ((254,), "ids has 254"),
+        ("1,2", "numbers"),
+    ],
 )
 def test_ids_of_no_servo_are_refused(ids: Any, problem: str) -> None:
     for client in (Controller, AsyncController):

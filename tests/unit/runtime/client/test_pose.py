@@ -27,6 +27,7 @@ from busservo._client.exchanges import LIMITS, POSE
 from busservo._client.limits import Limits
 from busservo_simulator import Faults, VirtualController
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -56,9 +57,9 @@ def client_of(line: VirtualLine, **given: Any) -> Any:
 # ------------------------------------------------------------------ what a position means
 
 
-@pytest.mark.parametrize(
-    ("position", "signed", "absent"),
-    [
+@in_turn(
+    "position, signed, absent",
+    lambda: [
         (0, 0, False),
         (500, 500, False),
         (1000, 1000, False),
@@ -125,7 +126,7 @@ REFUSED: list[tuple[ServoMove, tuple[int, int], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("move", "limits", "expected"), REFUSED, ids=lambda each: str(each)[:40])
+@in_turn("move, limits, expected", lambda: REFUSED)
 def test_what_is_outside_the_limits_is_refused_and_never_sent(
     move: ServoMove, limits: tuple[int, int], expected: str
 ) -> None:
@@ -147,9 +148,14 @@ def test_a_refusal_is_an_encode_error_that_can_be_pickled() -> None:
     assert (error.path, error.value, error.limits) == ("targets[0].position", 1500, (0, 1000))
 
 
-@pytest.mark.parametrize(
-    ("limits", "positions"),
-    [((0, 1000), [0, 1000]), ((500, 2500), [500, 2500]), (None, [0, 65535]), ([3, 4], [3, 4])],
+@in_turn(
+    "limits, positions",
+    lambda: [
+        ((0, 1000), [0, 1000]),
+        ((500, 2500), [500, 2500]),
+        (None, [0, 65535]),
+        ([3, 4], [3, 4]),
+    ],
 )
 def test_the_ends_of_the_limits_are_inside(limits: Any, positions: list[int]) -> None:
     line = VirtualLine()
@@ -158,7 +164,7 @@ def test_the_ends_of_the_limits_are_inside(limits: Any, positions: list[int]) ->
     assert [move.columns()[1] for move in moves(line)] == [tuple(positions)]
 
 
-@pytest.mark.parametrize("limits", [(1000, 0), (1,), 1000, "0..1000", (0, 1.5), (1, 2, 3), ()])
+@in_turn("limits", lambda: [(1000, 0), (1,), 1000, "0..1000", (0, 1.5), (1, 2, 3), ()])
 def test_limits_that_can_be_none_are_refused_with_what_can(limits: Any) -> None:
     with pytest.raises(ValueError, match=r"such as \(0, 1000\), or None for any"):
         client_of(VirtualLine(), limits=limits)
@@ -279,7 +285,7 @@ AT_THE_STOPS: list[tuple[Any, list[tuple[int, int]], list[tuple[int, int]]]] = [
 ]
 
 
-@pytest.mark.parametrize(("limits", "read", "targets"), AT_THE_STOPS)
+@in_turn("limits, read, targets", lambda: AT_THE_STOPS)
 def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
     limits: Any, read: list[tuple[int, int]], targets: list[tuple[int, int]]
 ) -> None:
@@ -291,9 +297,9 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
     assert moves(line) == [ServoMove(time_ms=40, targets=targets)]
 
 
-@pytest.mark.parametrize(
-    ("limits", "position", "expected"),
-    [
+@in_turn(
+    "limits, position, expected",
+    lambda: [
         ((0, 1000), 1051, "limits=(500, 2500) is for PWM servo boards, limits=None for any"),
         (
             (0, 1000),
@@ -367,7 +373,7 @@ def test_the_pose_of_the_protocol() -> None:
     assert (LIMITS.usual, LIMITS.others) == ((0, 1000), {"PWM servo boards": (500, 2500)})
 
 
-@pytest.mark.parametrize("seed", range(3))
+@in_turn("seed", lambda: range(3))
 def test_no_number_of_an_absent_servo_is_ever_sent(seed: int) -> None:
     board, client = virtual(faults=Faults(seed=seed, absent=0.5, fewer=0.2))
     with board, client() as controller:

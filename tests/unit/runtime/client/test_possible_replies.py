@@ -18,6 +18,8 @@ from busservo import (
 )
 from busservo._client.session import Session
 
+from tests.in_turn import in_turn
+
 if TYPE_CHECKING:
     from busservo import Message
     from busservo._client.request import Request
@@ -175,7 +177,7 @@ def test_a_line_is_fast_after_three_questions_with_one_impossible_reply_each() -
     assert line.counters.impossible == 3
 
 
-@pytest.mark.parametrize(("between", "more"), [("in time", 2), ("not at all", 2), ("twice", 1)])
+@in_turn("between, more", lambda: [("in time", 2), ("not at all", 2), ("twice", 1)])
 def test_only_three_impossible_replies_in_a_row_make_a_line_fast(between: str, more: int) -> None:
     line = session()
     answered(line, 0.0, 1, 0.001)
@@ -330,7 +332,7 @@ def test_the_right_reply_has_as_long_as_the_slowest_of_the_latest() -> None:
     assert at >= now + TRIP + 0.035
 
 
-@pytest.mark.parametrize(("in_time", "believed"), [(7, True), (8, False)])
+@in_turn("in_time, believed", lambda: [(7, True), (8, False)])
 def test_a_line_keeps_its_rate_after_eight_questions_in_a_row(in_time: int, believed: bool) -> None:
     line = session()
     answered(line, 0.0, 1, TOO_SOON)
@@ -413,7 +415,7 @@ def test_a_line_that_was_opened_again_settles_again() -> None:
     assert len(line.outgoing(5.0 + TRIP + REPLY_TIMEOUT)) == 1
 
 
-@pytest.mark.parametrize("settle", [-1, math.nan])
+@in_turn("settle", lambda: [-1, math.nan])
 def test_a_negative_settling_time_is_refused(settle: float) -> None:
     with pytest.raises(ValueError, match="settle is"):
         session(settle=settle)
@@ -432,9 +434,9 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
     assert "dropped BatteryVoltage(voltage_mv=1)" in caplog.text
 
 
-@pytest.mark.parametrize(
-    ("came", "expected"),
-    [
+@in_turn(
+    "came, expected",
+    lambda: [
         (b"", "nothing came at all: is the device switched on"),
         (b"\xf0" * 336, "336 bytes came that are no frame: wrong baud rate?"),
         (b"\x00", "1 byte came that is no frame"),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupRun,
@@ -16,6 +15,8 @@ from busservo import (
 from busservo._client.report_filter import ReportFilter
 from busservo._client.session import Session
 from busservo._frame.direction import RECEIVED
+
+from tests.in_turn import in_turn
 
 RUN_8, RUN_9, STOP = ActionGroupRun(8, 1), ActionGroupRun(9, 1), ActionGroupStop()
 STARTED_8 = ActionGroupStarted(8, 1)
@@ -49,9 +50,9 @@ def test_a_run_is_the_cause_of_its_reports() -> None:
     assert log.take() is None
 
 
-@pytest.mark.parametrize(
-    ("story", "fields", "found"),
-    [
+@in_turn(
+    "story, fields, found",
+    lambda: [
         # The group ends by itself, or by a button.
         ([RUN_8, STARTED_8, COMPLETED_8], {"group": 8}, COMPLETED_8),
         ([RUN_8, STARTED_8, STOPPED], {"group": 8}, STOPPED),

@@ -35,6 +35,7 @@ from busservo._serial.port_errors import not_opened
 from busservo._serial.serial_port import SerialPort
 from busservo_simulator import VirtualController
 
+from tests.in_turn import in_turn
 from tests.lines.live_line import Gate
 from tests.timeouts import GENEROUS, LIVE, await_that
 
@@ -163,9 +164,9 @@ REFUSED_NAMES = {
 }
 
 
-@pytest.mark.parametrize(
-    ("port", "error", "advice"),
-    [
+@in_turn(
+    "port, error, advice",
+    lambda: [
         ("/dev/ttyNoSuchPort", PortNotFoundError, "exist|plugged in"),
         ("COM999", PortNotFoundError, "exist|plugged in"),
         ("hwgrep://no such adapter", PortNotFoundError, "'no such adapter' in its description"),
@@ -191,9 +192,9 @@ def test_what_is_no_port_is_refused_with_advice(
     assert caught.value.port == (str(port) if str(port).strip() else repr(port))
 
 
-@pytest.mark.parametrize(
-    ("port", "platform", "expected"),
-    [
+@in_turn(
+    "port, platform, expected",
+    lambda: [
         ("COM5", "linux", "that is how Windows names ports, and this is Linux"),
         ("com12", "darwin", "that is how Windows names ports, and this is macOS"),
         ("/dev/ttyUSB0", "win32", "that is how Linux names ports, and this is Windows"),
@@ -213,15 +214,15 @@ def test_a_port_name_of_another_system_is_recognized(
     assert str(error) == f"{port}: {expected}; no serial port is plugged in"
 
 
-@pytest.mark.parametrize("baud", [0, -9600, float("nan"), 2**31])
+@in_turn("baud", lambda: [0, -9600, float("nan"), 2**31])
 def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
     with pytest.raises(ValueError, match="must be from 1 to 2147483647"):
         open_controller("loop://", baud=baud)
 
 
-@pytest.mark.parametrize(
-    ("error", "expected"),
-    [
+@in_turn(
+    "error, expected",
+    lambda: [
         (ValueError("Failed to set custom baud rate (77): [Errno 22] no"), "set to that rate (no)"),
         (serial.SerialException(36, "could not open port x: [Errno 36]"), os.strerror(36)),
         (serial.SerialException("Could not configure port: (5, 'no input')"), "opened (no input)"),
@@ -447,7 +448,7 @@ def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
             port.write(b"UU\x02\x0f")
 
 
-@pytest.mark.parametrize("error", [OSError(5, "Input/output error"), TypeError("fd is None")])
+@in_turn("error", lambda: [OSError(5, "Input/output error"), TypeError("fd is None")])
 def test_an_adapter_that_is_gone_is_lost_in_whatever_it_was_at(error: Exception) -> None:
     driver = Driver(error)
     port = driven_by(driver)
@@ -532,7 +533,7 @@ def by_hid(driver: Driver) -> HidPort:
     return HidPort("hid://", driver, 64, lambda: by_hid(driver))
 
 
-@pytest.mark.parametrize("made", [driven_by, by_hid])
+@in_turn("made", lambda: [driven_by, by_hid])
 def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
     made: Callable[[Driver], SerialPort | HidPort],
 ) -> None:
@@ -555,7 +556,7 @@ def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
         first.result(GENEROUS)
 
 
-@pytest.mark.parametrize("made", [driven_by, by_hid])
+@in_turn("made", lambda: [driven_by, by_hid])
 def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
     made: Callable[[Driver], SerialPort | HidPort],
 ) -> None:

@@ -23,6 +23,8 @@ from busservo import (
 from busservo._client.exchange import Exchange
 from busservo._client.session import Session
 
+from tests.in_turn import in_turn
+
 if TYPE_CHECKING:
     from busservo._client.request import Request
 
@@ -47,9 +49,9 @@ def test_a_reply_ends_its_request() -> None:
     assert line.idle
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "other",
-    [
+    lambda: [
         ActionGroupCompleted(8, 1),
         ServoPositions([(1, 264)]),
     ],
@@ -63,9 +65,9 @@ def test_nothing_else_becomes_a_battery_voltage(other: Message) -> None:
     assert request.reply == BatteryVoltage(7500)
 
 
-@pytest.mark.parametrize(
-    ("positions", "accepted"),
-    [
+@in_turn(
+    "positions, accepted",
+    lambda: [
         ([(1, 5), (2, 6)], True),
         ([(2, 6), (1, 5)], True),
         ([(2, 6)], True),
@@ -390,9 +392,15 @@ def test_a_late_reply_after_reconnecting_is_not_taken_for_the_next_one() -> None
     assert request.reply == BatteryVoltage(2)
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "wrong",
-    [{"baud": 0}, {"baud": -1}, {"baud": math.nan}, {"reply_timeout": 0}, {"report_limit": 0}],
+    lambda: [
+        {"baud": 0},
+        {"baud": -1},
+        {"baud": math.nan},
+        {"reply_timeout": 0},
+        {"report_limit": 0},
+    ],
 )
 def test_invalid_settings_are_refused(wrong: dict[str, float]) -> None:
     good: dict[str, float] = {"baud": 9600, "reply_timeout": 0.25, "report_limit": 16}

@@ -16,10 +16,11 @@ from busservo import (
 )
 from busservo_simulator import Faults
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 
 
-@pytest.mark.parametrize("seed", range(25))
+@in_turn("seed", lambda: range(25))
 def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
     faults = Faults(
         seed=seed, noise=0.3, splits=0.5, delays=0.2, dropped=0.2, fewer=0.3, unsolicited=0.4

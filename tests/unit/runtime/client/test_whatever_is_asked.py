@@ -20,6 +20,7 @@ from busservo.strategies import messages
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.live_line import LiveLine
 
@@ -92,7 +93,7 @@ def test_any_message_is_sent_whole_or_refused(requests: list[Message]) -> None:
         assert board.rejects.total == 0
 
 
-@pytest.mark.parametrize("exchange", EXCHANGES.values(), ids=lambda each: each.method)
+@in_turn("exchange", EXCHANGES.values)
 def test_nonsense_is_refused_alike_by_the_client_for_asyncio(exchange: Any) -> None:
     line = LiveLine()
 
