@@ -1,4 +1,4 @@
-"""A bus of servos at the other end of a line, written apart: its frames are made by hand here.
+"""A second opinion, written apart: a bus of servos, whose frames are made by hand here.
 
 Time is virtual, and every byte takes its time on the one wire that all share. It counts how often
 two send at once, which would damage both on a real wire.

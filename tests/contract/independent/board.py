@@ -1,4 +1,4 @@
-"""An independent board: numbered replies, a wire that takes its time, a fault for each reply.
+"""A second opinion, written apart: a board with numbered replies, a slow wire, and faults.
 
 It is written from the document alone and shares no code with what it tests. It has no clock, no
 thread and no port: its driver gives it the time, in seconds.

@@ -1,4 +1,4 @@
-"""Faults of one reply on its way: scripts for the independent board.
+"""Written apart: faults of one reply on its way, as scripts for the independent board.
 
 A script takes the frame of a reply and returns what is sent in its place: pieces, each so many
 seconds after the reply is due. Bytes that a wire is still carrying then go first.

@@ -1,4 +1,4 @@
-"""Frames as the firmware of a sibling board reads them, written from the document alone.
+"""A second opinion: frames as the firmware of a sibling board reads them, from the document alone.
 
 Nothing of the library or of the simulator is used here, nor anywhere in the independent board.
 """

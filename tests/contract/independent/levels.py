@@ -1,4 +1,4 @@
-"""What a serial port receives of a line, bit by bit: at another rate, or upside down.
+"""A second opinion, written apart: what a port receives, bit by bit, at another rate or inverted.
 
 Ten bits a byte: a start bit, eight of data with the lowest first, a stop bit. A receiver waits for
 the line to fall, and looks at the middle of each bit, by its own rate.

@@ -1,4 +1,4 @@
-"""An independent memory: it is asked for so many bytes, and its late answers overtake each other.
+"""A second opinion, written apart: a memory, whose late answers overtake each other.
 
 Written from the layout in `specs/bad/base/memory.yaml` alone, by hand. Nothing in a reply says
 which request it answers, but how many bytes it holds. Each byte of it is the number of the

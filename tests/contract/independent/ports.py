@@ -1,4 +1,4 @@
-"""The independent board behind a port: a pty, TCP, or a call in virtual time."""
+"""Written apart: the independent board behind a port: a pty, TCP, or a call in virtual time."""
 
 from __future__ import annotations
 

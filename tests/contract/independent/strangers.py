@@ -1,4 +1,4 @@
-"""Devices that are not the board, as people have them on the same port: most of them print text.
+"""Written apart: devices that are not the board, on the same port; most of them print text.
 
 They are written with the standard library alone, and share no code with what they are shown to.
 """

@@ -236,12 +236,16 @@ class Touchy(LiveLine):
 def test_no_thread_reads_on_where_a_client_is_closed(
     talk: Talk, line: type[LiveLine], caplog: pytest.LogCaptureFixture
 ) -> None:
+    kept: list[Any] = []
+
     async def work(controller: Any) -> None:
         assert await controller.read_battery_voltage() == 7500
+        kept.append(controller)
 
     for _ in range(3):
         talk(line(), work, **LIVE)
         await_that(lambda: not own_threads())
+    assert [each.closed for each in kept] == [True] * 3
     # What a transport says of being closed is no bug.
     assert caplog.records == []
 
