@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+import time
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import pytest
@@ -65,6 +66,14 @@ def done_at_once(work: Coroutine[Any, Any, _Result]) -> _Result:
         result: _Result = end.value
         return result
     raise AssertionError("it waits for something else than the client")
+
+
+async def moment(client: Any) -> None:
+    """Let a moment pass, in the way of a client."""
+    if isinstance(client, Awaited):
+        time.sleep(0.001)
+    else:
+        await asyncio.sleep(0.001)
 
 
 def by_threads(line: VirtualLine, work: Work, **given: Any) -> None:

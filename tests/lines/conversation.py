@@ -7,7 +7,6 @@ received: none may come twice, and none that was sent before the call began.
 
 from __future__ import annotations
 
-import asyncio
 import threading
 import time
 from random import Random
@@ -24,8 +23,8 @@ from busservo import (
 )
 from busservo_simulator.board_fault_injector import REPLIES
 
-from tests.lines.both_clients import Awaited, done_at_once
-from tests.timeouts import GENEROUS, await_that
+from tests.lines.both_clients import Awaited, done_at_once, moment
+from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -115,21 +114,15 @@ class Ledger:
 
 def reports_received(controller: Controller, ledger: Ledger) -> list[Message]:
     """Return the reports, once all have come, and any that should not be there."""
-    await_that(lambda: ledger.over(controller))
-    received: list[Message] = []
-    for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
-        received.append(report)
-        if len(received) == len(ledger.reported):
-            break
-    return received + list(controller.reports(timeout=0.1))
+    return done_at_once(reports_received_async(Awaited(controller), ledger))
 
 
-async def reports_received_async(controller: AsyncController, ledger: Ledger) -> list[Message]:
+async def reports_received_async(controller: Any, ledger: Ledger) -> list[Message]:
     """Return the same, for asyncio."""
     end = time.monotonic() + GENEROUS
     while not ledger.over(controller):
         assert time.monotonic() < end
-        await asyncio.sleep(0.001)
+        await moment(controller)
     received: list[Message] = []
     async for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
         received.append(report)

@@ -29,7 +29,6 @@ class VirtualLine(Receiving, TimedLine):
         Receiving.__init__(self)
         TimedLine.__init__(self, timer=timer)
         self.answer = answer
-        self.sent_at: list[float] = []
         # How many messages had been received when it was drained.
         self.drained = 0
         self.error: Exception | None = None
@@ -46,7 +45,6 @@ class VirtualLine(Receiving, TimedLine):
     def write(self, data: bytes) -> None:
         self._check()
         for message in self.heard(data):
-            self.sent_at.append(self.now)
             for each in self.answer(message):
                 delay, answer = each if isinstance(each, tuple) else (0.0, each)
                 self.say(answer, delay)

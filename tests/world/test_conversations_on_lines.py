@@ -8,14 +8,16 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import pytest
 from busservo import AsyncController, Controller, open_async_controller, open_controller
 from busservo_simulator import Faults, VirtualController
 
 from tests import soak
 from tests.lines.at_once import at_once
 from tests.lines.boards import no_board_refuses_anything
+from tests.lines.both_clients import Awaited, done_at_once
 from tests.lines.conversation import (
     Ledger,
     converse,
@@ -26,11 +28,9 @@ from tests.lines.conversation import (
 from tests.unit.runtime.client.test_conversations import FAULTS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from contextlib import AbstractAsyncContextManager
     from pathlib import Path
-
-    import pytest
 
     from tests.timeouts import Line
 
@@ -80,42 +80,42 @@ def faults_at(way: str, kind: str) -> Faults:
     return replace(FAULTS[kind], seed=cut if kind == "cut" else mixed)
 
 
-def test_answers_and_reports_are_right_over_a_live_line(tmp_path: Path) -> None:
-    def talk(way: str, kind: str) -> None:
+async def talk(controller: Any, ledger: Ledger, kind: str, seed: int) -> None:
+    await converse_async(controller, ledger, seed, 12)
+    if kind == "mixed":
+        assert await reports_received_async(controller, ledger) == ledger.reported
+    assert controller.counters.lost_reports == 0
+
+
+def by_threads(board: VirtualController, way: str, *talked: Any) -> None:
+    with opened(board, way) as controller:
+        done_at_once(talk(Awaited(controller), *talked))
+
+
+def by_tasks(board: VirtualController, way: str, *talked: Any) -> None:
+    async def work() -> None:
+        async with opened_async(board, way) as controller:
+            await talk(controller, *talked)
+
+    asyncio.run(work())
+
+
+@pytest.mark.parametrize("clients", [by_threads, by_tasks])
+def test_answers_and_reports_are_right_over_a_live_line(
+    clients: Callable[..., None], tmp_path: Path
+) -> None:
+    def held(way: str, kind: str) -> None:
         faults = faults_at(way, kind)
         with board_at(way, tmp_path / kind, faults) as (board, ledger):
-            with opened(board, way) as controller:
-                converse(controller, ledger, faults.seed, 12)
-                if kind == "mixed":
-                    assert reports_received(controller, ledger) == ledger.reported
-                assert controller.counters.lost_reports == 0
+            clients(board, way, ledger, kind, faults.seed)
             assert ledger.right >= 3
             assert (ledger.reconnected > 0) == (kind == "cut")
 
-    at_once(talk, LINES)
-
-
-def test_answers_and_reports_are_right_over_a_live_line_with_asyncio(tmp_path: Path) -> None:
-    def talk(way: str, kind: str) -> None:
-        faults = faults_at(way, kind)
-        with board_at(way, tmp_path / kind, faults) as (board, ledger):
-
-            async def work() -> None:
-                async with opened_async(board, way) as controller:
-                    await converse_async(controller, ledger, faults.seed, 12)
-                    if kind == "mixed":
-                        assert await reports_received_async(controller, ledger) == ledger.reported
-                    assert controller.counters.lost_reports == 0
-
-            asyncio.run(work())
-            assert ledger.right >= 3
-            assert (ledger.reconnected > 0) == (kind == "cut")
-
-    at_once(talk, LINES)
+    at_once(held, LINES)
 
 
 def test_eight_threads_share_a_line_with_faults(tmp_path: Path) -> None:
-    def talk(way: str, kind: str) -> None:
+    def held(way: str, kind: str) -> None:
         seed = {"memory": 6, "tcp": 8, "pty": 2}[way]
         with board_at(way, tmp_path, replace(FAULTS[kind], seed=seed)) as (board, ledger):
             with opened(board, way) as controller, ThreadPoolExecutor(8) as pool:
@@ -123,7 +123,7 @@ def test_eight_threads_share_a_line_with_faults(tmp_path: Path) -> None:
                 assert reports_received(controller, ledger) == ledger.reported
             assert ledger.right >= 5
 
-    at_once(talk, [(way, "mixed") for way in WAYS])
+    at_once(held, [(way, "mixed") for way in WAYS])
 
 
 def test_the_soak_runs(capsys: pytest.CaptureFixture[str]) -> None:
