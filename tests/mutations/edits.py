@@ -5,22 +5,19 @@ from __future__ import annotations
 import copy
 import json
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.checks import check_model, check_structure
 from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 from framegen.compile import Compiled
 from framegen.language.spec import Spec
-from framegen.model.model import Model, derive
+from framegen.model.model import derive
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree
 
 from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, renamed
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from framegen.reading.findings import Finding
 
 SPECS = {
     "busservo": data_of(BUSSERVO),
@@ -60,19 +57,18 @@ def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) ->
     Its text is not read again, so that nothing in it has a place. Of one that is not checked,
     nobody knows what is wrong with it.
     """
-    spec, model, tree, tolerated = _read(json.dumps(data), checked=checked)
-    compiled = Compiled(Source(label, ""), tree, [], spec, model, tolerated)
-    return Edition(label, compiled, spec, model)
+    return _edition(json.dumps(data), label, checked=checked)
 
 
-# The specs that are edited are asked for again and again, as the old edition and as the new one.
-@lru_cache(maxsize=32)
-def _read(text: str, *, checked: bool) -> tuple[Spec, Model, Tree, tuple[Finding, ...]]:
+# What is the same edition is one: what is worked out of it, such as its library, stays with it.
+@lru_cache(maxsize=256)
+def _edition(text: str, label: str, *, checked: bool) -> Edition:
     values = json.loads(text)
     spec = Spec.model_validate(values)
     model, tree = derive(spec), Tree(values)
     tolerated = (check_structure(spec, tree) or check_model(model, tree)) if checked else ()
-    return spec, model, tree, tuple(tolerated)
+    compiled = Compiled(Source(label, ""), tree, [], spec, model, tuple(tolerated))
+    return Edition(label, compiled, spec, model)
 
 
 def pair_of(old: Data, new: Data) -> Pair:

@@ -83,7 +83,7 @@ def test_what_check_refuses_accepts_nothing(path: str, wrong: str) -> None:
             "messages.DoorOpend.id; there is no message `DoorOpend`, did you mean `DoorOpened`?\n",
         ),
         ("messages.Q", "messages.Q; there is no message `Q`\n"),
-        ("messages.VentsOpen", "messages.VentsOpen\n"),
+        ("messages.VentJammed", "messages.VentJammed\n"),
         ("link.baud", "link.baud\n"),
     ],
 )
