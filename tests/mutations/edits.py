@@ -71,9 +71,14 @@ def _edition(text: str, label: str, *, checked: bool) -> Edition:
     return Edition(label, compiled, spec, model)
 
 
-def pair_of(old: Data, new: Data) -> Pair:
+def pair_of(old: Data, new: Data, *, checked: bool = True) -> Pair:
     """Return the pair of two editions."""
-    return Pair(edition(old, "old.yaml"), edition(new, "new.yaml"))
+    return Pair(
+        *(
+            edition(each, f"{name}.yaml", checked=checked)
+            for name, each in (("old", old), ("new", new))
+        )
+    )
 
 
 SERVO, HOUSE = SPECS["busservo"], SPECS["greenhouse"]

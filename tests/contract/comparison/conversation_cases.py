@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tests.factories import data_of
+from tests.factories import data_of, first_edition
 from tests.mutations.edits import GONE, SPECS, with_
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from tests.factories import Data
 
-SERVO, BUS, HOUSE = SPECS["busservo"], SPECS["modbus"], SPECS["greenhouse"]
+# What came later has no exchange of another kind.
+SERVO, BUS, HOUSE = first_edition(), SPECS["modbus"], SPECS["greenhouse"]
 SMALL = with_(SERVO, "messages", "ServoPositions", "fields", "positions", "count", "1..5")
 TURNED = with_(SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items())))
 BOARDLESS = with_(SERVO, "link", "usb_hid", GONE)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import Spec
@@ -23,6 +24,7 @@ _MESSAGE = {"direction": "host -> lamp", "summary": "A message.", "cite": "manua
 _FIELD = {"about": "A field."}
 
 
+@cache
 def example(rule: ChangeRule) -> tuple[Data, Data]:
     """Return the spec before and after, without examples of frames but for the rule's own."""
     before, after = (_read(text) for text in (rule.before, rule.after))
