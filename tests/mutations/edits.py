@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import copy
 import json
 from functools import lru_cache
-from typing import Any
 
 from framegen.checks import check_model, check_structure
 from framegen.comparison.edition import Edition
@@ -16,7 +14,8 @@ from framegen.model.model import derive
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree
 
-from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, renamed
+from tests.factories import BUSSERVO, DEMO, Data, data_of, renamed
+from tests.mutations.places import GONE, reordered, with_
 from tests.protocols.specs import FILES
 
 SPECS = {
@@ -25,30 +24,6 @@ SPECS = {
     "everything": data_of(DEMO.with_name("everything.yaml")),
     "modbus": data_of(FILES["modbus"]),
 }
-GONE = "(gone)"
-
-
-def with_(data: Data, *path_and_value: Any) -> Data:
-    """Return a copy with a value at a path, or without what is GONE; all else is shared."""
-    *steps, last, value = path_and_value
-    changed = copy.copy(data)
-    around: Any = changed
-    for step in steps:
-        around[step] = copy.copy(around[step])
-        around = around[step]
-    if isinstance(value, str) and value == GONE:
-        del around[last]
-    else:
-        around[last] = value
-    return changed
-
-
-def reordered(data: Data, path: Steps, order: list[str]) -> Data:
-    """Return a copy in which the keys of the mapping at a path have another order."""
-    here: Any = data
-    for step in path:
-        here = here[step]
-    return with_(data, *path, {name: here[name] for name in order})
 
 
 def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) -> Edition:

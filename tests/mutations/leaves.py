@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from framegen.comparison.changes import changes
 from framegen.comparison.pair import Pair
 from pydantic import ValidationError
 
-from tests.mutations.edits import edition, with_
+from tests.mutations.edits import edition
+from tests.mutations.kinds import readable
+from tests.mutations.places import leaves, with_
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     from framegen.comparison.changes.change import Change
     from framegen.comparison.edition import Edition
 
     from tests.factories import Data, Steps
 
-# What a spec can hold in the place of a text, somewhere.
-_TEXTS = ("host -> controller", "55 55 02 07", "0..9", "u8", "u16", "odd", "big", "little", "2 V")
 
-
-def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
-    """Yield every text and number with the steps to it."""
-    if isinstance(value, dict | list):
-        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from leaves(item, (*path, key))
-    else:
-        yield path, value
-
-
-def others(data: Data, path: Steps, value: Any, old: Edition) -> Edition | None:
+def others(data: Data, path: Steps, value: object, old: Edition) -> Edition | None:
     """Return an edition with another value at a place; None where no other can be read."""
-    for other in _others(value):
+    for other in readable(value):
         try:
             new = edition(with_(data, *path, other), checked=False)
         except (ValidationError, AssertionError, LookupError, StopIteration, ArithmeticError):
@@ -57,14 +47,6 @@ def told_at_their_places(data: Data, each: int, first: int = 0) -> int:
         assert any(path[: len(each)] == each or each[: len(path)] == path for each in places), path
         assert mirrored(told) == turned(changes(Pair(new, old)))
     return seen
-
-
-def _others(value: Any) -> list[Any]:
-    if isinstance(value, bool):
-        return [not value]
-    if isinstance(value, int):
-        return [value + 1, value - 1]
-    return [f"{value} too", f"{value}2", *_TEXTS, "firmware", "document"]
 
 
 def mirrored(told: Iterable[Change]) -> list[tuple[str, str, str]]:

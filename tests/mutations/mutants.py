@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import copy
 import json
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, kiln, leaves, renamed
+from tests.mutations.kinds import anything
 from tests.mutations.odd_text import TEXTS
+from tests.mutations.places import at, differs, dotted, nodes, swaps, with_
 from tests.unit.targets.test_hostile import HARMLESS, with_prose
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-
-GONE = "(gone)"
 
 
 @dataclass(frozen=True)
@@ -82,68 +81,31 @@ def with_texts(spec: str, given: dict[Steps, str]) -> Mutant:
     """Return a spec with the texts of these labels in these places."""
 
     def make() -> Data:
-        data = copy.deepcopy(_places(spec)[0])
+        data = _places(spec)[0]
         for path, label in given.items():
-            around, last = _around(data, path)
-            around[last] = around[last].replace(HARMLESS, TEXTS[label])
+            data = with_(data, *path, at(data, path).replace(HARMLESS, TEXTS[label]))
         return data
 
-    changes = [Change(_dotted(path), "plain words", label) for path, label in given.items()]
+    changes = [Change(dotted(path), "plain words", label) for path, label in given.items()]
     return Mutant(spec, tuple(changes), make)
 
 
 def singly(mutant: Mutant) -> list[Mutant]:
     """Return one mutant for each of the texts of this one."""
     _, places = _places(mutant.spec)
-    by_path = {_dotted(path): path for path in places}
+    by_path = {dotted(path): path for path in places}
     return [with_texts(mutant.spec, {by_path[each.path]: each.new}) for each in mutant.changes]
 
 
 # ------------------------------------------------------------------ everything else
 
-_NUMBERS = (0, 1, -1, 2, 7, 127, 128, 255, 256, 65535, 65536, 2**31 - 1, 2**32 - 1, 2**32)
-_TYPES = ("u8", "u16", "u32", "i8", "i16", "i32")
-_OTHERS: dict[str, tuple[Any, ...]] = {
-    "type": _TYPES,
-    "signed_as": (*_TYPES, GONE),
-    "byte_order": ("little", "big"),
-    "parity": ("none", "even", "odd"),
-    "kind": ("document", "firmware", "implementation", "observation"),
-    "count": ("0..", "1..", "0..1", "1..1", "2..2", "3..7", "..", "1..40", "0..65536"),
-    "range": ("0..", "0..1", "1..1", "5..127", "-1..1", "-128..127", "0..255", "1..", "3..2"),
-    "usual": ("0..1", "0..255", "0..65535", "1..0"),
-    "bytes": (
-        "55",
-        "AA 55",
-        "00",
-        "FF FF FF FF",
-        "01 02 03 04 05 06 07 08",
-        "5C 22 0A",
-        "AA " * 30,
-    ),
-    "scale": ("1 s", "0.001 V", "1000 m", "1/3 s"),
-    "unit": ("", "ms", "s", "%", '"', "°C", "\\", "x" * 99),
-    "version": (
-        "0",
-        "2.0.0",
-        "1.0.0-rc.1",
-        "1.0.0-rc.1+7",
-        TEXTS["all interfaces"],
-        "v",
-        "1.0 beta",
-        '"',
-        "x" * 99,
-    ),
-    "baud": (1, 50, 4_000_000),
-}
-
 
 def structures(spec: str) -> Iterator[Mutant]:
     """Yield every scalar and every key of a spec changed by itself, in each way that there is."""
     data = specs()[spec]
-    for path, value in _nodes(data):
-        for new in _ways(path, value):
-            if json.dumps(new) != json.dumps(value):
+    for path, value in nodes(data):
+        for new in anything(path, value):
+            if differs(new, value):
                 yield _mutated(spec, path, value, new)
     yield from _orders(spec)
     yield from _renamings(spec)
@@ -151,44 +113,13 @@ def structures(spec: str) -> Iterator[Mutant]:
     yield from _crowds(spec)
 
 
-def _nodes(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
-    if path:
-        yield path, value
-    if isinstance(value, dict | list):
-        for step, inner in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from _nodes(inner, (*path, step))
-
-
-def _ways(path: Steps, value: Any) -> Iterator[Any]:
-    yield GONE
-    key = str(path[-1])
-    yield from _OTHERS.get(key, ())
-    if isinstance(value, bool):
-        yield not value
-    elif isinstance(value, int):
-        yield from (value + 1, value - 1, *_NUMBERS)
-    elif isinstance(value, str):
-        yield from ("", "x", 7, [value], {"a": value})
-        if key == "direction":
-            sender, receiver = value.split(" -> ")
-            yield f"{receiver} -> {sender}"
-            yield f"{sender} -> {sender}"
-    elif isinstance(value, list):
-        yield from ([], value[::-1], value + value[:1], value[:1])
-    elif isinstance(value, dict):
-        yield from ({}, dict(reversed(value.items())))
-    yield None
-
-
 def _orders(spec: str) -> Iterator[Mutant]:
     """Yield neighbours of each mapping swapped, and each key moved to the front."""
-    for path, value in _nodes(specs()[spec]):
+    for path, value in nodes(specs()[spec]):
         if isinstance(value, dict) and path[-1] in ("messages", "fields", "endpoints", "frame"):
-            keys = list(value)
-            for at in range(1, len(keys)):
-                swapped = [*keys[: at - 1], keys[at], keys[at - 1], *keys[at + 1 :]]
-                first = [keys[at], *keys[:at], *keys[at + 1 :]]
-                for order in (swapped, first):
+            keys = [*value]
+            for at, swapped in enumerate(swaps(keys), 1):
+                for order in (swapped, [keys[at], *keys[:at], *keys[at + 1 :]]):
                     yield _mutated(spec, path, keys, {key: value[key] for key in order})
 
 
@@ -205,27 +136,23 @@ _CLASSES = (
 )
 
 
+# Below these, keys are names.
+_NAMING = ("fields", "values", "endpoints", "frame", "sources", "lookalikes", "messages")
+
+
 def _renamings(spec: str) -> Iterator[Mutant]:
     """Yield every name replaced by another, wherever it stands."""
     data = specs()[spec]
-    for path, value in _nodes(data):
+    for path, value in nodes(data):
         parent = path[-2] if len(path) > 1 else ""
         found = ""
-        if parent in (
-            "fields",
-            "values",
-            "endpoints",
-            "frame",
-            "sources",
-            "lookalikes",
-            "messages",
-        ):
+        if parent in _NAMING:
             found = "" if "examples" in path else str(path[-1])
         elif path[-1] == "element" or path == ("protocol", "name"):
             found = str(value)
         if found:
             for name in _CLASSES if found[0].isupper() else _NAMES:
-                change = Change(_dotted(path), found, name)
+                change = Change(dotted(path), found, name)
                 yield Mutant(spec, (change,), partial(renamed, data, found, name))
 
 
@@ -287,7 +214,7 @@ def _given(message: Data) -> list[str]:
 def _crowds(spec: str) -> Iterator[Mutant]:
     """Yield specs with more of everything: fields, named values, messages, notes."""
     data = specs()[spec]
-    for path, value in _nodes(data):
+    for path, value in nodes(data):
         if path[-1] == "fields":
             for many in (13, 40):
                 more = {f"more_{at}": {"type": "u8", "about": "More."} for at in range(many)}
@@ -314,27 +241,8 @@ def _crowds(spec: str) -> Iterator[Mutant]:
 
 
 def _mutated(spec: str, path: Steps, old: Any, new: Any, shown: str = "") -> Mutant:
-
-    def make() -> Data:
-        data = copy.deepcopy(specs()[spec])
-        around, last = _around(data, path)
-        if new == GONE:
-            del around[last]
-        else:
-            around[last] = copy.deepcopy(new)
-        return data
-
-    return Mutant(spec, (Change(_dotted(path), _short(old), shown or _short(new)),), make)
-
-
-def _around(data: Any, path: Steps) -> tuple[Any, Any]:
-    for step in path[:-1]:
-        data = data[step]
-    return data, path[-1]
-
-
-def _dotted(path: Steps) -> str:
-    return ".".join(map(str, path))
+    change = Change(dotted(path), _short(old), shown or _short(new))
+    return Mutant(spec, (change,), lambda: with_(specs()[spec], *path, new))
 
 
 def _short(value: Any) -> str:

@@ -16,31 +16,32 @@ from framegen.language.load import load, read_source
 from framegen.reading.source import Source
 
 from tests.factories import BUSSERVO, FIRST
+from tests.mutations.places import (
+    GONE,
+    at,
+    differs,
+    dotted,
+    leaves,
+    nodes,
+    other_way,
+    swaps,
+    with_,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-Steps: TypeAlias = "tuple[str | int, ...]"
+    from tests.factories import Steps
+
 Mutation: TypeAlias = "tuple[Steps, Any]"
 
 TREE: Any = load(read_source(BUSSERVO)).tree.data
 MESSAGES: Any = TREE["messages"]
 
-GONE = "(gone)"
-
 
 def mutated(steps: Steps, value: Any) -> Any:
-    """Return the spec with `value` at `steps`; GONE removes what is there."""
-    tree = json.loads(json.dumps(TREE))
-    around = tree
-    for step in steps[:-1]:
-        around = around[step]
-    assert json.dumps(around[steps[-1]]) != json.dumps(value), "a mutation changes something"
-    if value == GONE:
-        del around[steps[-1]]
-    else:
-        around[steps[-1]] = value
-    return tree
+    assert differs(at(TREE, steps), value), "a mutation changes something"
+    return with_(TREE, *steps, value)
 
 
 def rules_broken(tree: Any) -> set[str]:
@@ -52,8 +53,7 @@ def rules_broken(tree: Any) -> set[str]:
 
 
 def named(mutation: Mutation) -> str:
-    steps, value = mutation
-    return f"{'.'.join(map(str, steps))}={json.dumps(value)}"[:90]
+    return f"{dotted(mutation[0])}={json.dumps(mutation[1])}"[:90]
 
 
 # ------------------------------------------------------------------ one fact after the other
@@ -61,15 +61,9 @@ def named(mutation: Mutation) -> str:
 
 def numbers() -> Iterator[tuple[Steps, Any]]:
     """Yield every number field, those inside elements included."""
-    for name, message in MESSAGES.items():
-        for key, field in message.get("fields", {}).items():
-            here: Steps = ("messages", name, "fields", key)
-            inner = field.get("fields")
-            yield from (
-                [(here, field)]
-                if inner is None
-                else [((*here, "fields", each), one) for each, one in inner.items()]
-            )
+    for path, value in nodes(MESSAGES, ("messages",)):
+        if path[-2:-1] == ("fields",) and "fields" not in value:
+            yield path, value
 
 
 def examples() -> Iterator[tuple[Steps, Any]]:
@@ -79,26 +73,6 @@ def examples() -> Iterator[tuple[Steps, Any]]:
     for name, other in TREE["lookalikes"].items():
         for index, example in enumerate(other.get("examples", [])):
             yield ("lookalikes", name, "examples", index), example
-
-
-def leaves(steps: Steps, value: Any) -> Iterator[tuple[Steps, Any]]:
-    inside = (
-        value.items()
-        if isinstance(value, dict)
-        else enumerate(value)
-        if isinstance(value, list)
-        else None
-    )
-    if inside is None:
-        yield steps, value
-        return
-    for step, inner in inside:
-        yield from leaves((*steps, step), inner)
-
-
-def other_way(direction: str) -> str:
-    sender, receiver = direction.split(" -> ")
-    return f"{receiver} -> {sender}"
 
 
 def codes() -> Iterator[Mutation]:
@@ -166,18 +140,9 @@ def frame_parts() -> Iterator[Mutation]:
 
 def field_orders() -> Iterator[Mutation]:
     """Yield each two neighbouring fields, swapped."""
-    for name, message in MESSAGES.items():
-        fields = message.get("fields", {})
-        yield from swaps(("messages", name, "fields"), fields)
-        for key, field in fields.items():
-            yield from swaps(("messages", name, "fields", key, "fields"), field.get("fields", {}))
-
-
-def swaps(steps: Steps, fields: dict[str, Any]) -> Iterator[Mutation]:
-    names = list(fields)
-    for at in range(len(names) - 1):
-        order = [*names[:at], names[at + 1], names[at], *names[at + 2 :]]
-        yield steps, {name: fields[name] for name in order}
+    for path, value in nodes(MESSAGES, ("messages",)):
+        if path[-1] == "fields":
+            yield from ((path, {name: value[name] for name in order}) for order in swaps(value))
 
 
 def field_names() -> Iterator[Mutation]:
@@ -229,7 +194,7 @@ def example_bytes() -> Iterator[Mutation]:
 
 def example_values() -> Iterator[Mutation]:
     for steps, example in examples():
-        for where, value in leaves((*steps, "values"), example.get("values", {})):
+        for where, value in leaves(example.get("values", {}), (*steps, "values")):
             yield where, value + 1
             yield where, GONE
 
@@ -452,7 +417,7 @@ def is_out_of_sight(steps: Steps, value: Any) -> bool:
         return False
     message = MESSAGES[steps[1]]
     if len(steps) == 2 or steps[2] == "direction":
-        named = any(text == steps[1] for at, text in leaves((), TREE) if at[:2] != steps[:2])
+        named = any(text == steps[1] for path, text in leaves(TREE) if path[:2] != steps[:2])
         return not named and (len(steps) == 2 or not FACING & message.keys())
     shown = shown_of(message["examples"], steps[3::2])
     if steps[-1] == "type" and value in HIGHEST_BITS:
@@ -466,8 +431,8 @@ HIGHEST_BITS = {"i8": 0x80, "i16": 0x8000}
 def shown_of(examples_of_one: list[Any], names: Steps) -> set[int]:
     """Return the values of a field in examples; `names` lead to it, and may lead further."""
     shown = set()
-    for at, value in leaves((), [each["values"] for each in examples_of_one]):
-        to_value = tuple(step for step in at if isinstance(step, str))
+    for path, value in leaves([each["values"] for each in examples_of_one]):
+        to_value = tuple(step for step in path if isinstance(step, str))
         if to_value == names[: len(to_value)]:
             shown.add(value)
     return shown

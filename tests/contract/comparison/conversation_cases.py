@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tests.factories import data_of, first_edition
-from tests.mutations.edits import GONE, SPECS, with_
+from tests.mutations.edits import SPECS
+from tests.mutations.places import GONE, with_
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:

@@ -19,8 +19,9 @@ from tests.contract.comparison.ends import EchoLine, differing, ends_of
 from tests.contract.comparison.uart import understood
 from tests.factories import data_of
 from tests.in_turn import in_turn
-from tests.mutations.edits import pair_of, with_
+from tests.mutations.edits import pair_of
 from tests.mutations.mutations import SPECS
+from tests.mutations.places import with_
 
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect, Which

@@ -17,8 +17,9 @@ from framegen.comparison.surface import Argument, Entry, Surface, read_surface
 
 from tests.contract.comparison.program_verdicts import Verdict, names_about, verdict_on
 from tests.in_turn import in_turn
-from tests.mutations.edits import ALL, EDITS, HOUSE, SPECS, edition, pair_of, with_
+from tests.mutations.edits import ALL, EDITS, HOUSE, SPECS, edition, pair_of
 from tests.mutations.mutations import after
+from tests.mutations.places import with_
 
 # ------------------------------------------------------------------ surfaces
 

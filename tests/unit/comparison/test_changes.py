@@ -10,12 +10,13 @@ import pytest
 from framegen.comparison import changes as rules
 from framegen.comparison.changes import CHANGE_RULES, changes
 from framegen.comparison.pair import Pair
-from framegen.language import spec as language
 
 from tests.factories import ROOT, compiled_of, data_of, renamed
 from tests.in_turn import in_turn
-from tests.mutations.edits import EDITS, SERVO, SPECS, edition, pair_of, with_
-from tests.mutations.leaves import leaves, mirrored, told_at_their_places, turned
+from tests.mutations.edits import EDITS, SERVO, SPECS, edition, pair_of
+from tests.mutations.kinds import keys_of_the_language
+from tests.mutations.leaves import mirrored, told_at_their_places, turned
+from tests.mutations.places import leaves, with_
 from tests.unit.comparison.rule_examples import example
 
 if TYPE_CHECKING:
@@ -106,13 +107,7 @@ def test_every_key_of_the_language_is_among_the_examples() -> None:
         specs += example(rule)
     for data in specs:
         said |= {str(step) for path, _ in leaves(data) for step in path}
-    keys = {
-        info.alias or key
-        for part in vars(language).values()
-        if isinstance(part, type) and issubclass(part, language.Part)
-        for key, info in part.model_fields.items()
-    }
-    assert keys <= said
+    assert keys_of_the_language() <= said
 
 
 # ------------------------------------------------------------------ names

@@ -7,7 +7,8 @@ from framegen.comparison.changes import changes
 from framegen.comparison.effect import Effect
 from framegen.comparison.explained import explain
 
-from tests.mutations.edits import SERVO, pair_of, with_
+from tests.mutations.edits import SERVO, pair_of
+from tests.mutations.places import with_
 
 MOVE = ("messages", "ServoMove")
 

@@ -32,7 +32,8 @@ from hypothesis import strategies as st
 from tests.factories import renamed
 from tests.few_each import few_each
 from tests.in_turn import in_turn
-from tests.mutations.edits import EDITS, SPECS, edition, pair_of, with_
+from tests.mutations.edits import EDITS, SPECS, edition, pair_of
+from tests.mutations.places import with_
 
 HOUSE = SPECS["greenhouse"]
 NAMES = [*HOUSE["messages"]]

@@ -8,7 +8,8 @@ from framegen.comparison.wire import try_out, wire_effects
 from framegen.language.spec import NumberField
 
 from tests.in_turn import in_turn
-from tests.mutations.edits import SPECS, pair_of, with_
+from tests.mutations.edits import SPECS, pair_of
+from tests.mutations.places import with_
 
 SAME = [
     ("ms", "millisecond"),

@@ -8,8 +8,9 @@ import pytest
 from framegen.comparison.effect import OUTCOMES
 from framegen.comparison.wire import trials_of, try_out, wire_effects
 
-from tests.mutations.edits import ALL, GONE, LISTS, SPECS, pair_of, with_
+from tests.mutations.edits import ALL, LISTS, SPECS, pair_of
 from tests.mutations.houses import DOOR, WAY, house
+from tests.mutations.places import GONE, with_
 
 if TYPE_CHECKING:
     from framegen.comparison.effect import Which, Witness

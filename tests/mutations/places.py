@@ -1,0 +1,102 @@
+"""The engine of all mutations: the places of a spec, and the spec with something else in one.
+
+A place is the steps to it. What else can stand there, by its key, is in `kinds`; those who ask for
+a change say what must become of it.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from tests.factories import Data, Steps
+
+GONE = "(gone)"
+
+
+def nodes(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
+    """Yield every value inside a value with its place: mappings and lists before what they hold."""
+    for step, inner in _inside(value):
+        yield (*path, step), inner
+        yield from nodes(inner, (*path, step))
+
+
+def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
+    """Yield every text and number with its place; a leaf itself has the place that is given."""
+    if not isinstance(value, dict | list):
+        yield path, value
+    for step, inner in _inside(value):
+        yield from leaves(inner, (*path, step))
+
+
+def facts(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
+    """Yield every fact with its place: leaves, and lists of leaves as one."""
+    if isinstance(value, dict) or (value and isinstance(value, list) and _is_mapping(value[0])):
+        for step, inner in _inside(value):
+            yield from facts(inner, (*path, step))
+    else:
+        yield path, value
+
+
+def _is_mapping(value: Any) -> bool:
+    return isinstance(value, dict)
+
+
+def _inside(value: Any) -> Iterable[tuple[Any, Any]]:
+    if isinstance(value, dict):
+        return value.items()
+    return enumerate(value) if isinstance(value, list) else ()
+
+
+def at(data: Any, path: Iterable[str | int]) -> Any:
+    """Return what stands at a place."""
+    for step in path:
+        data = data[step]
+    return data
+
+
+def with_(data: Data, *path_and_value: Any) -> Data:
+    """Return a copy with a value at a place, or without what is GONE; all else is shared."""
+    *steps, last, value = path_and_value
+    changed = copy.copy(data)
+    around: Any = changed
+    for step in steps:
+        around[step] = copy.copy(around[step])
+        around = around[step]
+    if isinstance(value, str) and value == GONE:
+        del around[last]
+    else:
+        around[last] = value
+    return changed
+
+
+def differs(one: Any, other: Any) -> bool:
+    """Tell whether two values are written otherwise, if only in their order."""
+    return json.dumps(one) != json.dumps(other)
+
+
+def reordered(data: Data, path: Steps, order: Iterable[str]) -> Data:
+    """Return a copy in which the keys of the mapping at a place have another order."""
+    here = at(data, path)
+    return with_(data, *path, {name: here[name] for name in order})
+
+
+def swaps(names: Iterable[str]) -> Iterator[list[str]]:
+    """Yield names with each two neighbours swapped."""
+    whole = [*names]
+    for second in range(1, len(whole)):
+        yield [*whole[: second - 1], whole[second], whole[second - 1], *whole[second + 1 :]]
+
+
+def other_way(direction: str) -> str:
+    """Return the direction the other way round."""
+    return " -> ".join(reversed(direction.split(" -> ")))
+
+
+def dotted(path: Iterable[str | int]) -> str:
+    """Return a place as a text."""
+    return ".".join(map(str, path))
