@@ -51,6 +51,11 @@ class Desk:
             raise Inapplicable
         return self.chance.choice(found)
 
+    def one_of(self, things: Data) -> Data:
+        """Return one of some things that have names."""
+        found: Data = things[self.pick(things)]
+        return found
+
     def fresh(self, stem: str) -> str:
         """Return a name that nothing has."""
         text = repr(self.spec)
@@ -99,11 +104,7 @@ class Desk:
     def rename_field(self, spot: Spot, new: str, *, said: bool) -> None:
         """Give a field another name, wherever it is named."""
         old = spot.name
-        said_before = spot.field.get("was", ())
-        before = [said_before] if isinstance(said_before, str) else [*said_before]
-        renamed = {**spot.field, **({"was": [old, *before]} if said else {})}
-        _put(spot.fields, {new if key == old else key: spot.fields[key] for key in spot.fields})
-        spot.fields[new] = renamed
+        renamed_in(spot.fields, old, new, said=said)
         if not spot.inner:
             for field in spot.fields.values():
                 for key in ("counted_by", "sized_by"):
@@ -115,7 +116,7 @@ class Desk:
 
     def rename_part(self, parts: Data, old: str, new: str) -> None:
         """Give a part of a frame another name, wherever other parts name it."""
-        _put(parts, {new if name == old else name: part for name, part in parts.items()})
+        renamed_in(parts, old, new)
         for part in parts.values():
             for key in ("counts", "covers"):
                 if key in part:
@@ -123,13 +124,8 @@ class Desk:
 
     def rename_message(self, old: str, new: str, *, said: bool) -> None:
         """Give a message another name, wherever it is named."""
-        messages = {new if name == old else name: each for name, each in self.messages.items()}
-        _put(self.messages, messages)
-        message = messages[new]
-        if said:
-            before = message.get("was", [])
-            message["was"] = [old, *([before] if isinstance(before, str) else before)]
-        for each in messages.values():
+        renamed_in(self.messages, old, new, said=said)
+        for each in self.messages.values():
             for key in ("reply", "refusal", "acknowledged"):
                 if each.get(key) == old:
                     each[key] = new
@@ -140,6 +136,21 @@ class Desk:
 def in_words(text: str, old: str, new: str) -> str:
     """Return a text with one name instead of another."""
     return re.sub(rf"\b{re.escape(old)}\b", new, text)
+
+
+def renamed_in(things: Data, old: str, new: str, *, said: bool = False) -> None:
+    """Give a thing another name, in its place; `said` writes the old one down there."""
+    _put(things, {new if name == old else name: each for name, each in things.items()})
+    if said:
+        before = things[new].get("was", [])
+        names = [old, *([before] if isinstance(before, str) else before)]
+        things[new] = {**things[new], "was": names if before else old}
+
+
+def other_order(desk: Desk, thing: Data) -> None:
+    """Have the bytes of a number come the other way round."""
+    order = thing.get("byte_order", desk.spec["byte_order"])
+    thing["byte_order"] = "little" if order == "big" else "big"
 
 
 def _put(around: Data, things: Data) -> None:

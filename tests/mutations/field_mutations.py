@@ -13,6 +13,7 @@ from tests.mutations.desk import (
     is_counter,
     is_single,
     is_whole,
+    other_order,
     removed,
     reordered,
     varies,
@@ -25,20 +26,14 @@ if TYPE_CHECKING:
     from tests.mutations.desk import Desk, Spot
 
 # Types that an author might take for each other.
-RETYPED = (
-    *(("u8", "u16"), ("u16", "u8"), ("u16", "u32"), ("u32", "u16"), ("u8", "i8"), ("i8", "u8")),
-    *(("u16", "i16"), ("i16", "u16"), ("u16", "u24"), ("u24", "u16"), ("u32", "f32")),
-    *(
-        ("f32", "u32"),
-        ("f32", "f64"),
-        ("f64", "f32"),
-        ("i32", "u32"),
-        ("u64", "i64"),
-        ("u32", "i32"),
-    ),
-)
-
-
+RETYPED = [
+    pair.split("-")
+    for pair in (
+        *("u8-u16", "u16-u8", "u16-u32", "u32-u16", "u8-i8", "i8-u8", "u16-i16", "i16-u16"),
+        *("u16-u24", "u24-u16", "u32-f32", "f32-u32", "f32-f64", "f64-f32", "i32-u32"),
+        *("u64-i64", "u32-i32"),
+    )
+]
 ADDED: dict[str, Data] = {
     "a byte": {"type": "u8"},
     "a number": {"type": "u16"},
@@ -64,9 +59,7 @@ def counter_retyped(desk: Desk) -> None:
 
 
 def order_of_bytes(desk: Desk) -> None:
-    field = desk.number(lambda field: field["type"][1:] != "8").field
-    order = field.get("byte_order", desk.spec["byte_order"])
-    field["byte_order"] = "little" if order == "big" else "big"
+    other_order(desk, desk.number(lambda field: field["type"][1:] != "8").field)
 
 
 def order_of_bytes_said(desk: Desk) -> None:
@@ -78,13 +71,19 @@ def order_of_all_bytes(desk: Desk) -> None:
     desk.spec["byte_order"] = "little" if desk.spec["byte_order"] == "big" else "big"
 
 
-def neighbours_swapped(desk: Desk) -> None:
+def _swapped(desk: Desk) -> Spot:
+    """Swap a field with the one behind it, the last with the first; return where it was."""
     spot = desk.spot(lambda spot: len(spot.fields) > 1 and _movable(spot))
     names = [*spot.fields]
     at = names.index(spot.name)
     to = (at + 1) % len(names)
     names[at], names[to] = names[to], names[at]
     reordered(spot.fields, names)
+    return spot
+
+
+def neighbours_swapped(desk: Desk) -> None:
+    _swapped(desk)
 
 
 def first_put_last(desk: Desk) -> None:
@@ -150,24 +149,23 @@ def became_optional(desk: Desk) -> None:
     spot.field["optional"] = True
 
 
+def _optional(desk: Desk) -> list[Data]:
+    """Return the fields of some message that may be absent."""
+    several = [
+        [field for field in message["fields"].values() if "optional" in field]
+        for message in desk.messages.values()
+    ]
+    return desk.pick(each for each in several if each)
+
+
 def optional_became_sure(desk: Desk) -> None:
-    message = desk.pick(
-        each
-        for each in desk.messages.values()
-        if any("optional" in field for field in each["fields"].values())
-    )
-    next(each for each in message["fields"].values() if "optional" in each).pop("optional")
+    del _optional(desk)[0]["optional"]
 
 
 def absence_ruled_out(desk: Desk) -> None:
     """All that may be absent always comes."""
-    message = desk.pick(
-        each
-        for each in desk.messages.values()
-        if any("optional" in field for field in each["fields"].values())
-    )
-    for field in message["fields"].values():
-        field.pop("optional", None)
+    for field in _optional(desk):
+        del field["optional"]
 
 
 def _renamed(said: bool, desk: Desk) -> None:
@@ -176,13 +174,7 @@ def _renamed(said: bool, desk: Desk) -> None:
 
 
 def _renamed_and_moved(said: bool, desk: Desk) -> None:
-    spot = desk.spot(lambda spot: len(spot.fields) > 1 and _movable(spot))
-    names = [*spot.fields]
-    at = names.index(spot.name)
-    to = (at + 1) % len(names)
-    names[at], names[to] = names[to], names[at]
-    reordered(spot.fields, names)
-    desk.rename_field(spot, desk.fresh("moved"), said=said)
+    desk.rename_field(_swapped(desk), desk.fresh("moved"), said=said)
 
 
 def _renamed_and_retyped(said: bool, desk: Desk) -> None:
@@ -232,14 +224,9 @@ def joined(desk: Desk) -> None:
     _unmentioned(spot)
 
 
-def constant_changed(desk: Desk) -> None:
-    field = desk.spot(lambda spot: "always" in spot.field).field
-    field["always"] = field["always"] ^ 1
-
-
-def unused_changed(desk: Desk) -> None:
-    field = desk.spot(lambda spot: "reserved" in spot.field).field
-    field["reserved"] = field["reserved"] ^ 1
+def _constant_changed(key: str, desk: Desk) -> None:
+    field = desk.spot(lambda spot: key in spot.field).field
+    field[key] = field[key] ^ 1
 
 
 def _became(key: str, desk: Desk) -> None:
@@ -302,8 +289,8 @@ FIELD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a field replaced by another": replaced,
     "a field split in two": split_in_two,
     "two fields joined": joined,
-    "a constant changed": constant_changed,
-    "an unused field written otherwise": unused_changed,
+    "a constant changed": partial(_constant_changed, "always"),
+    "an unused field written otherwise": partial(_constant_changed, "reserved"),
     "a field became a constant": partial(_became, "always"),
     "a field became unused": partial(_became, "reserved"),
     "a constant became a field": constant_given,

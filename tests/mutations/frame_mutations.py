@@ -5,10 +5,17 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from tests.mutations.desk import Inapplicable, inserted, removed, reordered
+from tests.mutations.desk import (
+    Inapplicable,
+    inserted,
+    other_order,
+    removed,
+    renamed_in,
+    reordered,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from tests.factories import Data
     from tests.mutations.desk import Desk
@@ -32,23 +39,17 @@ def spare_changed(desk: Desk) -> None:
     parts[name]["bytes"] = bytes(each ^ 1 for each in bytes.fromhex(parts[name]["bytes"])).hex(" ")
 
 
-def spare_checked(desk: Desk) -> None:
-    parts, name = desk.part(_is("reserved"))
-    parts[name]["is"] = "constant"
+def _became(old: str, new: str, desk: Desk) -> None:
+    parts, name = desk.part(_is(old))
+    parts[name]["is"] = new
 
 
-def constant_unchecked(desk: Desk) -> None:
-    parts, name = desk.part(_is("constant"))
-    parts[name]["is"] = "reserved"
-
-
-def length_counts(desk: Desk) -> None:
-    """One part more, or one fewer, is counted."""
-    parts, name = desk.part(_is("length"))
-    counts = parts[name]["counts"]
-    other = desk.pick(each for each in parts if parts[each]["is"] != "body")
-    chosen = {*counts} ^ {other}
-    parts[name]["counts"] = [each for each in parts if each in chosen]
+def _other_names(key: str, but: Sequence[str], desk: Desk) -> None:
+    """One part more, or one fewer, is counted or covered."""
+    parts, name = desk.part(lambda part: key in part)
+    other = desk.pick(each for each in parts if parts[each]["is"] not in but)
+    chosen = {*parts[name][key]} ^ {other}
+    parts[name][key] = [each for each in parts if each in chosen]
 
 
 def _wider(kind: str, desk: Desk) -> None:
@@ -58,8 +59,7 @@ def _wider(kind: str, desk: Desk) -> None:
 
 def _other_order(kind: str, desk: Desk) -> None:
     parts, name = desk.part(lambda part: part["is"] == kind and part["type"] != "u8")
-    order = parts[name].get("byte_order", desk.spec["byte_order"])
-    parts[name]["byte_order"] = "little" if order == "big" else "big"
+    other_order(desk, parts[name])
 
 
 _ALIKE = {
@@ -72,14 +72,6 @@ def method_changed(desk: Desk) -> None:
     parts, name = desk.part(_is("checksum"))
     others = [each for each in _ALIKE.get(parts[name]["type"], ()) if each != parts[name]["method"]]
     parts[name]["method"] = desk.pick(others)
-
-
-def covers_changed(desk: Desk) -> None:
-    parts, name = desk.part(_is("checksum"))
-    covers = parts[name]["covers"]
-    other = desk.pick(each for each in parts if parts[each]["is"] not in ("body", "checksum"))
-    chosen = {*covers} ^ {other}
-    parts[name]["covers"] = [each for each in parts if each in chosen]
 
 
 def checksum_added(desk: Desk) -> None:
@@ -165,8 +157,7 @@ def address_unnamed(desk: Desk) -> None:
 
 
 def address_silenced(desk: Desk) -> None:
-    values = _named(desk)
-    value = values[desk.pick(values)]
+    value = desk.one_of(_named(desk))
     value["silent"] = not value.get("silent", False)
 
 
@@ -178,8 +169,7 @@ def address_moved(desk: Desk) -> None:
 
 def _address_renamed(said: bool, desk: Desk) -> None:
     values = _named(desk)
-    old, new = desk.pick(values), desk.fresh("known")
-    values[new] = {**values.pop(old), **({"was": old} if said else {})}
+    renamed_in(values, desk.pick(values), desk.fresh("known"), said=said)
 
 
 def kinds_split(desk: Desk) -> None:
@@ -200,8 +190,7 @@ def kind_renamed(desk: Desk) -> None:
     if "frames" not in desk.spec:
         raise Inapplicable
     old, new = desk.pick(desk.spec["frames"]), desk.fresh("kind")
-    frames = desk.spec["frames"]
-    desk.spec["frames"] = {new if name == old else name: frames[name] for name in frames}
+    renamed_in(desk.spec["frames"], old, new)
     for message in desk.messages.values():
         if message.get("frame") == old:
             message["frame"] = new
@@ -221,10 +210,10 @@ FRAME_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "frame: shorter constant": partial(_bytes, "fewer"),
     "frame: constant added": constant_added,
     "frame: spare bytes otherwise": spare_changed,
-    "frame: spare bytes checked": spare_checked,
-    "frame: constant not checked": constant_unchecked,
+    "frame: spare bytes checked": partial(_became, "reserved", "constant"),
+    "frame: constant not checked": partial(_became, "constant", "reserved"),
     "frame: parts swapped": parts_swapped,
-    "length: counts others": length_counts,
+    "length: counts others": partial(_other_names, "counts", ("body",)),
     **{
         f"{kind}: another type": partial(_wider, kind)
         for kind in ("length", "id", "address", "counter")
@@ -244,7 +233,7 @@ FRAME_MUTATIONS: dict[str, Callable[[Desk], None]] = {
         for kind in ("length", "id", "body", "checksum")
     },
     "checksum: another method": method_changed,
-    "checksum: covers others": covers_changed,
+    "checksum: covers others": partial(_other_names, "covers", ("body", "checksum")),
     "checksum: added": checksum_added,
     "address: range narrower": partial(_addresses, 1, -1),
     "address: range wider": partial(_addresses, 0, 1),

@@ -10,7 +10,9 @@ from tests.mutations.desk import (
     inserted,
     is_constant,
     is_counter,
+    other_order,
     removed,
+    reordered,
     varies,
 )
 
@@ -31,11 +33,16 @@ def _how(old: str, new: str, desk: Desk) -> None:
 
 def counted_by_the_frame(desk: Desk) -> None:
     """The length of the frame says how many there are, and no counter."""
-    spot = desk.spot(lambda spot: varies(spot.field) and _has_length(desk, spot))
+    spot = desk.spot(lambda spot: varies(spot.field) and _length_of(desk, spot))
+    _uncounted(spot)
+    spot.field["sized_by"] = _length_of(desk, spot)
+
+
+def _uncounted(spot: Spot) -> None:
+    """Let nothing say how many there are."""
     named = {spot.field.pop(key, None) for key in ("counted_by", "sized_by")}
     for name in named & spot.fields.keys():
         removed(spot.fields, name)
-    spot.field["sized_by"] = _length_of(desk, spot)
 
 
 def _counted_by_a_field(key: str, desk: Desk) -> None:
@@ -52,13 +59,10 @@ def _counts_itself(spot: Spot) -> bool:
     return "counted_by" not in spot.field and spot.field.get("sized_by") not in spot.fields
 
 
-def _has_length(desk: Desk, spot: Spot) -> bool:
-    return any(part["is"] == "length" for part in desk.parts_of(spot.message).values())
-
-
 def _length_of(desk: Desk, spot: Spot) -> str:
+    """Return the name of the length of its frame, empty where there is none."""
     parts = desk.parts_of(spot.message)
-    return next(name for name, part in parts.items() if part["is"] == "length")
+    return next((name for name, part in parts.items() if part["is"] == "length"), "")
 
 
 def _bounded(field: Data) -> None:
@@ -90,9 +94,7 @@ def _many(low_by: int, high_by: int | None, desk: Desk) -> None:
 
 def became_fixed(desk: Desk) -> None:
     spot = desk.spot(lambda spot: varies(spot.field))
-    named = {spot.field.pop(key, None) for key in ("counted_by", "sized_by")}
-    for name in named & spot.fields.keys():
-        removed(spot.fields, name)
+    _uncounted(spot)
     spot.field["count"] = max(2, _low(spot.field))
 
 
@@ -101,7 +103,7 @@ def became_varying(desk: Desk) -> None:
     if spot.inner or [*spot.fields][-1] != spot.name or spot.field.get("type", "u8")[1:] in "4 11":
         raise Inapplicable
     spot.field["count"] = f"0..{spot.field['count']}"
-    if _has_length(desk, spot):
+    if _length_of(desk, spot):
         spot.field["sized_by"] = _length_of(desk, spot)
     else:
         name = desk.fresh("counter")
@@ -174,20 +176,18 @@ def _is_listed(spot: Spot) -> bool:
     return varies(spot.field) or _is_fixed(spot)
 
 
-def packed_otherwise(desk: Desk) -> None:
-    field = desk.spot(
+def _packed(desk: Desk) -> Data:
+    return desk.spot(
         lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8
     ).field
-    field["byte_order"] = (
-        "little" if field.get("byte_order", desk.spec["byte_order"]) == "big" else "big"
-    )
+
+
+def packed_otherwise(desk: Desk) -> None:
+    other_order(desk, _packed(desk))
 
 
 def packed_ranged(desk: Desk) -> None:
-    field = desk.spot(
-        lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8
-    ).field
-    field["range"] = "0..5"
+    _packed(desk)["range"] = "0..5"
 
 
 def text_became_bytes(desk: Desk) -> None:
@@ -207,13 +207,8 @@ def counter_moved(desk: Desk) -> None:
     """What counts comes first, or behind another field."""
     spot = desk.spot(lambda spot: is_counter(spot) and len(spot.fields) > 2)
     names = [name for name in spot.fields if name != spot.name]
-    fields = {name: spot.fields[name] for name in names}
     at = desk.chance.randint(0, len(names) - 1)
-    spot.fields.update({spot.name: spot.field})
-    ordered = [*names[:at], spot.name, *names[at:]]
-    counter = spot.field
-    spot.fields.clear()
-    spot.fields.update({name: counter if name == spot.name else fields[name] for name in ordered})
+    reordered(spot.fields, [*names[:at], spot.name, *names[at:]])
 
 
 LIST_MUTATIONS: dict[str, Callable[[Desk], None]] = {

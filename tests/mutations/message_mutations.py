@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.mutations.authors import MARK
-from tests.mutations.desk import copied, in_words, removed, reordered
+from tests.mutations.desk import copied, in_words, removed, renamed_in, reordered
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,7 +40,7 @@ def _element_names(desk: Desk, message: Data) -> None:
 
 
 def added(desk: Desk) -> None:
-    message = copied(desk.messages[desk.pick(desk.messages)])
+    message = copied(desk.one_of(desk.messages))
     _renumber(desk, message)
     message.pop("method", None)
     _element_names(desk, message)
@@ -52,7 +52,7 @@ def taken_away(desk: Desk) -> None:
 
 
 def renumbered(desk: Desk) -> None:
-    _renumber(desk, desk.messages[desk.pick(desk.messages)])
+    _renumber(desk, desk.one_of(desk.messages))
 
 
 def ids_swapped(desk: Desk) -> None:
@@ -69,7 +69,7 @@ def ids_swapped(desk: Desk) -> None:
 
 
 def turned_round(desk: Desk) -> None:
-    message = desk.messages[desk.pick(desk.messages)]
+    message = desk.one_of(desk.messages)
     sender, _, receiver = message["direction"].partition(" -> ")
     message["direction"] = f"{receiver} -> {sender}"
 
@@ -135,7 +135,7 @@ def end_renamed(desk: Desk) -> None:
     ends = desk.spec["endpoints"]
     old = desk.pick(ends)
     new = desk.fresh("end")
-    desk.spec["endpoints"] = {new if name == old else name: ends[name] for name in ends}
+    renamed_in(ends, old, new)
     for message in desk.messages.values():
         message["direction"] = in_words(message["direction"], old, new)
 
@@ -164,12 +164,8 @@ def reply_changed(desk: Desk) -> None:
     message.pop("method", None)
 
 
-def deprecated(desk: Desk) -> None:
-    desk.messages[desk.pick(desk.messages)]["deprecated"] = "Use another."
-
-
-def vendor_name(desk: Desk) -> None:
-    desk.messages[desk.pick(desk.messages)]["vendor_name"] = "CMD_OTHER"
+def _said(key: str, text: str, desk: Desk) -> None:
+    desk.one_of(desk.messages)[key] = text
 
 
 MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
@@ -189,21 +185,14 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "an end renamed": end_renamed,
     "ends in another order": ends_in_other_order,
     "an end added": end_added,
-    "a message deprecated": deprecated,
+    "a message deprecated": partial(_said, "deprecated", "Use another."),
     "a reply changed": reply_changed,
-    "a vendor's name": vendor_name,
+    "a vendor's name": partial(_said, "vendor_name", "CMD_OTHER"),
     **{
         f"{key} dropped": partial(_dropped, key)
         for key in (
-            "reply",
-            "refusal",
-            "failure",
-            "echoed",
-            "asks_for",
-            "reports",
-            "acknowledged",
-            "lasts",
-            "method",
+            *("reply", "refusal", "failure", "echoed", "asks_for"),
+            *("reports", "acknowledged", "lasts", "method"),
         )
     },
 }

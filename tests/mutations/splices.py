@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from framegen.targets import python
 
-from tests.mutations.desk import Inapplicable, copied, inserted, varies
+from tests.mutations.desk import Inapplicable, copied, inserted, renamed_in, reordered, varies
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -105,11 +105,9 @@ def _part_moved(host: Desk, donor: Desk) -> str:
     parts = host.pick(host.kinds.values())
     roles = [part["is"] for part in donor.pick(donor.kinds.values()).values()]
     order = sorted(parts, key=lambda name: _rank(roles, parts[name]["is"]))
-    moved = {name: parts[name] for name in order}
     if order == [*parts]:
         raise Inapplicable
-    parts.clear()
-    parts.update(moved)
+    reordered(parts, order)
     return f"the order of its parts: {', '.join(order)}"
 
 
@@ -302,9 +300,7 @@ def _part_called(host: Desk, donor: Desk) -> str:
         if host.parts_of(message) is not parts:
             continue
         if isinstance(message.get("id"), dict):
-            message["id"] = {
-                new if each == old else each: message["id"][each] for each in message["id"]
-            }
+            renamed_in(message["id"], old, new)
         for field in message["fields"].values():
             if field.get("sized_by") == old:
                 field["sized_by"] = new
@@ -331,9 +327,7 @@ def _value_called(host: Desk, donor: Desk) -> str:
     old, new = host.pick(named), _word(host, donor)
     if new in named:
         raise Inapplicable
-    others = {new if name == old else name: each for name, each in named.items()}
-    named.clear()
-    named.update(others)
+    renamed_in(named, old, new)
     return f"the name `{new}` for its value `{old}`"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from tests.mutations.desk import Inapplicable, bounds_of, is_whole, removed
+from tests.mutations.desk import Inapplicable, bounds_of, is_whole, removed, renamed_in
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,12 +28,8 @@ def _say(field: Data, said: tuple[str, str]) -> None:
             field.pop(key, None)
 
 
-def unit_dropped(desk: Desk) -> None:
-    desk.number(lambda field: "unit" in field).field.pop("unit")
-
-
-def scale_dropped(desk: Desk) -> None:
-    desk.number(lambda field: "scale" in field).field.pop("scale")
+def _dropped(key: str, desk: Desk) -> None:
+    desk.number(lambda field: key in field).field.pop(key)
 
 
 def _scaled(what: str, desk: Desk) -> None:
@@ -69,10 +65,6 @@ def range_given(desk: Desk) -> None:
     field["range"] = f"{desk.chance.choice([low, 0, 1])}..{min(top, high)}"
 
 
-def range_dropped(desk: Desk) -> None:
-    desk.number(lambda field: "range" in field).field.pop("range")
-
-
 def _ranged(low_by: int, high_by: int, desk: Desk) -> None:
     field = desk.number(lambda field: is_whole(field) and "range" in field).field
     low, high = bounds_of(field)
@@ -88,54 +80,47 @@ def value_added(desk: Desk) -> None:
     field.setdefault("values", {})[desk.fresh("case")] = added
 
 
-def _with_values(desk: Desk, least: int = 1) -> Data:
-    return desk.number(lambda field: len(field.get("values", ())) >= least).field
+def _with(key: str, desk: Desk, least: int = 1) -> Data:
+    """Return a number with so many named values, or bits, at least."""
+    return desk.number(lambda field: len(field.get(key, ())) >= least).field
 
 
-def value_removed(desk: Desk) -> None:
-    values = _with_values(desk)["values"]
-    removed(values, desk.pick(values))
+def _none_named(key: str, desk: Desk) -> None:
+    del _with(key, desk)[key]
 
 
-def values_dropped(desk: Desk) -> None:
-    del _with_values(desk)["values"]
+def _one_removed(key: str, least: int, desk: Desk) -> None:
+    named = _with(key, desk, least)[key]
+    removed(named, desk.pick(named))
 
 
-def _value_renamed(said: bool, desk: Desk) -> None:
-    _rename(desk, _with_values(desk)["values"], said=said)
+def _one_renamed(key: str, said: bool, desk: Desk) -> None:
+    named = _with(key, desk)[key]
+    renamed_in(named, desk.pick(named), desk.fresh("called"), said=said)
 
 
-def _rename(desk: Desk, things: Data, *, said: bool) -> None:
-    old = desk.pick(things)
-    new = desk.fresh("called")
-    renamed = {**things[old], **({"was": old} if said else {})}
-    named = {new if key == old else key: things[key] for key in things}
-    things.clear()
-    things.update({**named, new: renamed})
+def _two_swapped(key: str, inner: str, desk: Desk) -> None:
+    named = _with(key, desk, 2)[key]
+    one, other = (named[name] for name in desk.chance.sample([*named], 2))
+    one[inner], other[inner] = other[inner], one[inner]
+
+
+def _free_values(field: Data) -> list[int]:
+    taken = {each["value"] for each in field["values"].values()}
+    low, high = bounds_of(field)
+    return [each for each in (low, low + 1, low + 2, high, high - 1) if each not in taken]
 
 
 def value_moved(desk: Desk) -> None:
-    field = _with_values(desk)
-    taken = {each["value"] for each in field["values"].values()}
-    low, high = bounds_of(field)
-    free = [each for each in (low, low + 1, low + 2, high, high - 1) if each not in taken]
-    field["values"][desk.pick(field["values"])]["value"] = desk.pick(free)
+    field = _with("values", desk)
+    desk.one_of(field["values"])["value"] = desk.pick(_free_values(field))
 
 
 def value_moved_and_renamed(desk: Desk) -> None:
-    field = _with_values(desk)
-    values = field["values"]
-    taken = {each["value"] for each in values.values()}
-    low, high = bounds_of(field)
-    free = [each for each in (low, low + 1, low + 2, high, high - 1) if each not in taken]
-    old = desk.pick(values)
+    field = _with("values", desk)
+    values, old = field["values"], desk.pick(field["values"])
+    free = _free_values(field)
     values[desk.fresh("moved")] = {**values.pop(old), "value": desk.pick(free), "was": old}
-
-
-def values_swapped(desk: Desk) -> None:
-    values = _with_values(desk, 2)["values"]
-    one, other = desk.chance.sample([*values], 2)
-    values[one]["value"], values[other]["value"] = values[other]["value"], values[one]["value"]
 
 
 def bits_given(desk: Desk) -> None:
@@ -145,18 +130,14 @@ def bits_given(desk: Desk) -> None:
     field["bits"] = {desk.fresh("flag"): {"at": 0}, desk.fresh("rest"): {"at": "1..3"}}
 
 
-def _with_bits(desk: Desk, least: int = 1) -> Data:
-    return desk.number(lambda field: len(field.get("bits", ())) >= least).field
-
-
-def bits_dropped(desk: Desk) -> None:
-    del _with_bits(desk)["bits"]
+def _free_bits(field: Data) -> set[int]:
+    taken = {bit for each in field["bits"].values() for bit in _range(each["at"])}
+    return {*range(int(field["type"][1:]))} - taken
 
 
 def bit_added(desk: Desk) -> None:
-    field = _with_bits(desk)
-    taken = {bit for each in field["bits"].values() for bit in _range(each["at"])}
-    free = desk.pick({*range(int(field["type"][1:]))} - taken)
+    field = _with("bits", desk)
+    free = desk.pick(_free_bits(field))
     field["bits"][desk.fresh("flag")] = {"at": free}
 
 
@@ -165,26 +146,10 @@ def _range(at: int | str) -> range:
     return range(int(low), int(high or low) + 1)
 
 
-def bit_removed(desk: Desk) -> None:
-    bits = _with_bits(desk, 2)["bits"]
-    removed(bits, desk.pick(bits))
-
-
-def _bit_renamed(said: bool, desk: Desk) -> None:
-    _rename(desk, _with_bits(desk)["bits"], said=said)
-
-
-def bits_swapped(desk: Desk) -> None:
-    bits = _with_bits(desk, 2)["bits"]
-    one, other = desk.chance.sample([*bits], 2)
-    bits[one]["at"], bits[other]["at"] = bits[other]["at"], bits[one]["at"]
-
-
 def bit_moved(desk: Desk) -> None:
-    field = _with_bits(desk)
-    taken = {bit for each in field["bits"].values() for bit in _range(each["at"])}
-    free = desk.pick({*range(int(field["type"][1:]))} - taken)
-    field["bits"][desk.pick(field["bits"])]["at"] = free
+    field = _with("bits", desk)
+    free = desk.pick(_free_bits(field))
+    desk.one_of(field["bits"])["at"] = free
 
 
 VALUE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
@@ -192,33 +157,33 @@ VALUE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
         f"unit: {' '.join(new).strip()} documented": partial(_unit, ("", ""), new)
         for new in (("ms", ""), ("mV", ""), ("", "0.001 V"), ("", "0.5 °C - 40"), ("quirk", ""))
     },
-    "unit: dropped": unit_dropped,
+    "unit: dropped": partial(_dropped, "unit"),
     "unit: larger": unit_larger,
     "unit: respelt as a scale": unit_respelt,
-    "scale: dropped": scale_dropped,
+    "scale: dropped": partial(_dropped, "scale"),
     "scale: another step": partial(_scaled, "step"),
     "scale: another offset": partial(_scaled, "offset"),
     "range: documented": range_given,
-    "range: dropped": range_dropped,
+    "range: dropped": partial(_dropped, "range"),
     "range: narrower below": partial(_ranged, 1, 0),
     "range: narrower above": partial(_ranged, 0, -1),
     "range: wider below": partial(_ranged, -1, 0),
     "range: wider above": partial(_ranged, 0, 1),
     "range: moved": partial(_ranged, 1, 1),
     "a value named": value_added,
-    "a named value removed": value_removed,
-    "no named values": values_dropped,
-    "a named value renamed, said": partial(_value_renamed, True),
-    "a named value renamed, unsaid": partial(_value_renamed, False),
+    "a named value removed": partial(_one_removed, "values", 1),
+    "no named values": partial(_none_named, "values"),
+    "a named value renamed, said": partial(_one_renamed, "values", True),
+    "a named value renamed, unsaid": partial(_one_renamed, "values", False),
     "a named value moved": value_moved,
     "a named value moved and renamed": value_moved_and_renamed,
-    "named values swapped": values_swapped,
+    "named values swapped": partial(_two_swapped, "values", "value"),
     "bits documented": bits_given,
-    "bits: dropped": bits_dropped,
+    "bits: dropped": partial(_none_named, "bits"),
     "bits: one added": bit_added,
-    "bits: one removed": bit_removed,
-    "bits: one renamed, said": partial(_bit_renamed, True),
-    "bits: one renamed, unsaid": partial(_bit_renamed, False),
-    "bits: swapped": bits_swapped,
+    "bits: one removed": partial(_one_removed, "bits", 2),
+    "bits: one renamed, said": partial(_one_renamed, "bits", True),
+    "bits: one renamed, unsaid": partial(_one_renamed, "bits", False),
+    "bits: swapped": partial(_two_swapped, "bits", "at"),
     "bits: one moved": bit_moved,
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -11,80 +12,54 @@ if TYPE_CHECKING:
     from tests.mutations.desk import Desk
 
 
-def about_field(desk: Desk) -> None:
-    desk.spot(lambda _: True).field["about"] = "Said in other words."
+def _field(desk: Desk) -> Data:
+    return desk.spot(lambda _: True).field
 
 
-def about_value(desk: Desk) -> None:
+def _value(desk: Desk) -> Data:
     values = desk.number(lambda field: field.get("values")).field["values"]
-    values[desk.pick(values)]["about"] = "Said in other words."
+    return desk.one_of(values)
 
 
-def summary(desk: Desk) -> None:
-    desk.messages[desk.pick(desk.messages)]["summary"] = "Say it in other words."
+def _message(desk: Desk) -> Data:
+    return desk.one_of(desk.messages)
 
 
-def description(desk: Desk) -> None:
-    desk.messages[desk.pick(desk.messages)]["description"] = "There is more to know."
+def _end(desk: Desk) -> Data:
+    return desk.one_of(desk.spec["endpoints"])
 
 
-def note(desk: Desk) -> None:
-    _noted(desk, desk.spot(lambda _: True).field)
+def _part(desk: Desk) -> Data:
+    return desk.one_of(desk.pick(desk.kinds.values()))
 
 
-def _noted(desk: Desk, thing: Data) -> None:
+def _protocol(desk: Desk) -> Data:
+    found: Data = desk.spec["protocol"]
+    return found
+
+
+def _said(thing: Callable[[Desk], Data], key: str, text: str, desk: Desk) -> None:
+    thing(desk)[key] = text
+
+
+def _noted(thing: Callable[[Desk], Data], desk: Desk) -> None:
     cite = next(iter(desk.messages.values()))["cite"]
-    thing.setdefault("notes", []).append({"text": "It was seen.", "cite": cite})
+    thing(desk).setdefault("notes", []).append({"text": "It was seen.", "cite": cite})
 
 
-def message_note(desk: Desk) -> None:
-    _noted(desk, desk.messages[desk.pick(desk.messages)])
-
-
-def part_note(desk: Desk) -> None:
-    parts = desk.pick(desk.kinds.values())
-    _noted(desk, parts[desk.pick(parts)])
-
-
-def protocol_note(desk: Desk) -> None:
-    _noted(desk, desk.spec["protocol"])
-
-
-def endpoint_note(desk: Desk) -> None:
-    ends = desk.spec["endpoints"]
-    _noted(desk, ends[desk.pick(ends)])
-
-
-def endpoint_about(desk: Desk) -> None:
-    ends = desk.spec["endpoints"]
-    ends[desk.pick(ends)]["about"] = "Said in other words."
-
-
-def part_about(desk: Desk) -> None:
-    parts = desk.pick(desk.kinds.values())
-    parts[desk.pick(parts)]["about"] = "Said in other words."
-
-
-def title(desk: Desk) -> None:
-    desk.spec["protocol"]["title"] = "Another title"
-
-
-def protocol_summary(desk: Desk) -> None:
-    desk.spec["protocol"]["summary"] = "Said in other words."
-
-
+_OTHERWISE = "Said in other words."
 WORD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
-    "words: a field": about_field,
-    "words: a named value": about_value,
-    "words: summary": summary,
-    "words: description": description,
-    "words: a note": note,
-    "words: a note on a message": message_note,
-    "words: a note on a part": part_note,
-    "words: a note on the protocol": protocol_note,
-    "words: a note on an end": endpoint_note,
-    "words: an end": endpoint_about,
-    "words: a part": part_about,
-    "words: the title": title,
-    "words: the protocol": protocol_summary,
+    "words: a field": partial(_said, _field, "about", _OTHERWISE),
+    "words: a named value": partial(_said, _value, "about", _OTHERWISE),
+    "words: summary": partial(_said, _message, "summary", "Say it in other words."),
+    "words: description": partial(_said, _message, "description", "There is more to know."),
+    "words: a note": partial(_noted, _field),
+    "words: a note on a message": partial(_noted, _message),
+    "words: a note on a part": partial(_noted, _part),
+    "words: a note on the protocol": partial(_noted, _protocol),
+    "words: a note on an end": partial(_noted, _end),
+    "words: an end": partial(_said, _end, "about", _OTHERWISE),
+    "words: a part": partial(_said, _part, "about", _OTHERWISE),
+    "words: the title": partial(_said, _protocol, "title", "Another title"),
+    "words: the protocol": partial(_said, _protocol, "summary", _OTHERWISE),
 }
