@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import lru_cache
+from typing import Any
 
 from framegen.checks import check_model, check_structure
 from framegen.comparison.edition import Edition
@@ -58,15 +59,11 @@ def pair_of(old: Data, new: Data, *, checked: bool = True) -> Pair:
 
 SERVO, HOUSE = SPECS["busservo"], SPECS["greenhouse"]
 ALL, BUS = SPECS["everything"], SPECS["modbus"]
-ASK, TELL = ("frames", "ask"), ("frames", "tell")
-TAIL, ERROR = ("messages", "Tail"), ("messages", "Flags", "fields", "error")
 LISTS = ("messages", "Lists", "fields")
 OTHER = {"mark": {"is": "constant", "bytes": "01"}, **ALL["frames"]["tell"]}
-MOVE = ("messages", "ServoMove")
-VENTS = ("messages", "VentsOpen")
-ANGLE = (*VENTS, "fields", "vents", "fields", "angle")
-POSITION = (*MOVE, "fields", "targets", "fields", "position")
-PLACE = ("messages", "ServoPositions", "fields", "positions", "fields", "position")
+ANGLE = "messages.VentsOpen.fields.vents.fields.angle"
+LIMITS = "messages.ServoMove.fields.targets.fields.position.limits"
+PLACE = "messages.ServoPositions.fields.positions.fields.position"
 
 
 BEEP: Data = {
@@ -79,51 +76,55 @@ BEEP: Data = {
     "examples": [],
 }
 
+
+def _one(data: Data, place: str, value: Any) -> tuple[Data, Data]:
+    """Return a spec, and the same with another value at a place."""
+    steps = [int(step) if step.isdigit() else step for step in place.split(".")]
+    return data, with_(data, *steps, value)
+
+
+def _called(data: Data, old: str, new: str) -> tuple[Data, Data]:
+    """Return a spec, and the same with another name wherever it stands."""
+    return data, renamed(data, old, new)
+
+
+IDS = {"class": 1, "kind": 9, "version": 9}
+LASTING = with_(HOUSE, "messages", "VentsOpen", "lasts", "ramp_s")
 # Two editions by what was changed from the one to the other. Each is a case both ways.
 EDITS: dict[str, tuple[Data, Data]] = {
-    "baud": (SERVO, with_(SERVO, "link", "baud", 19200)),
-    "parity": (HOUSE, with_(HOUSE, "link", "parity", GONE)),
-    "HID board of another vendor": (
-        HOUSE,
-        with_(HOUSE, "link", "usb_hid", [{"vendor": 0x16C0, "product": 0x486}]),
+    "baud": _one(SERVO, "link.baud", 19200),
+    "parity": _one(HOUSE, "link.parity", GONE),
+    "HID board of another vendor": _one(
+        HOUSE, "link.usb_hid", [{"vendor": 0x16C0, "product": 0x486}]
     ),
-    "no HID board": (SERVO, with_(SERVO, "link", "usb_hid", GONE)),
-    "size of a HID report": (SERVO, with_(SERVO, "link", "usb_hid", 0, "report_size", 32)),
-    "words about a HID board": (
-        SERVO,
-        with_(SERVO, "link", "usb_hid", 0, "about", "Boards of 2016."),
+    "no HID board": _one(SERVO, "link.usb_hid", GONE),
+    "size of a HID report": _one(SERVO, "link.usb_hid.0.report_size", 32),
+    "words about a HID board": _one(SERVO, "link.usb_hid.0.about", "Boards of 2016."),
+    "byte order of all": _one(SERVO, "byte_order", "big"),
+    "bytes of the header": _one(SERVO, "frame.header.bytes", "55 AA"),
+    "length counts itself": _one(HOUSE, "frame.size.counts", ["size", "payload"]),
+    "name of a constant part": _called(HOUSE, "preamble", "start"),
+    "name of the library": _one(SERVO, "protocol.name", "servobus"),
+    "version": _one(HOUSE, "protocol.version", "9.0.0"),
+    "name of an end": _called(HOUSE, "display", "screen"),
+    "client and device exchanged": _one(
+        SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items()))
     ),
-    "byte order of all": (SERVO, with_(SERVO, "byte_order", "big")),
-    "bytes of the header": (SERVO, with_(SERVO, "frame", "header", "bytes", "55 AA")),
-    "length counts itself": (HOUSE, with_(HOUSE, "frame", "size", "counts", ["size", "payload"])),
-    "name of a constant part": (HOUSE, renamed(HOUSE, "preamble", "start")),
-    "name of the library": (SERVO, with_(SERVO, "protocol", "name", "servobus")),
-    "version": (HOUSE, with_(HOUSE, "protocol", "version", "9.0.0")),
-    "name of an end": (HOUSE, renamed(HOUSE, "display", "screen")),
-    "client and device exchanged": (
-        SERVO,
-        with_(SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items()))),
-    ),
-    "method of a checksum": (ALL, with_(ALL, *ASK, "check", "method", "crc-16/umts")),
-    "another kind of frame": (ALL, with_(ALL, "frames", "other", OTHER)),
-    "range of addresses": (ALL, with_(ALL, *ASK, "station", "range", "1..400")),
-    "value of a named address": (ALL, with_(ALL, *ASK, "station", "values", "first", "value", 2)),
-    "silent address": (ALL, with_(ALL, *ASK, "station", "values", "all", "silent", False)),
-    "name of the address": (ALL, renamed(ALL, "station", "device")),
-    "name of a kind of frame": (ALL, renamed(ALL, "ask", "query")),
+    "method of a checksum": _one(ALL, "frames.ask.check.method", "crc-16/umts"),
+    "another kind of frame": _one(ALL, "frames.other", OTHER),
+    "range of addresses": _one(ALL, "frames.ask.station.range", "1..400"),
+    "value of a named address": _one(ALL, "frames.ask.station.values.first.value", 2),
+    "silent address": _one(ALL, "frames.ask.station.values.all.silent", False),
+    "name of the address": _called(ALL, "station", "device"),
+    "name of a kind of frame": _called(ALL, "ask", "query"),
     "frame of a message": (
         ALL,
-        with_(
-            with_(ALL, *TAIL, "frame", "ask"), *TAIL, "id", {"class": 1, "kind": 9, "version": 9}
-        ),
+        with_(_one(ALL, "messages.Tail.frame", "ask")[1], "messages", "Tail", "id", IDS),
     ),
-    "id of several": (
-        ALL,
-        with_(ALL, "messages", "Lists", "id", {"class": 1, "kind": 4, "version": 9}),
-    ),
-    "sizes of optional fields": (ALL, with_(ALL, *TAIL, "length", [2, 10])),
-    "field not optional any more": (ALL, with_(ALL, *TAIL, "fields", "second", "optional", GONE)),
-    "failure": (ALL, with_(ALL, "messages", "Texts", "failure", "size")),
+    "id of several": _one(ALL, "messages.Lists.id", {"class": 1, "kind": 4, "version": 9}),
+    "sizes of optional fields": _one(ALL, "messages.Tail.length", [2, 10]),
+    "field not optional any more": _one(ALL, "messages.Tail.fields.second.optional", GONE),
+    "failure": _one(ALL, "messages.Texts.failure", "size"),
     "good value of a failure": (
         with_(ALL, "messages", "Texts", "failure", "size"),
         with_(ALL, "messages", "Texts", "failure", "size unless 1"),
@@ -132,118 +133,85 @@ EDITS: dict[str, tuple[Data, Data]] = {
         with_(SPECS["modbus"], "messages", "HoldingRead", "asks_for", GONE),
         SPECS["modbus"],
     ),
-    "local echo": (ALL, with_(ALL, "link", "local_echo", True)),
-    "bytes of a constant field": (
-        ALL,
-        with_(ALL, "messages", "Flags", "fields", "layout", "always", 5),
+    "local echo": _one(ALL, "link.local_echo", True),
+    "bytes of a constant field": _one(ALL, "messages.Flags.fields.layout.always", 5),
+    "bytes of a reserved field": _one(ALL, "messages.Flags.fields.unused.reserved", 3),
+    "place of a bit": _one(ALL, "messages.Flags.fields.error.bits.heat", 2),
+    "bits removed": _one(ALL, "messages.Flags.fields.error.bits.code", GONE),
+    "bit added": _one(ALL, "messages.Flags.fields.error.bits.load", 2),
+    "name of a bit": _called(ALL, "heat", "warmth"),
+    "byte order of a field": _one(ALL, "messages.Numbers.fields.little_u16.byte_order", "big"),
+    "offset of a scale": _one(ALL, "messages.Flags.fields.temperature.scale", "0.125 °C - 250"),
+    "size of a text": _one(ALL, "messages.Texts.fields.name.count", 9),
+    "count of packed numbers": _one(ALL, "messages.Lists.fields.channels.count", 16),
+    "byte order of packed numbers": _one(ALL, "messages.Lists.fields.low_bits.byte_order", "big"),
+    "range of packed numbers": _one(ALL, "messages.Lists.fields.low_bits.range", "0..8"),
+    "count of a fixed list": _one(ALL, "messages.Lists.fields.points.count", 3),
+    "list not sized any more": _one(ALL, "messages.Lists.fields.readings.sized_by", GONE),
+    "no refusal": _one(BUS, "messages.HoldingRead.refusal", GONE),
+    "message added": _one(SERVO, "messages.Beep", BEEP),
+    "id": _one(SERVO, "messages.ServoMove.id", 4),
+    "direction": _one(HOUSE, "messages.TextShow.direction", "gateway -> station"),
+    "name of a message": _called(HOUSE, "StationState", "Measured"),
+    "no reply": _one(HOUSE, "messages.StationRead.reply", GONE),
+    "message deprecated": _one(
+        HOUSE, "messages.VentJammed.deprecated", "Vents do not jam any more."
     ),
-    "bytes of a reserved field": (
-        ALL,
-        with_(ALL, "messages", "Flags", "fields", "unused", "reserved", 3),
+    "name and arguments of a method": _one(
+        HOUSE, "messages.VentsOpen.method", "open(ramp_s, vents)"
     ),
-    "place of a bit": (ALL, with_(ALL, *ERROR, "bits", "heat", 2)),
-    "bits removed": (ALL, with_(ALL, *ERROR, "bits", "code", GONE)),
-    "bit added": (ALL, with_(ALL, *ERROR, "bits", "load", 2)),
-    "name of a bit": (ALL, renamed(ALL, "heat", "warmth")),
-    "byte order of a field": (
-        ALL,
-        with_(ALL, "messages", "Numbers", "fields", "little_u16", "byte_order", "big"),
+    "verb of a message": _one(SERVO, "messages.ServoMove.verb", "turn"),
+    "result of a method": _one(HOUSE, "messages.StationRead.method", "station_read() -> readings"),
+    "field that says how long it lasts": _one(HOUSE, "messages.VentsOpen.lasts", "ramp_s"),
+    "name of a field named elsewhere": _called(LASTING, "ramp_s", "time_s"),
+    "not acknowledged": _one(SERVO, "messages.ActionGroupRun.acknowledged", GONE),
+    "acknowledged by another": _one(
+        SERVO, "messages.ActionGroupRun.acknowledged", "ActionGroupCompleted"
     ),
-    "offset of a scale": (
-        ALL,
-        with_(ALL, "messages", "Flags", "fields", "temperature", "scale", "0.125 °C - 250"),
-    ),
-    "size of a text": (ALL, with_(ALL, "messages", "Texts", "fields", "name", "count", 9)),
-    "count of packed numbers": (ALL, with_(ALL, *LISTS, "channels", "count", 16)),
-    "byte order of packed numbers": (ALL, with_(ALL, *LISTS, "low_bits", "byte_order", "big")),
-    "range of packed numbers": (ALL, with_(ALL, *LISTS, "low_bits", "range", "0..8")),
-    "count of a fixed list": (ALL, with_(ALL, *LISTS, "points", "count", 3)),
-    "list not sized any more": (ALL, with_(ALL, *LISTS, "readings", "sized_by", GONE)),
-    "no refusal": (BUS, with_(BUS, "messages", "HoldingRead", "refusal", GONE)),
-    "message added": (SERVO, with_(SERVO, "messages", "Beep", BEEP)),
-    "id": (SERVO, with_(SERVO, *MOVE, "id", 4)),
-    "direction": (HOUSE, with_(HOUSE, "messages", "TextShow", "direction", "gateway -> station")),
-    "name of a message": (HOUSE, renamed(HOUSE, "StationState", "Measured")),
-    "no reply": (HOUSE, with_(HOUSE, "messages", "StationRead", "reply", GONE)),
-    "message deprecated": (
-        HOUSE,
-        with_(HOUSE, "messages", "VentJammed", "deprecated", "Vents do not jam any more."),
-    ),
-    "name and arguments of a method": (
-        HOUSE,
-        with_(HOUSE, *VENTS, "method", "open(ramp_s, vents)"),
-    ),
-    "verb of a message": (SERVO, with_(SERVO, *MOVE, "verb", "turn")),
-    "result of a method": (
-        HOUSE,
-        with_(HOUSE, "messages", "StationRead", "method", "station_read() -> readings"),
-    ),
-    "field that says how long it lasts": (HOUSE, with_(HOUSE, *VENTS, "lasts", "ramp_s")),
-    "name of a field named elsewhere": (
-        with_(HOUSE, *VENTS, "lasts", "ramp_s"),
-        renamed(with_(HOUSE, *VENTS, "lasts", "ramp_s"), "ramp_s", "time_s"),
-    ),
-    "not acknowledged": (SERVO, with_(SERVO, "messages", "ActionGroupRun", "acknowledged", GONE)),
-    "acknowledged by another": (
-        SERVO,
-        with_(SERVO, "messages", "ActionGroupRun", "acknowledged", "ActionGroupCompleted"),
-    ),
-    "name of a report": (SERVO, renamed(SERVO, "ActionGroupStarted", "GroupStarted")),
-    "field removed": (HOUSE, with_(HOUSE, "messages", "VentJammed", "fields", "trim", GONE)),
-    "name of the last field": (HOUSE, renamed(HOUSE, "trim", "offset")),
-    "list removed": (SERVO, with_(SERVO, "messages", "ServoUnload", "fields", "servo_ids", GONE)),
+    "name of a report": _called(SERVO, "ActionGroupStarted", "GroupStarted"),
+    "field removed": _one(HOUSE, "messages.VentJammed.fields.trim", GONE),
+    "name of the last field": _called(HOUSE, "trim", "offset"),
+    "list removed": _one(SERVO, "messages.ServoUnload.fields.servo_ids", GONE),
     "order of fields": (
         HOUSE,
         reordered(HOUSE, ("messages", "VentJammed", "fields"), ["trim", "vent_id"]),
     ),
-    "type of the last field": (
-        HOUSE,
-        with_(HOUSE, "messages", "VentJammed", "fields", "trim", "type", "i16"),
+    "type of the last field": _one(HOUSE, "messages.VentJammed.fields.trim.type", "i16"),
+    "unit": _one(SERVO, "messages.ServoMove.fields.time_ms.unit", "s"),
+    "no scale": _one(HOUSE, "messages.StationState.fields.readings.scale", GONE),
+    "type in an element": _one(HOUSE, f"{ANGLE}.type", "i8"),
+    "range narrowed": _one(HOUSE, f"{ANGLE}.range", "-900..800"),
+    "range removed": _one(HOUSE, f"{ANGLE}.range", GONE),
+    "range moved": _one(HOUSE, f"{ANGLE}.range", "-800..1000"),
+    "count widened": _one(HOUSE, "messages.VentsOpen.fields.vents.count", "0..8"),
+    "count narrowed": _one(HOUSE, "messages.VentsOpen.fields.vents.count", "1..7"),
+    "count as it was": _one(SERVO, "messages.ServoMove.fields.targets.count", "1..83"),
+    "name of a count": _called(HOUSE, "vent_count", "how_many"),
+    "name of a list": _called(HOUSE, "readings", "values"),
+    "name of a timed field": _called(HOUSE, "ramp_s", "seconds"),
+    "name of an element": _one(HOUSE, "messages.VentsOpen.fields.vents.element", "Flap"),
+    "named value removed": _one(HOUSE, "messages.VentsOpen.fields.ramp_s.values", GONE),
+    "name of a value": _called(HOUSE, "at_once", "now"),
+    "number of a named value": _one(
+        HOUSE, "messages.VentsOpen.fields.ramp_s.values.at_once.value", 1
     ),
-    "unit": (SERVO, with_(SERVO, *MOVE, "fields", "time_ms", "unit", "s")),
-    "no scale": (
-        HOUSE,
-        with_(HOUSE, "messages", "StationState", "fields", "readings", "scale", GONE),
+    "bytes of an example": _one(
+        HOUSE, "messages.TextShow.examples.0.hex", "C3 5A A5 10 00 04 00 00 00 01"
     ),
-    "type in an element": (HOUSE, with_(HOUSE, *ANGLE, "type", "i8")),
-    "range narrowed": (HOUSE, with_(HOUSE, *ANGLE, "range", "-900..800")),
-    "range removed": (HOUSE, with_(HOUSE, *ANGLE, "range", GONE)),
-    "range moved": (HOUSE, with_(HOUSE, *ANGLE, "range", "-800..1000")),
-    "count widened": (HOUSE, with_(HOUSE, *VENTS, "fields", "vents", "count", "0..8")),
-    "count narrowed": (HOUSE, with_(HOUSE, *VENTS, "fields", "vents", "count", "1..7")),
-    "count as it was": (SERVO, with_(SERVO, *MOVE, "fields", "targets", "count", "1..83")),
-    "name of a count": (HOUSE, renamed(HOUSE, "vent_count", "how_many")),
-    "name of a list": (HOUSE, renamed(HOUSE, "readings", "values")),
-    "name of a timed field": (HOUSE, renamed(HOUSE, "ramp_s", "seconds")),
-    "name of an element": (HOUSE, with_(HOUSE, *VENTS, "fields", "vents", "element", "Flap")),
-    "named value removed": (HOUSE, with_(HOUSE, *VENTS, "fields", "ramp_s", "values", GONE)),
-    "name of a value": (HOUSE, renamed(HOUSE, "at_once", "now")),
-    "number of a named value": (
-        HOUSE,
-        with_(HOUSE, *VENTS, "fields", "ramp_s", "values", "at_once", "value", 1),
+    "words about a field": _one(HOUSE, f"{ANGLE}.about", "How far it opens."),
+    "limits narrowed": _one(SERVO, f"{LIMITS}.usual", "100..900"),
+    "limits moved": _one(SERVO, f"{LIMITS}.usual", "100..1100"),
+    "limits widened": _one(SERVO, f"{LIMITS}.usual", "0..1100"),
+    "no limits": _one(SERVO, LIMITS, GONE),
+    "limits of no others": _one(SERVO, f"{LIMITS}.others", {}),
+    "not signed any more": _one(SERVO, f"{PLACE}.signed_as", GONE),
+    "a value not absent any more": _one(SERVO, f"{PLACE}.values.absent.absent", GONE),
+    "signed as another type": _one(SERVO, f"{PLACE}.signed_as", "i32")[::-1],
+    "no pose": _one(SERVO, "pose", GONE),
+    "names and ids of a pose": _one(
+        SERVO, "pose", {**SERVO["pose"], "hold": "stop_servos", "ids": "1..20"}
     ),
-    "bytes of an example": (
-        HOUSE,
-        with_(HOUSE, "messages", "TextShow", "examples", 0, "hex", "C3 5A A5 10 00 04 00 00 00 01"),
-    ),
-    "words about a field": (HOUSE, with_(HOUSE, *ANGLE, "about", "How far it opens.")),
-    "limits narrowed": (SERVO, with_(SERVO, *POSITION, "limits", "usual", "100..900")),
-    "limits moved": (SERVO, with_(SERVO, *POSITION, "limits", "usual", "100..1100")),
-    "limits widened": (SERVO, with_(SERVO, *POSITION, "limits", "usual", "0..1100")),
-    "no limits": (SERVO, with_(SERVO, *POSITION, "limits", GONE)),
-    "limits of no others": (SERVO, with_(SERVO, *POSITION, "limits", "others", {})),
-    "not signed any more": (SERVO, with_(SERVO, *PLACE, "signed_as", GONE)),
-    "a value not absent any more": (
-        SERVO,
-        with_(SERVO, *PLACE, "values", "absent", "absent", GONE),
-    ),
-    "signed as another type": (with_(SERVO, *PLACE, "signed_as", "i32"), SERVO),
-    "no pose": (SERVO, with_(SERVO, "pose", GONE)),
-    "names and ids of a pose": (
-        SERVO,
-        with_(SERVO, "pose", {**SERVO["pose"], "hold": "stop_servos", "ids": "1..20"}),
-    ),
-    "nothing reserved": (HOUSE, with_(HOUSE, "reserved", [])),
+    "nothing reserved": _one(HOUSE, "reserved", []),
 }
 
 
