@@ -1,4 +1,7 @@
-"""Who is who in two editions, as far as their specs tell: by `was`, by name, or by place."""
+"""A second opinion on who is who in two editions: by `was`, by name, or by place.
+
+It is written apart from `framegen.comparison`, and uses nothing of it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What must hold for any two editions: the verdict on the wire is how their libraries talk."""
+"""A second opinion on any two editions: the verdict on the wire is how their libraries talk."""
 
 from __future__ import annotations
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import json
+from contextlib import redirect_stdout
 from pathlib import Path
+from shutil import copytree
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
@@ -46,16 +49,28 @@ WITHOUT_FADE = {"remove": "LampFade:"}
 RAISED = {"under": "protocol", "replace": '"1.0.0"', "with": "2.0.0  # soon"}
 
 
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a project of lamps whose first edition is released."""
+    folder = tmp_path_factory.mktemp("first")
+    (folder / "spec").mkdir()
+    (folder / SPEC).write_text(LAMPS, encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        printed = io.StringIO()
+        with redirect_stdout(printed):
+            assert main(["release"]) == 0
+    assert printed.getvalue() == f"wrote {SPEC.as_posix()}\nwrote {FIRST.as_posix()}\n"
+    return folder
+
+
 @pytest.fixture(autouse=True)
-def _project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    """A project of lamps whose first edition is released."""
+def _project(first: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A copy of that project, in which the test is."""
+    copytree(first, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
     # What becomes of programs takes the longest, and matters to few of these tests.
     monkeypatch.setattr(comparison, "program_effects", lambda _pair: [])
-    SPEC.parent.mkdir()
-    SPEC.write_text(LAMPS, encoding="utf-8")
-    assert main(["release"]) == 0
-    assert capsys.readouterr().out == f"wrote {SPEC.as_posix()}\nwrote {FIRST.as_posix()}\n"
 
 
 @pytest.fixture
