@@ -37,7 +37,7 @@ def edition(data: Data, label: str = "made_up.yaml", *, checked: bool = True) ->
 
 
 # What is the same edition is one: what is worked out of it, such as its library, stays with it.
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)
 def _edition(text: str, label: str, *, checked: bool) -> Edition:
     values = json.loads(text)
     spec = Spec.model_validate(values)
