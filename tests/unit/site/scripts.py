@@ -1,9 +1,14 @@
-"""The scripts of the page with the decoder, asked under node; numbers of any size go both ways."""
+"""The scripts of the pages, asked under Node; numbers of any size go both ways.
+
+One process answers all tests of a worker: what a script leaves behind is gone with its function.
+"""
 
 from __future__ import annotations
 
+import atexit
 import json
 import subprocess
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 STATIC = Path(site.__file__).parent / "static" / "js"
+HOST = Path(__file__).with_name("script_host.js")
 
 # What JSON cannot say goes as an object: {"number": "9007199254740993"}.
 _BEGIN = """
@@ -27,24 +33,41 @@ const meant = (key, value) => (typeof value?.number !== "string" ? value
   : /^-?[0-9]+$/.test(value.number) ? BigInt(value.number) : Number(value.number));
 const asked = JSON.parse(given, meant);
 """
-_END = "console.log(JSON.stringify(answers, sayable));"
+_END = "return JSON.stringify(await answers, sayable);"
 _EXACT = 1 << 53
 
 
-def run_script(names: Iterable[str], program: str, asked: object) -> Any:
-    """Run a program behind files of the page; it finds `asked`, and leaves `answers`."""
-    files = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in names)
-    given = f"const given = {json.dumps(json.dumps(_sayable(asked)))};"
-    # All of it goes in by the input: an argument has a greatest size.
-    done = subprocess.run(
-        [str(NODE), "--input-type=commonjs", "-"],
-        input=f"{files}\n{given}{_BEGIN}{program}{_END}",
-        capture_output=True,
+def run_script(names: Iterable[str], program: str, asked: object, *others: str) -> Any:
+    """Run a program behind files of the page, and other scripts; it finds `asked`.
+
+    It leaves `answers`, or a promise of them; what the next one shall have, too, is in `kept`.
+    """
+    texts = [(STATIC / f"{name}.js").read_text("utf-8") for name in names]
+    text = "\n".join([*texts, *others, _BEGIN, program, _END])
+    question = {"text": text, "given": json.dumps(_sayable(asked))}
+    process = _node()
+    assert process.stdin is not None
+    assert process.stdout is not None
+    process.stdin.write(f"{json.dumps(question)}\n")
+    process.stdin.flush()
+    line = process.stdout.readline()
+    assert line, "node has ended"
+    said = json.loads(line)
+    assert "failure" not in said, said["failure"]
+    return json.loads(said["answer"], object_hook=_meant, parse_int=_whole)
+
+
+@cache
+def _node() -> subprocess.Popen[str]:
+    """Start the process of this worker."""
+    process = subprocess.Popen(
+        [str(NODE), str(HOST)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
         encoding="utf-8",
-        check=False,
     )
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout, object_hook=_meant, parse_int=_whole)
+    atexit.register(process.communicate)
+    return process
 
 
 def _sayable(value: Any) -> Any:

@@ -1,8 +1,6 @@
 """The codec in the page, under node: compared with the reference."""
 
-import json
 import random
-import subprocess
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -33,6 +31,7 @@ from tests.unit.conformance.harness import run
 from tests.unit.site import peers
 from tests.unit.site.peers import noisy_lines, reference_events
 from tests.unit.site.reference import NODE, ROOT, reference
+from tests.unit.site.scripts import run_script
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
@@ -179,11 +178,10 @@ function answer(codec, { ask, text, name, fields }) {
     throw error;
   }
 }
-const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(([protocol, questions]) => {
+const answers = asked.map(([protocol, questions]) => {
   const codec = makeCodec(protocol);
   return questions.map((question) => answer(codec, question));
 });
-console.log(JSON.stringify(answers));
 """
 
 
@@ -197,21 +195,14 @@ def ask(model: Model, questions: Asked) -> list[Any]:
 
 
 def ask_about(batches: Sequence[tuple[Model, Asked]]) -> list[list[Any]]:
-    """Return the answers to questions about several protocols; one process gives them all."""
+    """Return the answers to questions about several protocols."""
     (codec,) = [
         text
         for _, text in reference("busservo").pages["decoder.html"].scripts
         if "function makeCodec" in text
     ]
-    done = subprocess.run(
-        [str(NODE), "--input-type=commonjs", "-e", codec + HARNESS],
-        input=json.dumps([(protocol_data(model), asked) for model, asked in batches]),
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    answers: list[list[Any]] = json.loads(done.stdout)
+    given = [(protocol_data(model), asked) for model, asked in batches]
+    answers: list[list[Any]] = run_script([], HARNESS, given, codec)
     return answers
 
 

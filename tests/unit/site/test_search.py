@@ -37,18 +37,29 @@ def index() -> dict[str, Any]:
     return data
 
 
+@cache
+def told() -> None:
+    """Keep the searches of this site for the programs that follow."""
+    scripts = [*codec_scripts(project().specs[1].model), *RANKING, "bytes_found"]
+    program = """
+    Object.assign(kept, { bytesIn, search: makeSearch(asked), bytes: makeBytesSearch(asked) });
+    const answers = null;
+    """
+    run_script(scripts, program, index())
+
+
 def found(queries: list[str], filters: list[dict[str, str]] | None = None) -> list[dict[str, Any]]:
     """Return what is found for each query: titles and places of hits, and what is said besides."""
+    told()
     program = """
-    const search = makeSearch(asked.index);
     const answers = asked.queries.map((query, at) => {
-      const { hits, ...rest } = search.find(query, asked.filters[at] ?? {});
+      const { hits, ...rest } = kept.search.find(query, asked.filters[at] ?? {});
       return { ...rest, titles: hits.map(({ entry }) => entry.title),
         wheres: hits.map(({ entry }) => entry.where), paths: hits.map(({ entry }) => entry.path) };
     });
     """
-    asked = {"index": index(), "queries": queries, "filters": filters or []}
-    answers: list[dict[str, Any]] = run_script(RANKING, program, asked)
+    asked = {"queries": queries, "filters": filters or []}
+    answers: list[dict[str, Any]] = run_script([], program, asked)
     return answers
 
 
@@ -263,18 +274,15 @@ def test_a_snippet_shows_the_words_and_is_part_of_the_text() -> None:
 
 
 def bytes_found(queries: list[str]) -> list[dict[str, Any]]:
+    told()
     program = """
-    const bytesSearch = makeBytesSearch(asked.index);
-    const answers = asked.queries.map((query) => {
-      const read = bytesIn(query);
+    const answers = asked.map((query) => {
+      const read = kept.bytesIn(query);
       if (!read || !read.bytes) return { read };
-      return { read: { ...read, bytes: Array.from(read.bytes) }, ...bytesSearch.find(read.bytes) };
+      return { read: { ...read, bytes: Array.from(read.bytes) }, ...kept.bytes.find(read.bytes) };
     });
     """
-    scripts = [*codec_scripts(project().specs[1].model), *RANKING, "bytes_found"]
-    answers: list[dict[str, Any]] = run_script(
-        scripts, program, {"index": index(), "queries": queries}
-    )
+    answers: list[dict[str, Any]] = run_script([], program, queries)
     return answers
 
 

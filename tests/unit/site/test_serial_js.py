@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import io
-import json
 import random
-import subprocess
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -29,7 +27,7 @@ from framegen.site.scripts.protocol_data import protocol_data
 from tests.bad_specs import BASES
 from tests.factories import compiled_file
 from tests.unit.site.reference import NODE, reference
-from tests.unit.site.scripts import STATIC
+from tests.unit.site.scripts import run_script
 from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
 
 if TYPE_CHECKING:
@@ -46,32 +44,13 @@ SCRIPTS = [
     for name in LINE_SCRIPT
     if name not in ("serial_settings", "serial_file", "serial_log", "serial_panel")
 ]
-_BEGIN = """
-const asked = JSON.parse(require("fs").readFileSync(0, "utf8"));
-const wait = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });
-"""
-_END = "(found) => console.log(JSON.stringify(found))"
+_WAIT = "const wait = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });"
 
 
 def answers(program: str, asked: object = None) -> Any:
     """Run the body of an async function behind the scripts of a line, and return its result."""
-    files = [STATIC / f"{name}.js" for name in (*codec_scripts(MODEL), *SCRIPTS)]
-    text = "\n".join(path.read_text("utf-8") for path in (*files, FAKE_SERIAL))
-    done = subprocess.run(
-        [
-            str(NODE),
-            "--input-type=commonjs",
-            "-e",
-            f"{text}\n{_BEGIN}(async () => {{{program}}})().then({_END});",
-        ],
-        input=json.dumps(asked),
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    assert done.stderr == ""
-    return json.loads(done.stdout)
+    fake, whole = FAKE_SERIAL.read_text("utf-8"), f"const answers = (async () => {{{program}}})();"
+    return run_script([*codec_scripts(MODEL), *SCRIPTS], whole, asked, fake, _WAIT)
 
 
 # ---------------------------------------------------------------------------- the port
