@@ -16,7 +16,7 @@ from tests.unit.site.browser import (
     site_on_disk,
 )
 from tests.unit.site.reference import reference
-from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
+from tests.unit.site.test_hostile_pages import hostile
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -159,7 +159,7 @@ def test_a_page_alone_looks_as_in_its_folder(visit: Visit, tmp_path: Path, folde
 
 
 def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:
-    site = hostile(" ".join(PAYLOADS.values()))
+    site = hostile()
     write_files({path: page.text for path, page in site.pages.items()}, tmp_path)
     visit = Visit(context, tmp_path)
     visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))

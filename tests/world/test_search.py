@@ -10,7 +10,7 @@ import pytest
 
 from tests.factories import write_files
 from tests.unit.site.browser import Visit, needs_chromium, project_on_disk, texts
-from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
+from tests.unit.site.test_hostile_pages import hostile
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -313,7 +313,7 @@ def asked_kind(tab: Tab) -> str:
 
 
 def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:
-    site = hostile(" ".join(PAYLOADS.values()))
+    site = hostile()
     write_files({path: page.text for path, page in site.site.items()}, tmp_path)
     visit = Visit(context, tmp_path)
     visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))

@@ -2,9 +2,9 @@
 
 import json
 import re
+from functools import cache
 from typing import Any
 
-import pytest
 from framegen.compile import compile_spec
 from framegen.reading.yamltree import read_tree
 from framegen.site.escape import linked, script_json
@@ -12,18 +12,22 @@ from framegen.site.escape import linked, script_json
 from tests.unit.site.reference import Page, Reference, reference, reference_of, respelled
 
 # Each tries to get out of the place where it is put: HTML, an attribute, a script, a style, a
-# comment, Markdown of any kind, or a template.
-PAYLOADS = {
-    "html": "<script>alert(1)</script><img src=x onerror=alert(1)>",
-    "attribute": '" onmouseover="alert(1)" x=\'',
-    "script": "</script><script>alert(1)</script>${alert(1)}`+alert(1)+`",
-    "comment": "--><script>alert(1)</script><!--",
-    "style": "</style><style>*{background:url(https://evil.test/x)}",
-    "markdown": "[x](javascript:alert(1)) ![x](https://evil.test/y) <b>b</b> `c` **d** | e",
-    "fence": "``` ```js x``` ~~~ # h --- * * *",
-    "template": "{{ 7*7 }}{% raise %}{# x #}",
-    "address": "javascript:alert(1) https://evil.test www.evil.test me@evil.test",
-}
+# comment, Markdown of any kind, a template, or code. What must begin a text comes first.
+PAYLOADS = (
+    "``` ```js x``` ~~~ # h --- * * *",
+    "<script>alert(1)</script><img src=x onerror=alert(1)>",
+    '" onmouseover="alert(1)" x=\'',
+    "</script><script>alert(1)</script>${alert(1)}`+alert(1)+`",
+    "--><script>alert(1)</script><!--",
+    "</style><style>*{background:url(https://evil.test/x)}",
+    "[x](javascript:alert(1)) ![x](https://evil.test/y) <b>b</b> `c` **d** | e",
+    "{{ 7*7 }}{% raise %}{# x #}",
+    "javascript:alert(1) https://evil.test www.evil.test me@evil.test",
+    "*/ alert(1) /* `${alert(1)}`",
+)
+# All of it, with an odd number of backticks.
+HOSTILE = " ".join(PAYLOADS)
+assert HOSTILE.count("`") % 2
 # Keys whose value is prose, or a name that may be any text.
 FREE = frozenset(
     [
@@ -47,7 +51,9 @@ def poisoned(value: Any, payload: str, key: str = "") -> Any:
     return payload if key in FREE else value
 
 
-def hostile(payload: str) -> Reference:
+@cache
+def hostile(payload: str = HOSTILE) -> Reference:
+    """Return the reference of a spec that says it wherever it may say anything."""
     data = read_tree(reference("busservo").source)[0].data
     spoilt = poisoned(data, payload)
     spoilt["lookalikes"]["lx16a"]["commands"] = {1: payload}
@@ -59,24 +65,18 @@ def hostile(payload: str) -> Reference:
     return reference_of(source)
 
 
-@pytest.fixture(params=PAYLOADS, scope="module")
-def site(request: pytest.FixtureRequest) -> Reference:
-    return hostile(PAYLOADS[str(request.param)])
-
-
 def skeleton(page: Page) -> list[tuple[str, tuple[str, ...]]]:
     """Return the elements of a page and the names of their attributes, without their texts."""
     return [(tag, tuple(sorted(given))) for tag, given in page.tags]
 
 
-@pytest.fixture(scope="module")
-def harmless() -> Reference:
-    return hostile("words")
+def both() -> tuple[Reference, Reference]:
+    """Return the reference of hostile words, and of harmless ones."""
+    return hostile(), hostile("words")
 
 
-def test_the_pages_have_the_elements_and_attributes_of_a_harmless_spec(
-    site: Reference, harmless: Reference
-) -> None:
+def test_the_pages_have_the_elements_and_attributes_of_a_harmless_spec() -> None:
+    site, harmless = both()
     assert site.pages.keys() == harmless.pages.keys()
     for path, page in site.pages.items():
         if path != "spec.html":
@@ -85,7 +85,8 @@ def test_the_pages_have_the_elements_and_attributes_of_a_harmless_spec(
     assert tags == {tag for tag, _ in harmless.pages["spec.html"].tags}
 
 
-def test_scripts_and_styles_hold_nothing_of_the_spec(site: Reference, harmless: Reference) -> None:
+def test_scripts_and_styles_hold_nothing_of_the_spec() -> None:
+    site, harmless = both()
     for path, page in site.pages.items():
         other = harmless.pages[path]
         assert page.styles == other.styles
@@ -93,15 +94,15 @@ def test_scripts_and_styles_hold_nothing_of_the_spec(site: Reference, harmless: 
         assert code == [text for given, text in other.scripts if not given]
 
 
-def test_the_data_of_the_decoder_is_data(site: Reference) -> None:
-    scripts = site.pages["decoder.html"].scripts
+def test_the_data_of_the_decoder_is_data() -> None:
+    scripts = hostile().pages["decoder.html"].scripts
     (data,) = [text for given, text in scripts if given.get("type") == "application/json"]
     assert "<" not in data
     assert json.loads(data)["messages"][0]["name"] == "ServoMove"
 
 
-def test_what_can_be_searched_is_data_and_text(site: Reference, harmless: Reference) -> None:
-    page, other = site.site["search.html"], harmless.site["search.html"]
+def test_what_can_be_searched_is_data_and_text() -> None:
+    page, other = (each.site["search.html"] for each in both())
     (data,) = [text for given, text in page.scripts if given.get("type") == "application/json"]
     assert "<" not in data
     found, expected = (json.loads(each)["entries"] for each in (data, _index(other)))
@@ -117,16 +118,16 @@ def _index(page: Page) -> str:
     return next(text for given, text in page.scripts if given.get("id") == "search-index")
 
 
-def test_links_are_those_of_a_harmless_spec(site: Reference, harmless: Reference) -> None:
+def test_links_are_those_of_a_harmless_spec() -> None:
+    site, harmless = both()
     for path, page in site.pages.items():
         if path != "spec.html":
             paths = [link.partition("#")[0] for link in page.links]
             assert paths == [link.partition("#")[0] for link in harmless.pages[path].links]
 
 
-def test_markdown_has_no_html_no_link_and_no_block_of_the_spec(
-    site: Reference, harmless: Reference
-) -> None:
+def test_markdown_has_no_html_no_link_and_no_block_of_the_spec() -> None:
+    site, harmless = both()
     for path, text in site.files.items():
         body = text.partition("-->")[2]
         assert "<" not in body, path

@@ -13,7 +13,7 @@ from framegen.site.scripts.javascript_module import javascript_module
 from tests.factories import BUSSERVO, DEMO, compiled_file, write_files
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, NODE_MODULES, ROOT, reference
-from tests.unit.site.test_hostile_pages import PAYLOADS, hostile
+from tests.unit.site.test_hostile_pages import HOSTILE, hostile
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -132,17 +132,16 @@ def test_types_name_every_message_and_every_field() -> None:
         )
 
 
-@pytest.mark.parametrize("payload", ["*/ alert(1) /*", "`${alert(1)}`", PAYLOADS["script"]])
-def test_text_of_a_spec_ends_neither_a_comment_nor_a_text(payload: str, tmp_path: Path) -> None:
-    model = hostile(payload).model
+def test_text_of_a_spec_ends_neither_a_comment_nor_a_text(tmp_path: Path) -> None:
+    model = hostile().model
     program = 'import { protocol } from "./busservo.mjs";\nconsole.log(JSON.stringify(protocol));\n'
     found = run_module(tmp_path, model, program)
-    assert found["title"] == payload
+    assert found["title"] == HOSTILE
     types = (tmp_path / "busservo.d.mts").read_text("utf-8")
     comments = [line for line in types.splitlines() if line.strip().startswith("/**")]
     assert len(comments) > len(model.messages)
     assert [line for line in comments if line.count("*/") > 1] == []
-    assert payload.strip() not in re.sub(r"/\*\*.*?\*/", "", types, flags=re.DOTALL)
+    assert "alert" not in re.sub(r"/\*\*.*?\*/", "", types, flags=re.DOTALL)
 
 
 # Right uses of the types, and wrong ones, each of which is marked and has to be refused.
