@@ -15,7 +15,8 @@ from framegen.language.load import read_source
 from framegen.reading.source import Source
 from framegen.render import render_target, snippets
 from framegen.site.project import Project
-from framegen.site.site import render_site
+from framegen.site.rendering import render_page
+from framegen.site.site import Site, rendered
 from framegen.targets import docs
 
 if TYPE_CHECKING:
@@ -159,10 +160,19 @@ class Reference:
         """Each page of the site that has this reference alone, by path below its root."""
         return pages_of(self.rendered)
 
+    def page(self, path: str) -> Page:
+        """Return a page by its path below the root of the reference, rendered alone."""
+        (page,) = (page for page in self._site.pages if page.path == f"{self.folder}{path}")
+        return Page(page.path, render_page(self._site, page))
+
     @cached_property
     def rendered(self) -> dict[str, str]:
         """Each file of that site, by path below its root."""
-        return render_site(Project([self.compiled]), snippets())
+        return rendered(self._site)
+
+    @cached_property
+    def _site(self) -> Site:
+        return Site(Project([self.compiled]), snippets())
 
 
 def pages_of(rendered: Mapping[str, str]) -> dict[str, Page]:

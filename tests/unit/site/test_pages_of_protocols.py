@@ -1,32 +1,53 @@
-"""The reference of protocols with frames of every kind: complete, linked, and true to the spec."""
+"""The reference of protocols with frames of every kind: complete, linked, and true to the spec.
 
-from collections.abc import Iterable
-from functools import lru_cache
+So is its search: it has all there is, and leads to it.
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache, lru_cache
+from typing import Any
 
 import pytest
-from framegen.language.load import read_source
 from framegen.model.slots import Items
+from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.targets.docs.stream_examples import stream_examples
 from framegen.targets.docs.walkthrough import walkthrough
 
+from tests.factories import compiled_file
 from tests.in_turn import in_turn
-from tests.protocols.specs import FILES
+from tests.protocols.specs import FILES, model_of
 from tests.unit.site.peers import joined, noisy_lines, reference_events
-from tests.unit.site.reference import Reference, broken_links, reference_of
+from tests.unit.site.reference import NODE, Reference, broken_links
+from tests.unit.site.scripts import run_script
+
+# Those that have between them all kinds of parts and fields, and all that pages say of them.
+QUICK = ("everything", "lxservo", "modbus", "roboclaw", "ubx")
+
+needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
+of_each = pytest.mark.parametrize(
+    "name",
+    [pytest.param(each, marks=[] if each in QUICK else pytest.mark.slow) for each in FILES],
+    scope="module",
+)
 
 
 # A site is large, so that all tests of one follow each other, and no more than it is kept.
 @lru_cache(maxsize=1)
 def site_of(name: str) -> Reference:
-    return reference_of(read_source(FILES[name]))
+    return Reference(compiled_file(FILES[name]))
 
 
-def of_each(names: Iterable[str]) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("name", names, scope="module")
+def index_of(site: Reference) -> dict[str, Any]:
+    scripts = site.site["search.html"].scripts
+    data: dict[str, Any] = json.loads(
+        next(text for given, text in scripts if given.get("id") == "search-index")
+    )
+    return data
 
 
-@pytest.mark.each_protocol
-@of_each(FILES)
+@of_each
 def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
     site = site_of(name)
     for path, page in site.site.items():
@@ -34,8 +55,7 @@ def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
     assert broken_links(site.site, site.rendered) == []
 
 
-@pytest.mark.each_protocol
-@of_each(FILES)
+@of_each
 def test_headings_are_in_order(name: str) -> None:
     for path, page in site_of(name).pages.items():
         assert page.headings.count(1) == 1, path
@@ -43,8 +63,7 @@ def test_headings_are_in_order(name: str) -> None:
             assert after <= before + 1, path
 
 
-@pytest.mark.each_protocol
-@of_each(FILES)
+@of_each
 def test_every_part_and_every_field_is_shown(name: str) -> None:
     site = site_of(name)
     parts = {part for frame in site.model.spec.envelopes.values() for part in frame}
@@ -59,18 +78,78 @@ def test_every_part_and_every_field_is_shown(name: str) -> None:
                 assert field in words, (message.name, field)
 
 
-@pytest.mark.each_protocol
-@of_each(FILES)
+@of_each
 def test_no_page_shows_what_is_not_there(name: str) -> None:
     for path, text in site_of(name).files.items():
         assert "| None" not in text, path
         assert ": None\n" not in text, path
 
 
-@pytest.mark.each_protocol
-@of_each(FILES)
-def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
+@of_each
+def test_every_entry_leads_to_a_page_and_a_place_on_it(name: str) -> None:
+    pages = site_of(name).site
+    for entry in index_of(site_of(name))["entries"]:
+        page, _, anchor = entry["path"].partition("#")
+        assert page in pages, entry
+        assert not anchor or anchor in pages[page].ids, entry
+
+
+@of_each
+def test_all_that_has_a_name_is_found_by_it(name: str) -> None:
     model = site_of(name).model
+    spec = model.spec
+    found: dict[str, set[str]] = {}
+    for entry in index_of(site_of(name))["entries"]:
+        found.setdefault(entry["kind"], set()).update([entry["title"], *entry.get("names", [])])
+    expected: dict[str, set[str]] = {
+        "message": set(spec.messages)
+        | {str(each) for m in model.messages.values() for each in m.ids},
+        "method": {f"{m.method.name}()" for m in spec.messages.values() if m.method is not None},
+        "erratum": {erratum.title for erratum in spec.errata},
+        "lookalike": {other.title for other in spec.lookalikes.values()},
+        "page": set(spec.sources) | set(spec.endpoints),
+        "frame": {each.title for m in spec.messages.values() for each in m.examples},
+        "field": set(),
+        "value": set(),
+    }
+    for message in model.messages.values():
+        for slot in message.body:
+            for field in slot.slots if isinstance(slot, Items) else [slot]:
+                if field.field is not None:
+                    expected["field"].add(field.name)
+                    expected["value"] |= {*field.field.values, *field.field.bits}
+    for kind, names in expected.items():
+        assert names <= found.get(kind, set()), kind
+
+
+@needs_node
+@of_each
+def test_every_documented_frame_is_found_by_its_bytes(name: str) -> None:
+    model = site_of(name).model
+    frames = [
+        (message.name, message.direction.key, list(example.hex))
+        for message in model.messages.values()
+        for example in message.message.examples
+    ]
+    program = """
+    const bytesSearch = makeBytesSearch(asked.index);
+    const answers = asked.frames.map(([, , bytes]) => bytesSearch.find(bytes).judged);
+    """
+    scripts = [*codec_scripts(model), "bytes_found"]
+    asked = {"index": index_of(site_of(name)), "frames": frames}
+    for (message, way, data), judged in zip(
+        frames, run_script(scripts, program, asked), strict=True
+    ):
+        (mine,) = [each for each in judged if each["decoder"].endswith(f"&direction={way}")]
+        assert mine["title"] == message, bytes(data).hex(" ")
+        assert mine["path"] == f"{site_of(name).folder}messages/{message}.html"
+        assert mine["hex"] == bytes(data).hex(" ").upper()
+
+
+@pytest.mark.each_protocol
+@pytest.mark.parametrize("name", FILES)
+def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
+    model = model_of(name)
     shown = stream_examples(model)
     assert shown[0].walkthrough.events[0].message
     examples = [(each.walkthrough.direction, each.walkthrough.data) for each in shown]
@@ -97,7 +176,7 @@ def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
 
 def proves_unknown(name: str) -> bool:
     """Tell whether a frame of unknown id proves by itself that it is one."""
-    return any(frame.proves_unknown for frame in site_of(name).model.envelopes.values())
+    return any(frame.proves_unknown for frame in model_of(name).envelopes.values())
 
 
 # What a reader finds, by protocol and page.
@@ -160,7 +239,11 @@ FACTS = [
 ]
 
 
-@of_each(dict.fromkeys(name for name, _, _ in FACTS))
-@in_turn("path, fact", lambda name: [(path, fact) for of, path, fact in FACTS if of == name])
+@cache
+def words_of(name: str, path: str) -> str:
+    return " ".join(site_of(name).page(path).words.split())
+
+
+@in_turn("name, path, fact", lambda: FACTS)
 def test_a_reader_finds(name: str, path: str, fact: str) -> None:
-    assert fact in " ".join(site_of(name).pages[path].words.split())
+    assert fact in words_of(name, path)
