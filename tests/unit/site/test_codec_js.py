@@ -1,80 +1,154 @@
 """The codec in the page, under node: compared with the reference."""
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import pytest
 from busservo._codec.hextext import HexError, read_hex
-from framegen.compile import Compiled
-from framegen.conformance.language import (
-    Decode,
-    Question,
-    Stream,
-    answer,
-    joined,
-)
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
-from framegen.model.codec import NotAFrame, decode, encode
+from framegen.model.codec import NotAFrame, decode, encode, values_of
 from framegen.model.layout import MessageLayout
 from framegen.model.model import Model, derive
+from framegen.model.stream import ReferenceDecoder
+from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
-from tests.contract.conformance.answerers import page_command
 from tests.factories import BUSSERVO, compiled_file, data_of
 from tests.hex_cases import HEX, NO_HEX, random_texts
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
-from tests.unit.conformance.harness import run
-from tests.unit.site import peers
-from tests.unit.site.peers import noisy_lines, reference_events
+from tests.unit.site.peers import Event, joined, noisy_lines
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.scripts import run_script
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
-# Those of other kinds of frames are in test_codec_of_protocols.
+SERVO = reference("busservo").model
 OTHERS = sorted({*(ROOT / "tests" / "specs").glob("*.yaml")} - {*FILES.values()})
-SPECS = [ROOT / "spec" / "busservo.yaml", *OTHERS]
+SPECS = {"busservo": BUSSERVO, **{file.stem: file for file in OTHERS}, **FILES}
+
+# Other envelopes of busservo than those of the specs, whether or not a spec can have them yet.
+ENVELOPES: dict[str, dict[str, Any]] = {
+    "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
+    "a header that overlaps itself": {"header": {"is": "constant", "bytes": "55 03 55"}},
+    "a header in two parts": {
+        "header": {"is": "constant", "bytes": "55"},
+        "version": {"is": "constant", "bytes": "01"},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+    },
+    "a checksum that covers one behind it": {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "sum": {"is": "checksum", "type": "u8", "method": "sum", "covers": ["command", "crc"]},
+        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
+        "command": {"is": "id", "type": "u8"},
+        "parameters": {"is": "body"},
+        "crc": {
+            "is": "checksum",
+            "type": "u16",
+            "method": "crc-16/modbus",
+            "covers": ["command", "parameters"],
+        },
+    },
+    "an id of two bytes before a length of two": {
+        "header": {"is": "constant", "bytes": "55 55"},
+        "command": {"is": "id", "type": "u16"},
+        "length": {"is": "length", "type": "u16", "counts": ["length", "parameters"]},
+        "parameters": {"is": "body"},
+    },
+}
 
 
-class Page:
-    """The page of one protocol, and the answers of its codec."""
+each_protocol = pytest.mark.parametrize("name", [*SPECS, *ENVELOPES])
 
-    def __init__(self, compiled: Compiled, folder: Path) -> None:
-        self.compiled = compiled
-        self.model = compiled.model
-        self.command = page_command(compiled, folder)
-
-    def answers(self, questions: list[Question]) -> list[list[str]]:
-        replies = run(self.command, [question.line for question in questions])
-        return [joined(lines) for lines in replies]
-
-
-@pytest.fixture(params=SPECS, ids=lambda file: file.stem, scope="module")
-def page(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Page:
-    return Page(compiled_file(request.param), tmp_path_factory.mktemp("page"))
-
-
-def test_lines_and_single_frames_are_decoded_as_the_reference_decodes_them(page: Page) -> None:
-    questions = [*streams(page.model, 17, 600), *single_frames(page.model, 9, 300)]
-    for question, reply in zip(questions, page.answers(questions), strict=True):
-        assert reply == joined(answer(page.model, question)), question.line
-
-
-def streams(model: Model, seed: int, number: int) -> Iterator[Question]:
-    """Return noisy lines, cut anywhere, quiet anywhere, with room for frames of several sizes."""
-    chance = random.Random(seed)  # noqa: S311 - the same lines in every run
-    for line in noisy_lines(model, seed, number):
-        for way in model.directions:
-            largest = model.largest([way])
-            room = chance.choice([largest, largest, 64, model.frame.least + 8, model.frame.least])
-            yield Stream(way, max(room, model.frame.least), tuple(_parts(chance, line)))
+PROGRAM = """
+const codec = makeCodec(asked.protocol);
+const plain = ({ type, bytes, message, reason, fields, at, refusedAt }) => (
+  [type, Array.from(bytes), message || reason, fields ?? null, at, refusedAt ?? null]);
+function answer(ask, first, second, room) {
+  if (ask === "hex") return Array.from(parseHex(first));
+  if (ask === "encode") return Array.from(codec.encode(first, second));
+  if (ask === "frame") {
+    const { message, fields, reason, offset } = codec.decodeFrame(second, first);
+    return message ? [message, fields] : [reason, offset];
+  }
+  const stream = codec.makeStream({ direction: first, maxFrame: room });
+  return second.flatMap((part) => (part === null ? [...stream.flush().map(plain), null]
+    : stream.feed(part).map(plain)));
+}
+const answers = asked.questions.map((question) => {
+  try {
+    return answer(...question);
+  } catch (error) {
+    if (error instanceof Unusable) return { refused: error.message };
+    throw error;
+  }
+});
+"""
 
 
-def _parts(chance: random.Random, line: bytes) -> Iterator[bytes | None]:
+def ask(model: Model, questions: list[tuple[Any, ...]]) -> list[Any]:
+    """Return the answers of the page's codec."""
+    answers: list[Any] = run_script(
+        codec_scripts(model), PROGRAM, {"protocol": protocol_data(model), "questions": questions}
+    )
+    return answers
+
+
+@cache
+def model_of(name: str) -> Model:
+    """Return the model of one of SPECS, or of busservo in one of ENVELOPES."""
+    if name in SPECS:
+        return compiled_file(SPECS[name]).model
+    data = data_of(BUSSERVO)
+    parts = ENVELOPES[name]
+    data["frame"] = parts if "parameters" in parts else {**data["frame"], **parts}
+    return derive(Spec.model_validate(data))
+
+
+@cache
+def lines_of(name: str) -> list[bytes]:
+    return noisy_lines(model_of(name), 12, 100 if name in FILES else 400)
+
+
+def ways_of(model: Model) -> list[tuple[str | None, list[Direction]]]:
+    """Return each direction, and all together, as the page and as the reference take them."""
+    return [*((way.key, [way]) for way in model.directions), (None, model.directions)]
+
+
+@pytest.mark.each_protocol
+@each_protocol
+def test_streams_are_decoded_as_the_reference_decodes_them(name: str) -> None:
+    model, chance = model_of(name), random.Random(name)  # noqa: S311 - the same in every run
+    questions: list[tuple[Any, ...]] = []
+    expected: list[list[Event]] = []
+    least = min(frame.least for frame in model.envelopes.values())
+    for line in lines_of(name):
+        for key, ways in ways_of(model):
+            largest = model.largest(ways)
+            room = max(least, chance.choice([largest, largest, 64, 20, 8, least]))
+            parts = [*_cut(chance, line)]
+            questions.append(("stream", key, parts, room))
+            expected.append(joined(_events(model, ways, room, parts)))
+    for question, found, right in zip(questions, ask(model, questions), expected, strict=True):
+        events = [each for each in found if each]
+        ends = [at + len(data) for _, data, _, _, at, _ in events]
+        assert [at for *_, at, _ in events] == [0, *ends][: len(events)], question
+        assert joined(map(_said, found)) == right, question
+
+
+def _said(event: list[Any] | None) -> Event:
+    if event is None:
+        return ["quiet", "", None]
+    kind, data, what, values, _, _ = event
+    return [kind, bytes(data).hex(), (what, values)]
+
+
+def _cut(chance: random.Random, line: bytes) -> Iterator[bytes | None]:
     step = chance.choice([1, 2, 5, 64, 1000])
     for at in range(0, len(line), step):
         yield line[at : at + step]
@@ -84,13 +158,62 @@ def _parts(chance: random.Random, line: bytes) -> Iterator[bytes | None]:
         yield None
 
 
-def single_frames(model: Model, seed: int, number: int) -> Iterator[Question]:
-    """Return the beginnings of noisy lines, each as one frame."""
-    for line in noisy_lines(model, seed, number):
-        for way in model.directions:
-            for end in (len(line), len(line) // 2, 10):
-                yield Decode(way, line[:end])
+def _events(
+    model: Model, ways: list[Direction], room: int, parts: list[bytes | None]
+) -> Iterator[Event]:
+    for event in ReferenceDecoder(model, ways, room).follow(parts):
+        if event is None:
+            yield ["quiet", "", None]
+        elif event.message is None:
+            yield [event.kind, event.data.hex(), (event.reason, None)]
+        else:
+            values = values_of(event.message, event.data)
+            yield [event.kind, event.data.hex(), (event.message.name, values)]
 
+
+@pytest.mark.each_protocol
+@each_protocol
+def test_single_frames_are_judged_as_the_reference_judges_them(name: str) -> None:
+    model = model_of(name)
+    asked = [
+        (key, ways, line[:end])
+        for line in lines_of(name)
+        for key, ways in ways_of(model)
+        for end in (len(line), len(line) // 2, 10)
+    ]
+    found = ask(model, [("frame", key, data) for key, _, data in asked])
+    for (key, ways, data), said in zip(asked, found, strict=True):
+        assert said == _verdict(model, None if key is None else ways[0], data), data.hex(" ")
+
+
+def _verdict(model: Model, way: Direction | None, data: bytes) -> list[Any]:
+    try:
+        decoded = decode(model, way, data)
+    except NotAFrame as error:
+        return [error.reason, error.offset]
+    return [decoded.layout.name, decoded.values]
+
+
+@pytest.mark.each_protocol
+@each_protocol
+def test_every_example_is_encoded_as_the_reference_encodes_it(name: str) -> None:
+    model = model_of(name)
+    examples = [
+        (message, example.values)
+        for message in model.messages.values()
+        for example in message.message.examples
+    ]
+    found = ask(model, [("encode", each.name, whole(each, values)) for each, values in examples])
+    assert found == [list(encode(each, values)) for each, values in examples]
+
+
+def whole(message: MessageLayout, values: dict[str, Any]) -> dict[str, Any]:
+    """Return the values of an example, with null for each field that is absent."""
+    absent: dict[str, Any] = {slot.name: None for slot in message.optional}
+    return absent | values
+
+
+# ---------------------------------------------------------------------------- by hand
 
 # What a line says, by the parts in which it comes.
 LINES = {
@@ -128,178 +251,29 @@ LINES = {
 }
 
 
-@pytest.mark.parametrize("title", LINES)
-def test_a_line_is_decoded_into_these_events(found: dict[str, list[str]], title: str) -> None:
-    assert found[title] == LINES[title][1]
+def stream(*parts: str, way: str | None = None) -> tuple[Any, ...]:
+    """Return the question what comes of these parts of a line: bytes in hex, or `quiet`."""
+    return "stream", way, [None if each == "quiet" else bytes.fromhex(each) for each in parts], 257
 
 
-@pytest.fixture(scope="module")
-def found(busservo: Page) -> dict[str, list[str]]:
-    """Return the events in each of LINES; one process decodes them all."""
-    way = busservo.model.directions[0]
-    questions: list[Question] = []
-    for line, _ in LINES.values():
-        parts = [None if part == "quiet" else bytes.fromhex(part) for part in line.split()]
-        questions.append(Stream(way, 257, tuple(parts)))
-    return dict(zip(LINES, busservo.answers(questions), strict=True))
+@in_turn("title", lambda: LINES)
+def test_a_line_is_decoded_into_these_events(title: str) -> None:
+    line, expected = LINES[title]
+    (found,) = ask(SERVO, [stream(*line.split(), way="host_to_controller")])
+    assert [_in_words(*_said(each)) for each in found] == expected
 
 
-@pytest.fixture(scope="module")
-def busservo(tmp_path_factory: pytest.TempPathFactory) -> Page:
-    return Page(reference("busservo").compiled, tmp_path_factory.mktemp("page"))
+def _in_words(kind: str, data: str, what: tuple[str, Any] | None) -> str:
+    name = what[0].replace(" ", "-") if what and kind != "unknown" else ""
+    return " ".join(filter(None, [kind, name, data]))
 
 
-def test_a_recorded_line_is_decoded_as_the_reference_decodes_it(busservo: Page) -> None:
+def test_a_recorded_line_is_decoded_as_the_reference_decodes_it() -> None:
     line = (ROOT / "tests" / "captures" / "noisy_line.bin").read_bytes()
-    model = busservo.model
-    questions: list[Question] = [
-        Stream(way, model.largest([way]), (line, None)) for way in model.directions
-    ]
-    assert busservo.answers(questions) == [
-        joined(answer(model, question)) for question in questions
-    ]
-
-
-# ---------------------------------------------------------------------------- beyond the language
-
-# Asks the scripts of the page, as they are published, the questions that no other codec gets.
-HARNESS = """
-function answer(codec, { ask, text, name, fields }) {
-  try {
-    if (ask === "hex") return Array.from(parseHex(text));
-    if (ask === "encode") return Array.from(codec.encode(name, fields));
-    if (ask === "frame") return codec.decodeFrame(parseHex(text), null);
-    const stream = codec.makeStream();
-    if (ask === "line") return stream.flush(parseHex(text));
-    const cut = Array.from(parseHex(text)).flatMap((byte) => stream.feed([byte]));
-    return [...cut, ...stream.flush()];
-  } catch (error) {
-    if (error instanceof Unusable) return { refused: error.message };
-    throw error;
-  }
-}
-const answers = asked.map(([protocol, questions]) => {
-  const codec = makeCodec(protocol);
-  return questions.map((question) => answer(codec, question));
-});
-"""
-
-
-Asked: TypeAlias = "list[dict[str, Any]]"
-
-
-def ask(model: Model, questions: Asked) -> list[Any]:
-    """Return the answers of the page's scripts to each question about a protocol."""
-    (answers,) = ask_about([(model, questions)])
-    return answers
-
-
-def ask_about(batches: Sequence[tuple[Model, Asked]]) -> list[list[Any]]:
-    """Return the answers to questions about several protocols."""
-    (codec,) = [
-        text
-        for _, text in reference("busservo").pages["decoder.html"].scripts
-        if "function makeCodec" in text
-    ]
-    given = [(protocol_data(model), asked) for model, asked in batches]
-    answers: list[list[Any]] = run_script([], HARNESS, given, codec)
-    return answers
-
-
-# Other envelopes than those of the specs, whether or not a spec can have them yet.
-ENVELOPES: dict[str, dict[str, Any]] = {
-    "as it is": {},
-    "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
-    "a header that overlaps itself": {"header": {"is": "constant", "bytes": "55 03 55"}},
-    "a header in two parts": {
-        "header": {"is": "constant", "bytes": "55"},
-        "version": {"is": "constant", "bytes": "01"},
-        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
-        "command": {"is": "id", "type": "u8"},
-        "parameters": {"is": "body"},
-    },
-    "a checksum that covers one behind it": {
-        "header": {"is": "constant", "bytes": "55 55"},
-        "sum": {"is": "checksum", "type": "u8", "method": "sum", "covers": ["command", "crc"]},
-        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
-        "command": {"is": "id", "type": "u8"},
-        "parameters": {"is": "body"},
-        "crc": {
-            "is": "checksum",
-            "type": "u16",
-            "method": "crc-16/modbus",
-            "covers": ["command", "parameters"],
-        },
-    },
-    "an id of two bytes before a length of two": {
-        "header": {"is": "constant", "bytes": "55 55"},
-        "command": {"is": "id", "type": "u16"},
-        "length": {"is": "length", "type": "u16", "counts": ["length", "parameters"]},
-        "parameters": {"is": "body"},
-    },
-}
-
-
-@cache
-def wrapped(title: str) -> Model:
-    """Return the protocol in one of ENVELOPES."""
-    data = data_of(BUSSERVO)
-    parts = ENVELOPES[title]
-    data["frame"] = parts if "parameters" in parts else {**data["frame"], **parts}
-    return derive(Spec.model_validate(data))
-
-
-def lines_in(model: Model) -> list[bytes]:
-    return noisy_lines(model, 5, 400)
-
-
-def examples_of(model: Model) -> list[tuple[MessageLayout, dict[str, Any]]]:
-    return [
-        (message, example.values)
-        for message in model.messages.values()
-        for example in message.message.examples
-    ]
-
-
-@pytest.fixture(scope="module")
-def unwrapped() -> dict[str, tuple[list[Any], list[Any]]]:
-    """Return what the page makes of lines and of examples in each of ENVELOPES."""
-    models = [wrapped(title) for title in ENVELOPES]
-    lines = [[{"ask": "line", "text": line.hex()} for line in lines_in(model)] for model in models]
-    examples = [
-        [{"ask": "encode", "name": each.name, "fields": values} for each, values in cases]
-        for cases in map(examples_of, models)
-    ]
-    both = [read + written for read, written in zip(lines, examples, strict=True)]
-    return {
-        title: (answers[: len(read)], answers[len(read) :])
-        for title, read, answers in zip(
-            ENVELOPES, lines, ask_about([*zip(models, both, strict=True)]), strict=True
-        )
-    }
-
-
-@pytest.mark.parametrize("title", ENVELOPES)
-def test_any_envelope_is_decoded_as_the_reference_decodes_it_both_ways(
-    unwrapped: dict[str, tuple[list[Any], list[Any]]], title: str
-) -> None:
-    model, (replies, _) = wrapped(title), unwrapped[title]
-    for line, events in zip(lines_in(model), replies, strict=True):
-        said = [
-            [event["type"], bytes(event["bytes"]).hex(), event.get("message", event.get("reason"))]
-            for event in events
-        ]
-        assert peers.joined(said) == reference_events(model, line, None), line.hex(" ")
-        ends = [event["at"] + len(event["bytes"]) for event in events]
-        assert [event["at"] for event in events] == [0, *ends][: len(events)], line.hex(" ")
-
-
-@pytest.mark.parametrize("title", ENVELOPES)
-def test_any_envelope_is_encoded_as_the_reference_encodes_it(
-    unwrapped: dict[str, tuple[list[Any], list[Any]]], title: str
-) -> None:
-    cases, (_, replies) = examples_of(wrapped(title)), unwrapped[title]
-    assert replies == [list(encode(each, values)) for each, values in cases]
+    for key, ways in ways_of(SERVO):
+        room = SERVO.largest(ways)
+        (found,) = ask(SERVO, [("stream", key, [line, None], room)])
+        assert joined(map(_said, found)) == joined(_events(SERVO, ways, room, [line, None]))
 
 
 # What a line says both ways: where each piece stands, its bytes, and the byte where it was refused.
@@ -320,71 +294,75 @@ PIECES = {
 }
 
 
-@pytest.fixture(scope="module")
-def reported() -> dict[str, tuple[Any, Any]]:
-    """Return the pieces of each of PIECES, read as a whole, and byte by byte."""
-    asked = [{"ask": how, "text": text} for text, _ in PIECES.values() for how in ("line", "bytes")]
-    replies = ask(reference("busservo").model, asked)
-    return dict(zip(PIECES, zip(replies[::2], replies[1::2], strict=True), strict=True))
-
-
-@pytest.mark.parametrize("title", PIECES)
-def test_noise_is_reported_in_pieces_with_the_refused_byte(
-    reported: dict[str, tuple[Any, Any]], title: str
-) -> None:
-    whole, cut = reported[title]
-    assert [
-        (each["at"], bytes(each["bytes"]).hex(), each["refusedAt"]) for each in whole
-    ] == PIECES[title][1]
+@in_turn("title", lambda: PIECES)
+def test_noise_is_reported_in_pieces_with_the_refused_byte(title: str) -> None:
+    text, expected = PIECES[title]
+    digits = text.replace(" ", "")
+    single = [digits[at : at + 2] for at in range(0, len(digits), 2)]
+    whole, cut = ask(SERVO, [stream(digits, "quiet"), stream(*single, "quiet")])
+    assert [(at, bytes(data).hex(), refused) for _, data, _, _, at, refused in whole[:-1]] == (
+        expected
+    )
     # A piece that is cut goes on, at its own place, and was refused where it was.
     assert bytewise(cut) == bytewise(whole)
 
 
-def bytewise(events: list[dict[str, Any]]) -> list[tuple[int, int, int]]:
+def bytewise(events: list[Any]) -> list[tuple[int, int, int]]:
     """Return each byte of noise: its place on the line, its value, and the refused place."""
     return [
-        (event["at"] + index, byte, event["refusedAt"])
-        for event in events
-        for index, byte in enumerate(event["bytes"])
+        (at + index, byte, refused)
+        for _, data, _, _, at, refused in events[:-1]
+        for index, byte in enumerate(data)
     ]
 
 
-@pytest.mark.parametrize("name", ["busservo", "greenhouse"])
-def test_single_frames_of_either_way_are_judged_as_the_reference_judges_them(name: str) -> None:
-    model = reference(name).model
-    lines = [line[:end] for line in noisy_lines(model, 6, 300) for end in (len(line), 10)]
-    replies = ask(model, [{"ask": "frame", "text": line.hex()} for line in lines])
-    for line, found in zip(lines, replies, strict=True):
-        said = found.get("message") or [found["reason"], found["offset"]]
-        assert said == verdict(model, None, line), line.hex(" ")
-
-
-def verdict(model: Model, way: Direction | None, data: bytes) -> Any:
-    """Return the name of the message that `data` is, or why and where it is none."""
-    try:
-        return decode(model, way, data).layout.name
-    except NotAFrame as error:
-        return [error.reason, error.offset]
-
-
-# Values of a ServoMove, and what is wrong with them.
-UNUSABLE: list[tuple[dict[str, Any], str]] = [
-    ({"time_ms": 65536, "targets": [{"servo_id": 1, "position": 2}]}, "time_ms: 65536 is out"),
+# Values that no frame can carry, by protocol and message: what is changed, and the refusal.
+UNUSABLE: list[tuple[str, str, dict[str, Any], str]] = [
+    ("busservo", "ServoMove", {"time_ms": 65536}, "time_ms: 65536 is outside 0..65535"),
+    ("busservo", "ServoMove", {"time_ms": 1.5}, "time_ms: a whole number is due"),
     (
-        {"time_ms": 1, "targets": [{"servo_id": 1, "position": 70000}]},
+        "busservo",
+        "ServoMove",
+        {"targets": [{"servo_id": 1, "position": 70000}]},
         "targets[0].position: 70000 is outside 0..65535",
     ),
-    ({"time_ms": 1, "targets": []}, "targets: 0 items is outside 1..83"),
-    ({"time_ms": 1.5, "targets": [{"servo_id": 1, "position": 2}]}, "time_ms: a whole number"),
-    ({"time_ms": 1, "targets": [{"servo_id": 1}]}, "targets[0].position: a whole number"),
+    ("busservo", "ServoMove", {"targets": []}, "targets: 0 items is outside 1..83"),
+    (
+        "busservo",
+        "ServoMove",
+        {"targets": [{"servo_id": 1}]},
+        "targets[0].position: a whole number is due",
+    ),
+    ("lxservo", "Move", {"servo_id": 255}, "servo_id: 255 is outside 0..254"),
+    ("lxservo", "Move", {"servo_id": 1.5}, "servo_id: a whole number is due"),
+    ("sbus", "Channels", {"channels": [0] * 15}, "channels: 15 numbers, and it has 16"),
+    ("sbus", "Channels", {"channels": [2048] * 16}, "channels[0]: 2048 is outside 0..2047"),
+    (
+        "mavlink1",
+        "ParameterRead",
+        {"name": 17 * "a"},
+        "name: 17 characters, and it has room for 16",
+    ),
+    ("mavlink1", "ParameterRead", {"name": "é"}, "name: “é” is not ASCII"),
+    ("mavlink1", "Parameter", {"value": 1e39}, "value: 1e+39 does not fit"),
+    (
+        "mavlink1",
+        "SystemTime",
+        {"unix_us": 1 << 64},
+        f"unix_us: {1 << 64} is outside 0..{(1 << 64) - 1}",
+    ),
+    ("modbus", "Holding", {"registers": []}, "registers: 0 items is outside 1..125"),
 ]
 
 
-def test_values_that_no_frame_can_carry_are_refused() -> None:
-    asked = [{"ask": "encode", "name": "ServoMove", "fields": fields} for fields, _ in UNUSABLE]
-    replies = ask(reference("busservo").model, asked)
-    for (fields, error), reply in zip(UNUSABLE, replies, strict=True):
-        assert reply["refused"].startswith(error), fields
+@in_turn("name, message, wrong, refusal", lambda: UNUSABLE)
+def test_values_that_no_frame_can_carry_are_refused(
+    name: str, message: str, wrong: dict[str, Any], refusal: str
+) -> None:
+    model = model_of(name)
+    values = model.messages[message].message.examples[0].values
+    (found,) = ask(model, [("encode", message, {**values, **wrong})])
+    assert found["refused"] == refusal
 
 
 def test_hex_is_read_as_the_library_reads_it() -> None:
@@ -395,5 +373,5 @@ def test_hex_is_read_as_the_library_reads_it() -> None:
             expected.append(list(read_hex(text)))
         except HexError:
             expected.append(None)
-    replies = ask(reference("busservo").model, [{"ask": "hex", "text": text} for text in texts])
+    replies = ask(SERVO, [("hex", text) for text in texts])
     assert [each if isinstance(each, list) else None for each in replies] == expected
