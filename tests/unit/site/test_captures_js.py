@@ -19,6 +19,7 @@ from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.hex_cases import HEX, LOGS, NO_LOGS, random_texts
+from tests.in_turn import in_turn
 from tests.unit.site.peers import noisy_lines
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.scripts import run_script
@@ -202,7 +203,7 @@ def test_what_no_form_has_is_refused_at_its_place() -> None:
         assert answer["hint"]
 
 
-@pytest.mark.parametrize("behind", ["", "00000011  55\n", "00000008  55\n", "fffffff0  55\n"])
+@in_turn("behind", lambda: ["", "00000011  55\n", "00000008  55\n", "fffffff0  55\n"])
 def test_lines_that_a_hex_dump_leaves_out_are_never_lost(behind: str) -> None:
     (answer,) = answers_to([f"00000000  {'00 ' * 15}00\n*\n{behind}"])
     assert (answer["line"], answer["column"], answer["found"]) == (3, 1, "*")
@@ -332,7 +333,7 @@ def saved(texts: Sequence[tuple[str, str | None, str]]) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("form", ["csv", "json"])
+@in_turn("form", lambda: ["csv", "json"])
 def test_a_capture_is_saved_as_the_command_prints_it(form: str) -> None:
     cut_off = (ROOT / "tests" / "captures" / "cut_off.hex").read_text("utf-8")
     plain = "\n".join(line.hex(" ") for line in noisy_lines(reference("busservo").model, 5, 60))

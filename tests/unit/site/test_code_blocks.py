@@ -5,10 +5,10 @@ from __future__ import annotations
 import html
 import re
 
-import pytest
 from framegen.site.guides.guide import Guide
 from framegen.site.guides.highlight import code_block
 
+from tests.in_turn import in_turn
 from tests.unit.site.lamps import lamps
 from tests.unit.site.reference import Page
 
@@ -23,9 +23,9 @@ b
 """
 
 
-@pytest.mark.parametrize(
-    ("code", "language", "typed"),
-    [
+@in_turn(
+    "code, language, typed",
+    lambda: [
         ("import x\n", "python", "import x\n"),
         (PYTHON_SESSION, "pycon", 'for x in "ab":\n    print(x)\n\n1 + \\\n1\n'),
         ("$ a b\nprinted\n$ c\n", "console", "a b\nc\n"),
@@ -51,9 +51,9 @@ def test_output_is_no_code_and_cannot_be_copied() -> None:
     assert page.words.strip() == "1 < 2"
 
 
-@pytest.mark.parametrize(
-    ("code", "language", "piece"),
-    [
+@in_turn(
+    "code, language, piece",
+    lambda: [
         ("import x", "python", ("keyword", "import")),
         ("x = 'a'", "python", ("text", "'a'")),
         ("x = 12", "python", ("number", "12")),
@@ -81,9 +81,7 @@ def test_code_is_coloured_by_classes(code: str, language: str, piece: tuple[str,
     assert piece in [(name, html.unescape(inside)) for name, inside in found]
 
 
-@pytest.mark.parametrize(
-    "language", ["python", "pycon", "console", "output", "text", "yaml", "<b>"]
-)
+@in_turn("language", lambda: ["python", "pycon", "console", "output", "text", "yaml", "<b>"])
 def test_code_is_escaped(language: str) -> None:
     text = str(code_block("</code><script>'\"&\n$ <b>\n>>> <b>\n", language))
     assert "<script" not in text

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
 from framegen.site.compact import compact_script, compact_style
 from pygments.lexers import CssLexer, JavascriptLexer
 from pygments.token import Comment, Whitespace
@@ -32,7 +31,7 @@ CASES = (
 )
 
 
-@pytest.mark.parametrize(("written", "expected"), CASES)
+@in_turn("written, expected", lambda: CASES)
 def test_a_script_keeps_its_code(written: str, expected: str) -> None:
     assert compact_script(written) == expected
 

@@ -10,6 +10,7 @@ from framegen.render import snippets
 from framegen.site.project import read_project
 from framegen.site.site import render_site
 
+from tests.in_turn import in_turn
 from tests.unit.site.reference import ROOT, SPECS, reference
 
 # The first edition, so that it stays what it is.
@@ -105,16 +106,15 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 RELEASED = "spec/released/busservo-1.0.0.yaml"
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
+@in_turn(
+    "text, message",
+    lambda: [
         ("", "busservo-1.0.0.yaml"),
         ("a: [1", f"{RELEASED}:1:"),
         ("framegen: 2\n", f"{RELEASED} has "),
         ("framegen: 99\n", "framegen: error: spec/released/busservo-1.0.0.yaml has 1 finding"),
         ("x" * 1_000_001, f"{RELEASED} has 1.0 MB"),
     ],
-    ids=["nothing", "no YAML", "no spec", "of a later framegen", "too large"],
 )
 def test_a_broken_release_is_named(
     project: Path, capsys: pytest.CaptureFixture[str], text: str, message: str
@@ -130,9 +130,9 @@ def test_a_release_that_is_no_text_is_named(
     assert f"{RELEASED} is not UTF-8 text: byte 0" in refused(capsys)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
+@in_turn(
+    "old, new, said",
+    lambda: [
         ('version: "1.0.0"\n  authority', 'version: "2.0.0"\n  authority', "busservo-2.0.0"),
         ("name: busservo", "name: armservo", "armservo-1.0.0"),
     ],

@@ -16,6 +16,7 @@ from framegen.site.project import read_project
 from framegen.site.recordings import recordings_of
 
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
 from tests.unit.site.reference import ROOT, Page
 
@@ -93,9 +94,9 @@ def test_the_page_counts_the_vectors() -> None:
     assert numbers == [len(vectors[kind]) for kind in kinds]
 
 
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
+@in_turn(
+    "size, said",
+    lambda: [
         (0, "0 bytes"),
         (1, "1 byte"),
         (999, "999 bytes"),
@@ -133,9 +134,9 @@ def docs(tmp_path: Path) -> Path:
     return root / "docs"
 
 
-@pytest.mark.parametrize(
-    ("text", "files"),
-    [
+@in_turn(
+    "text, files",
+    lambda: [
         ("[a](../lines/noisy.bin)", ["lines/noisy.bin", "lines/noisy.md"]),
         ("[a]\n\n[a]: ../lines/other.bin", ["lines/other.bin"]),
         ("[a](../lines/two%20words.bin#x)", ["lines/two words.bin"]),

@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from tests.documents import ROOT
+from tests.in_turn import in_turn
 from tests.screenshots import IMAGES, LARGEST, SCREENSHOTS, Screenshot
 
 DRAWINGS = sorted((ROOT / "docs" / "images").glob("wiring-*.svg"))
@@ -60,7 +61,7 @@ def test_a_guide_shows_the_drawing_and_says_in_words_what_is_on_it(drawing: Path
     assert all(len(words) > 40 for words in alternatives)
 
 
-@pytest.mark.parametrize("each", SCREENSHOTS, ids=lambda each: each.name)
+@in_turn("each", lambda: SCREENSHOTS)
 def test_the_readme_shows_a_screenshot_that_is_small(each: Screenshot) -> None:
     readme = (ROOT / "README.md").read_text("utf-8")
     assert f"docs/images/{each.name}" in readme

@@ -3,10 +3,10 @@
 import re
 from functools import cache
 
-import pytest
 from framegen.reading.source import Source
 from framegen.reading.yamltree import read_tree
 
+from tests.in_turn import in_turn
 from tests.mutations.spec_edits import edited
 from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
 from tests.unit.site.reference import Page, respelled
@@ -51,9 +51,9 @@ def test_every_link_of_every_edition_leads_somewhere() -> None:
     assert three().broken_links == []
 
 
-@pytest.mark.parametrize(
-    ("page", "said", "path"),
-    [
+@in_turn(
+    "page, said, path",
+    lambda: [
         ("2.0.0/index", "This page in 3.0.0", "index"),
         ("2.0.0/errata", "This page in 3.0.0", "errata"),
         ("2.0.0/messages/LampRead", "This page in 3.0.0", "messages/LampRead"),

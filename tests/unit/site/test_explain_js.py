@@ -13,6 +13,7 @@ from framegen.site.scripts.protocol_data import protocol_data
 from hypothesis import settings
 
 from tests.factories import BUSSERVO, compiled_file
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.unit.site.peers import noisy_lines
 from tests.unit.site.reference import NODE, reference
@@ -166,7 +167,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("title", CASES)
+@in_turn("title", lambda: CASES)
 def test_an_explanation_says_what_matters(title: str) -> None:
     hex_, texts = CASES[title]
     (found,) = explained(reference("busservo").model, [(bytes.fromhex(hex_), None)])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import pytest
 from framegen.site.guides.guide import Guide, page_of
 from framegen.site.project import read_project
 
@@ -41,9 +40,9 @@ def test_no_link_is_dead(path: str) -> None:
     assert broken_links(site, rendered_lamps(), [site[path]]) == []
 
 
-@pytest.mark.parametrize(
-    ("path", "page"),
-    [
+@in_turn(
+    "path, page",
+    lambda: [
         ("first.md", "first.html"),
         ("README.md", "index.html"),
         ("more/README.md", "more/index.html"),

@@ -18,6 +18,7 @@ from framegen.site.scripts.protocol_data import protocol_data
 from hypothesis import settings
 
 from tests.factories import compiled_of, data_of, library, library_files
+from tests.in_turn import in_turn
 from tests.protocols.specs import model_of
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.scripts import run_script
@@ -267,7 +268,7 @@ FIRST = {
 }
 
 
-@pytest.mark.parametrize("name", FIRST)
+@in_turn("name", lambda: FIRST)
 def test_the_encoder_begins_with_a_query(name: str) -> None:
     model = reference("busservo").model if name == "busservo" else model_of(name)
     assert line_data(model)["first"] == FIRST[name]

@@ -11,6 +11,7 @@ from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.factories import compiled_file
+from tests.in_turn import in_turn
 from tests.unit.site.peers import joined, noisy_lines
 from tests.unit.site.reference import NODE, ROOT
 from tests.unit.site.scripts import run_script
@@ -49,7 +50,7 @@ def cuts(chance: random.Random, most: int) -> list[int]:
     return found[1:-1]
 
 
-@pytest.mark.parametrize("name", ["busservo", "lxservo"])
+@in_turn("name", lambda: ["busservo", "lxservo"])
 def test_a_long_line_is_decoded_as_by_the_library_however_it_is_cut(name: str) -> None:
     model = compiled_file(ROOT / "spec" / f"{name}.yaml").model
     chance = random.Random(name)  # noqa: S311 - the same line in every run

@@ -1,36 +1,31 @@
 """The Markdown pages: the same facts, links that lead somewhere, and no accidental markup."""
 
 import re
-from pathlib import PurePosixPath
 
-import pytest
 from framegen.targets.docs.escape import code, markdown, verbatim
 
-from tests.unit.site.reference import SPECS, reference
+from tests.in_turn import in_turn
+from tests.unit.site.reference import SPECS, Page, reference
 
-EVERY = [(name, path) for name in SPECS for path in reference(name).files]
 LINK = re.compile(r"(?<!\\)\]\(([^)]*)\)")
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+def every_file() -> list[tuple[str, str]]:
+    """Return the spec and the path of each file."""
+    return [(name, path) for name in SPECS for path in reference(name).files]
+
+
+@in_turn("name, path", every_file)
 def test_every_link_leads_somewhere(name: str, path: str) -> None:
-    site = reference(name)
-    root = PurePosixPath("docs/reference") / name
-    folder = root / PurePosixPath(path).parent
+    site, root = reference(name), f"docs/reference/{name}/"
     links = LINK.findall(site.files[path])
     assert links
     for link in links:
-        steps: list[str] = []
-        for step in (*folder.parts, *PurePosixPath(link).parts):
-            if step == "..":
-                steps.pop()
-            else:
-                steps.append(step)
-        found = "/".join(steps)
-        assert found == "spec/busservo.yaml" or found.removeprefix(f"{root}/") in site.files, link
+        found, _ = Page(f"{root}{path}", "").leads_to(link)
+        assert found == "spec/busservo.yaml" or found.removeprefix(root) in site.files, link
 
 
-@pytest.mark.parametrize(("name", "path"), EVERY)
+@in_turn("name, path", every_file)
 def test_tables_have_as_many_cells_in_every_row(name: str, path: str) -> None:
     width = 0
     for line in reference(name).files[path].splitlines():
@@ -39,7 +34,7 @@ def test_tables_have_as_many_cells_in_every_row(name: str, path: str) -> None:
         width = cells if line.startswith("|") else 0
 
 
-@pytest.mark.parametrize("name", SPECS)
+@in_turn("name", lambda: SPECS)
 def test_every_page_of_a_message_has_a_markdown_version(name: str) -> None:
     site = reference(name)
     for message in site.model.messages.values():
@@ -50,9 +45,9 @@ def test_every_page_of_a_message_has_a_markdown_version(name: str) -> None:
             assert slot.name in text
 
 
-@pytest.mark.parametrize(
-    ("text", "escaped"),
-    [
+@in_turn(
+    "text, escaped",
+    lambda: [
         ("plain words.", "plain words."),
         ("a\n\nb", "a b"),
         ("<b>", "&lt;b&gt;"),

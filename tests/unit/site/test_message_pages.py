@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from html import unescape
 
-import pytest
 from framegen.model.slots import Items
 from framegen.render import snippets
 from framegen.site.guides.guide import Guide
@@ -15,6 +14,7 @@ from framegen.site.site import Site
 from framegen.targets.docs.field import field_views
 
 from tests.factories import compiled_file, data_of
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import Page, Reference, reference
 
@@ -31,7 +31,7 @@ def words(text: str) -> str:
     return " ".join(unescape(re.sub(r"<[^>]+>", "", text)).split())
 
 
-@pytest.mark.parametrize("message", MESSAGES)
+@in_turn("message", lambda: MESSAGES)
 def test_what_the_board_shows_stands_on_what_it_receives_and_nowhere_else(message: str) -> None:
     """LED2 and the buzzer are the only acknowledgement that most commands have."""
     sent = SERVO.model.messages[message].direction.receiver == "controller"
@@ -54,7 +54,7 @@ def test_every_note_is_cited_where_sequences_and_the_protocol_are_described() ->
     assert all(note.text in cheat for note in board)
 
 
-@pytest.mark.parametrize("message", MESSAGES)
+@in_turn("message", lambda: MESSAGES)
 def test_errata_and_unknowns_of_a_message_stand_on_its_page_alone(message: str) -> None:
     page, text = page_of(message), words(page_of(message).text)
     numbers = [n for n, each in enumerate(SPEC.errata, 1) if each.concerns.message == message]
@@ -76,7 +76,7 @@ def test_errata_and_unknowns_of_a_message_stand_on_its_page_alone(message: str) 
         assert (unknown.what in text) == (unknown.concerns.message == message)
 
 
-@pytest.mark.parametrize("name", [*FILES, "busservo"])
+@in_turn("name", lambda: [*FILES, "busservo"])
 def test_a_count_has_the_range_that_can_be_on_the_wire(name: str) -> None:
     model = SERVO.model if name == "busservo" else compiled_file(FILES[name]).model
     for layout in model.messages.values():
@@ -90,9 +90,9 @@ def test_a_count_has_the_range_that_can_be_on_the_wire(name: str) -> None:
                 assert shown[counter.name] == expected
 
 
-@pytest.mark.parametrize(
-    ("message", "shown"),
-    [("ServoMove", "1..83"), ("ServoUnload", "1..252"), ("ServoPositions", "0..84")],
+@in_turn(
+    "message, shown",
+    lambda: [("ServoMove", "1..83"), ("ServoUnload", "1..252"), ("ServoPositions", "0..84")],
 )
 def test_the_counts_of_the_board(message: str, shown: str) -> None:
     (row,) = re.findall(r'<tr id="field-servo_count">.*?</tr>', page_of(message).text, re.DOTALL)
@@ -148,9 +148,9 @@ See [ServoUnload](reference/busservo/messages/ServoUnload.md#fields), not ServoM
 OTHER = GUIDE.replace("# The arm", "# Elsewhere").replace("`busservo`", "another library")
 
 
-@pytest.mark.parametrize(
-    ("message", "expected"),
-    [
+@in_turn(
+    "message, expected",
+    lambda: [
         ("ServoMove", ["The arm: Moving, A word"]),
         ("ServoUnload", ["The arm: Letting go", "Elsewhere: Letting go"]),
         ("BatteryVoltage", []),

@@ -12,6 +12,7 @@ from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.factories import DEMO, compiled_file, compiled_of, data_of, renamed, vectors_of
+from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, reference
 from tests.unit.site.scripts import run_script
@@ -120,7 +121,7 @@ def test_numbers_that_no_frame_carries_are_named_with_their_bounds() -> None:
         assert answer["message"].startswith(said), text
 
 
-@pytest.mark.parametrize("name", ["busservo", "everything"])
+@in_turn("name", lambda: ["busservo", "everything"])
 def test_what_is_written_is_read_back(name: str) -> None:
     compiled = reference(name).compiled if name == "busservo" else compiled_file(FILES[name])
     frames = [

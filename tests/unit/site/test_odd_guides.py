@@ -7,36 +7,30 @@ import shutil
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.compile import compile_spec
-from framegen.language.load import read_source
 from framegen.reading.yamltree import Unusable
 from framegen.render import snippets
 from framegen.site.guides.markdown import slugs
 from framegen.site.project import Project, read_project
 from framegen.site.site import render_site
 
+from tests.factories import compiled_file
+from tests.in_turn import in_turn
 from tests.unit.site.reference import ROOT
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from framegen.compile import Compiled
-
 LAMP = ROOT / "tests" / "specs" / "lamp.yaml"
 PLAN = "# Lamps\n\nAll of them.\n\n## Learn\n\n"
 
 
-def compiled(file: Path) -> Compiled:
-    """Return a spec that has no findings."""
-    return compile_spec(read_source(file))
-
-
 def built(docs: Path, guides: dict[str, str]) -> dict[str, str]:
-    """Return the site of some guides as files."""
+    """Return the site of these guides as files, and of no others that were there."""
+    shutil.rmtree(docs, ignore_errors=True)
     for name, text in {"README.md": PLAN, **guides}.items():
         (docs / name).parent.mkdir(parents=True, exist_ok=True)
         (docs / name).write_text(text, encoding="utf-8")
-    return render_site(read_project({LAMP: compiled(LAMP)}, docs), snippets())
+    return render_site(read_project({LAMP: compiled_file(LAMP)}, docs), snippets())
 
 
 def prose(page: str) -> str:
@@ -87,7 +81,7 @@ ANCHORS = (
 )
 
 
-@pytest.mark.parametrize(("headings", "expected"), ANCHORS)
+@in_turn("headings, expected", lambda: ANCHORS)
 def test_each_heading_has_an_anchor_of_its_own(headings: list[str], expected: list[str]) -> None:
     assert [*slugs(headings)] == expected
 
@@ -113,7 +107,7 @@ PICTURES = (
 )
 
 
-@pytest.mark.parametrize(("written", "expected"), PICTURES)
+@in_turn("written, expected", lambda: PICTURES)
 def test_pictures_that_are_not_in_the_site_become_words(
     tmp_path: Path, written: str, expected: str
 ) -> None:
@@ -122,13 +116,13 @@ def test_pictures_that_are_not_in_the_site_become_words(
     assert "<img" not in prose(page)
 
 
-@pytest.mark.parametrize("name", ["index.md", "search.md"])
+@in_turn("name", lambda: ["index.md", "search.md"])
 def test_a_guide_takes_no_place_of_another_page(tmp_path: Path, name: str) -> None:
     with pytest.raises(Unusable, match=f"docs/{name} would become"):
         built(tmp_path / "docs", {name: "# Mine\n"})
 
 
-@pytest.mark.parametrize("name", ["a#b.md", "a?b.md", "100%.md"])
+@in_turn("name", lambda: ["a#b.md", "a?b.md", "100%.md"])
 def test_a_guide_has_a_name_that_links_can_have(tmp_path: Path, name: str) -> None:
     with pytest.raises(Unusable, match="no link can lead to"):
         built(tmp_path / "docs", {name: "# Mine\n"})
@@ -139,11 +133,11 @@ def test_two_specs_have_two_names(tmp_path: Path) -> None:
     shutil.copy(LAMP, other)
     twice = r"lamp\.yaml and other\.yaml are both of the protocol stage_lamp"
     with pytest.raises(Unusable, match=twice):
-        read_project({file: compiled(file) for file in (LAMP, other)})
+        read_project({file: compiled_file(file) for file in (LAMP, other)})
 
 
 def test_a_list_above_all_headings_is_a_section() -> None:
     guides = {"README.md": "# Lamps\n\n- [First](first.md)\n", "first.md": "# First\n"}
-    site = render_site(Project([compiled(LAMP)], guides), snippets())
+    site = render_site(Project([compiled_file(LAMP)], guides), snippets())
     assert '<a href="index.html#guides">Guides</a>' in prose(site["first.html"])
     assert 'id="guides"' in site["index.html"]

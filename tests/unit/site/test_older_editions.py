@@ -9,6 +9,7 @@ from framegen.comparison.listing import edition_of
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable
 
+from tests.in_turn import in_turn
 from tests.unit.site.editions import FIRST, SECOND, Editions
 
 # A length of four bytes, so that lists may be as long as they say.
@@ -51,7 +52,7 @@ def test_live_fields_are_on_messages_of_the_newest_edition() -> None:
     assert {"/1.0.0/" in path for path, live in shown.items() if not live} == {True}
 
 
-@pytest.mark.parametrize("count", [40_000, 5_000_000_000])
+@in_turn("count", lambda: [40_000, 5_000_000_000])
 def test_frames_that_no_memory_holds_are_refused(count: int) -> None:
     """They would be made to be compared."""
     text = WIDE.replace("count: 1..8", f"count: 1..{count}")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -19,16 +20,17 @@ from tests.factories import compiled_file
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, model_of
 from tests.unit.site.peers import joined, noisy_lines, reference_events
-from tests.unit.site.reference import NODE, Reference, broken_links
+from tests.unit.site.reference import NODE, SPECS, Reference, broken_links, reference
 from tests.unit.site.scripts import run_script
 
+ALL = {**SPECS, **FILES}
 # Those that have between them all kinds of parts and fields, and all that pages say of them.
-QUICK = ("everything", "lxservo", "modbus", "roboclaw", "ubx")
+QUICK = {*SPECS, "everything", "lxservo", "modbus", "roboclaw", "ubx"}
 
 needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
 of_each = pytest.mark.parametrize(
     "name",
-    [pytest.param(each, marks=[] if each in QUICK else pytest.mark.slow) for each in FILES],
+    [pytest.param(each, marks=[] if each in QUICK else pytest.mark.slow) for each in ALL],
     scope="module",
 )
 
@@ -36,7 +38,7 @@ of_each = pytest.mark.parametrize(
 # A site is large, so that all tests of one follow each other, and no more than it is kept.
 @lru_cache(maxsize=1)
 def site_of(name: str) -> Reference:
-    return Reference(compiled_file(FILES[name]))
+    return reference(name) if name in SPECS else Reference(compiled_file(FILES[name]))
 
 
 def index_of(site: Reference) -> dict[str, Any]:
@@ -56,11 +58,26 @@ def test_ids_are_unique_and_every_link_leads_somewhere(name: str) -> None:
 
 
 @of_each
-def test_headings_are_in_order(name: str) -> None:
+def test_headings_are_in_order_and_landmarks_are_there(name: str) -> None:
     for path, page in site_of(name).pages.items():
+        assert page.headings[0] == 1, path
         assert page.headings.count(1) == 1, path
-        for before, after in zip(page.headings, page.headings[1:], strict=False):
+        for before, after in pairwise(page.headings):
             assert after <= before + 1, path
+        tags = [tag for tag, _ in page.tags]
+        assert [tags.count(each) for each in ("header", "main", "footer")] == [1, 1, 1], path
+        named = [given["aria-label"] for tag, given in page.tags if tag == "nav"]
+        assert "Documentation" in named, path
+        assert len(named) == len(set(named)), path
+
+
+@of_each
+def test_nothing_is_loaded_from_anywhere(name: str) -> None:
+    for path, page in site_of(name).pages.items():
+        assert [each for each in page.loads if not each.startswith("data:")] == [], path
+        for text in [*page.styles, *(script for _, script in page.scripts)]:
+            found = [each for each in ("http:", "https:", "url(", "@import") if each in text]
+            assert found == [], path
 
 
 @of_each

@@ -14,6 +14,7 @@ from framegen.site.project import Project
 from framegen.site.publication import base_address
 from framegen.site.site import render_site
 
+from tests.in_turn import in_turn
 from tests.unit.site.lamps import BASE, GUIDES, greenhouse, lamps, metas
 from tests.unit.site.reference import ROOT, SPECS
 
@@ -62,9 +63,9 @@ def test_the_sitemap_lists_every_page_once_and_robots_lead_to_it() -> None:
     assert f"Sitemap: {BASE}sitemap.xml\n" in made["robots.txt"]
 
 
-@pytest.mark.parametrize(
-    ("given", "base"),
-    [
+@in_turn(
+    "given, base",
+    lambda: [
         ("", ""),
         ("https://example.org", "https://example.org/"),
         ("https://example.org/", "https://example.org/"),
@@ -76,9 +77,9 @@ def test_an_address_is_taken_with_or_without_a_slash(given: str, base: str) -> N
     assert base_address(given) == base
 
 
-@pytest.mark.parametrize(
-    ("given", "why"),
-    [
+@in_turn(
+    "given, why",
+    lambda: [
         ("example.org", "no address"),
         ("ftp://example.org/", "no address"),
         ("//example.org/", "no address"),

@@ -26,6 +26,7 @@ from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.bad_specs import BASES
 from tests.factories import compiled_file
+from tests.in_turn import in_turn
 from tests.unit.site.reference import NODE, reference
 from tests.unit.site.scripts import run_script
 from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
@@ -315,15 +316,15 @@ ANSWERS: dict[str, tuple[list[tuple[float, str, bytes]], list[list[Any]]]] = {
 }
 
 
-@pytest.mark.parametrize("case", ANSWERS)
+@in_turn("case", lambda: ANSWERS)
 def test_a_reply_answers_what_was_asked(case: str) -> None:
     steps, expected = ANSWERS[case]
     assert outcomes(talk(steps)) == expected
 
 
-@pytest.mark.parametrize(
-    ("request_", "asked", "reply", "held", "fits"),
-    [
+@in_turn(
+    "request_, asked, reply, held, fits",
+    lambda: [
         ("BytesRead", {"start": 16, "count": 2}, "Bytes", {"stored": [1, 2]}, True),
         ("BytesRead", {"start": 16, "count": 1}, "Bytes", {"stored": [1, 2]}, False),
         ("SomeRead", {"addresses": [1, 2]}, "Some", {"status": 1, "found": [1, 2]}, True),
@@ -502,7 +503,7 @@ WHERE_FROM = [
 ]
 
 
-@pytest.mark.parametrize(("asked", "why"), WHERE_FROM)
+@in_turn("asked, why", lambda: WHERE_FROM)
 def test_a_browser_without_ports_says_why(asked: dict[str, Any], why: str | None) -> None:
     found = answers("return whyNoSerial(asked);", asked)
     assert found is why or why in found

@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import re
 
-import pytest
 from framegen.render import snippets
 from framegen.site.guides.headings import headings, with_permalinks
 from framegen.site.project import Project
@@ -39,7 +38,7 @@ def test_messages_show_their_direction_in_words_and_with_an_arrow() -> None:
     assert "← StationState" in labels
 
 
-@pytest.mark.parametrize("path", ["first.html", "reference/greenhouse/messages/VentsOpen.html"])
+@in_turn("path", lambda: ["first.html", "reference/greenhouse/messages/VentsOpen.html"])
 def test_one_link_of_the_sidebar_is_the_page_itself(path: str) -> None:
     page = lamps()[path]
     current = re.findall(r'href="([^"]*)" aria-current="page"', page.text)

@@ -17,6 +17,7 @@ from framegen.model.verdict import weigh_whole
 from framegen.render import snippets
 
 from tests.factories import compiled_file, library, library_files
+from tests.in_turn import in_turn
 from tests.lines.scripted_line import ScriptedLine
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import SPECS, reference
@@ -126,7 +127,7 @@ def test_every_snippet_of_a_protocol_runs(name: str) -> None:
                     assert bool(ran(made, snippet.code, None)) == received, message
 
 
-@pytest.mark.parametrize("message", SERVO.messages)
+@in_turn("message", lambda: SERVO.messages)
 def test_every_snippet_of_the_board_runs_against_a_virtual_one(message: str) -> None:
     found = shown(SERVO, message)
     assert tuple(found) == NAMES
@@ -140,7 +141,7 @@ def test_every_snippet_of_the_board_runs_against_a_virtual_one(message: str) -> 
     ran(busservo, found["Codec"].code, None)
 
 
-@pytest.mark.parametrize("message", SERVO.messages)
+@in_turn("message", lambda: SERVO.messages)
 def test_the_command_of_a_message_is_taken(
     message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -155,7 +156,7 @@ def test_the_command_of_a_message_is_taken(
     assert bool(capsys.readouterr().out) == asks
 
 
-@pytest.mark.parametrize("message", SERVO.messages)
+@in_turn("message", lambda: SERVO.messages)
 def test_the_page_shows_them_in_order_and_so_does_its_markdown(message: str) -> None:
     site = reference("busservo")
     page = site.pages[f"messages/{message}.html"]

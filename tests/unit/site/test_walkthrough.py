@@ -1,6 +1,5 @@
 """The walk through a stream that the pages show: step by step, and true to the reference."""
 
-import pytest
 from framegen.cases.invalid import spoilt
 from framegen.model.model import derive
 from framegen.targets.docs.drawing import interruption
@@ -8,6 +7,7 @@ from framegen.targets.docs.stream_examples import stream_examples
 from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 from tests.factories import DEMO, compiled_of, data_of, layout_of
+from tests.in_turn import in_turn
 from tests.unit.site.peers import Event, joined, noisy_lines, reference_events
 from tests.unit.site.reference import SPECS, reference
 
@@ -23,7 +23,7 @@ def events_of(shown: Walkthrough) -> list[Event]:
     ]
 
 
-@pytest.mark.parametrize("name", SPECS)
+@in_turn("name", lambda: SPECS)
 def test_what_is_shown_is_what_the_reference_says(name: str) -> None:
     model = reference(name).model
     shown = stream_examples(model)
@@ -45,7 +45,7 @@ def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
     assert reasons == {"unknown command", "count mismatch", "too short"}
 
 
-@pytest.mark.parametrize("name", SPECS)
+@in_turn("name", lambda: SPECS)
 def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
     layout = reference(name).model
     for line in noisy_lines(layout, 4, 200):

@@ -2,13 +2,13 @@
 
 import re
 
-import pytest
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.listing import edition_of
 from framegen.comparison.report.view import View
 from framegen.reading.source import Source
 
+from tests.in_turn import in_turn
 from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
 from tests.unit.site.reference import Page
 
@@ -48,9 +48,7 @@ def test_the_words_of_the_author_come_first() -> None:
         assert "<li>" in before, version
 
 
-@pytest.mark.parametrize(
-    ("version", "old", "new"), [("v3.0.0", SECOND, THIRD), ("v2.0.0", FIRST, SECOND)]
-)
+@in_turn("version, old, new", lambda: [("v3.0.0", SECOND, THIRD), ("v2.0.0", FIRST, SECOND)])
 def test_every_change_and_effect_of_the_comparison_is_told(
     version: str, old: str, new: str
 ) -> None:

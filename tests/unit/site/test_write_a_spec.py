@@ -3,7 +3,6 @@
 import re
 from typing import get_args
 
-import pytest
 from framegen.checks import remarks
 from framegen.compile import compile_spec
 from framegen.explain import explain
@@ -40,7 +39,7 @@ def test_the_guide_shows_three_specs() -> None:
     assert NAMES == ["kiln", "pumps", "gauges"]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@in_turn("name", lambda: NAMES)
 def test_an_example_is_a_spec_without_findings_and_other_remarks_than_shown(name: str) -> None:
     compiled = compile_spec(SPECS[name])
     assert [finding.render(SPECS[name]) for finding in compiled.findings] == []
@@ -48,7 +47,7 @@ def test_an_example_is_a_spec_without_findings_and_other_remarks_than_shown(name
     assert said == [text.partition("\n")[0] for text in REMARKS.get(name, [])]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@in_turn("name", lambda: NAMES)
 def test_a_copied_example_means_the_same_with_its_first_line(name: str) -> None:
     marked = [f"# {name}.yaml\n{text}" for each, text in BLOCKS if (each or "kiln") == name]
     assert compile_spec(Source("spec.yaml", "\n".join(marked))).findings == []
