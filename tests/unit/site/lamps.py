@@ -5,14 +5,16 @@ from __future__ import annotations
 import html
 import re
 from functools import cache
+from typing import TYPE_CHECKING
 
-from framegen.compile import Compiled, compile_spec
-from framegen.language.load import read_source
 from framegen.render import snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
 
-from tests.unit.site.reference import SPECS, Page
+from tests.unit.site.reference import Page, pages_of, reference
+
+if TYPE_CHECKING:
+    from framegen.compile import Compiled
 
 BASE = "https://example.org/docs/"
 README = """# Lamps
@@ -69,17 +71,15 @@ GUIDES = {
 }
 
 
-@cache
 def greenhouse() -> Compiled:
     """Return the spec of its reference."""
-    return compile_spec(read_source(SPECS["greenhouse"]))
+    return reference("greenhouse").compiled
 
 
 @cache
 def lamps(base: str = "", preview: bool = False) -> dict[str, Page]:
     """Return a small site of guides and one reference, a page by its path."""
-    made = rendered_lamps(base, preview)
-    return {path: Page(path, text) for path, text in made.items() if path.endswith(".html")}
+    return pages_of(rendered_lamps(base, preview))
 
 
 @cache

@@ -29,6 +29,8 @@ SPECS = {
     "busservo": ROOT / "spec" / "busservo.yaml",
     "greenhouse": ROOT / "tests" / "specs" / "demo.yaml",
 }
+# The smallest, for tests that need no spec in particular.
+LAMP = ROOT / "tests" / "specs" / "lamp.yaml"
 NODE = shutil.which("node")
 # Where `make docs-tools` puts what tests/unit/site/package.json names.
 NODE_MODULES = ROOT / ".tools" / "node" / "node_modules"

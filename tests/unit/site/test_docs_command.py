@@ -1,6 +1,5 @@
 """`framegen docs`: a site in a folder to look at."""
 
-import shutil
 import webbrowser
 from pathlib import Path
 
@@ -10,12 +9,12 @@ from framegen.render import snippets
 from framegen.site.project import read_project
 from framegen.site.site import render_site
 
+from tests.factories import compiled_file, write_files
 from tests.in_turn import in_turn
-from tests.unit.site.reference import ROOT, SPECS, reference
+from tests.unit.site.reference import LAMP
 
-# The first edition, so that it stays what it is.
-SPEC_FILE = ROOT / "spec" / "released" / "busservo-1.0.0.yaml"
-SPEC = str(SPECS["greenhouse"])
+SPEC = str(LAMP)
+TEXT = LAMP.read_text("utf-8")
 
 
 def written(folder: Path) -> set[str]:
@@ -28,7 +27,7 @@ def test_it_writes_the_pages_and_the_way_to_them(
     folder = tmp_path / "site"
     assert main(["docs", SPEC, "--out", str(folder)]) == 0
     assert capsys.readouterr().out.strip() == str(folder / "index.html")
-    project = read_project({Path(SPEC): reference("greenhouse").compiled})
+    project = read_project({LAMP: compiled_file(LAMP)})
     site = render_site(project, snippets())
     assert written(folder) == {"site.manifest", *site}
     for path, text in site.items():
@@ -69,7 +68,7 @@ def test_a_spec_with_findings_has_no_reference(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     broken = tmp_path / "broken.yaml"
-    broken.write_text(reference("busservo").source.text.replace("    id: 3\n", "    id: 300\n"))
+    broken.write_text(TEXT.replace("    id: 0x20\n", "    id: 300\n"))
     assert main(["docs", str(broken), "--out", str(tmp_path / "site")]) == 1
     said = capsys.readouterr()
     assert "id-range" in said.out
@@ -80,17 +79,17 @@ def test_a_spec_with_findings_has_no_reference(
 # ------------------------------------------------------------------ what is wrong with the rest
 
 
+RELEASED = "spec/released/stage_lamp-0.4.0.yaml"
+
+
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a project with a spec, one release of it, and a guide."""
-    folder = tmp_path / "project"
-    (folder / "spec" / "released").mkdir(parents=True)
-    shutil.copy(SPEC_FILE, folder / "spec" / "busservo.yaml")
-    shutil.copy(SPEC_FILE, folder / "spec" / "released" / "busservo-1.0.0.yaml")
-    (folder / "docs").mkdir()
-    (folder / "docs" / "README.md").write_text("# Servos\n", encoding="utf-8")
-    monkeypatch.chdir(folder)
-    return folder
+    write_files(
+        {"spec/stage_lamp.yaml": TEXT, RELEASED: TEXT, "docs/README.md": "# Lamps\n"}, tmp_path
+    )
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
@@ -103,16 +102,13 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     return said.err
 
 
-RELEASED = "spec/released/busservo-1.0.0.yaml"
-
-
 @in_turn(
     "text, message",
     lambda: [
-        ("", "busservo-1.0.0.yaml"),
+        ("", "stage_lamp-0.4.0.yaml"),
         ("a: [1", f"{RELEASED}:1:"),
         ("framegen: 2\n", f"{RELEASED} has "),
-        ("framegen: 99\n", "framegen: error: spec/released/busservo-1.0.0.yaml has 1 finding"),
+        ("framegen: 99\n", f"framegen: error: {RELEASED} has 1 finding"),
         ("x" * 1_000_001, f"{RELEASED} has 1.0 MB"),
     ],
 )
@@ -133,18 +129,17 @@ def test_a_release_that_is_no_text_is_named(
 @in_turn(
     "old, new, said",
     lambda: [
-        ('version: "1.0.0"\n  authority', 'version: "2.0.0"\n  authority', "busservo-2.0.0"),
-        ("name: busservo", "name: armservo", "armservo-1.0.0"),
+        ('version: "0.4.0"', 'version: "2.0.0"', "stage_lamp-2.0.0"),
+        ("name: stage_lamp", "name: armservo", "armservo-0.4.0"),
     ],
 )
 def test_a_release_says_what_its_name_says(
     project: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str
 ) -> None:
-    text = SPEC_FILE.read_text(encoding="utf-8")
-    assert text.count(old) == 1
-    (project / RELEASED).write_text(text.replace(old, new), encoding="utf-8")
+    assert TEXT.count(old) == 1
+    (project / RELEASED).write_text(TEXT.replace(old, new), encoding="utf-8")
     error = refused(capsys)
-    assert f"{RELEASED} says that it is {said}, and its name is busservo-1.0.0" in error
+    assert f"{RELEASED} says that it is {said}, and its name is stage_lamp-0.4.0" in error
     assert "hint: " in error
 
 
@@ -152,22 +147,19 @@ def test_a_release_that_cannot_be_shown_is_named(
     project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Rules of today are not held against it, but its source is nowhere."""
-    text = SPEC_FILE.read_text(encoding="utf-8")
-    text = text.replace("cite: vendor, section 1.6\n", "cite: vendr, section 1.6\n", 1)
+    text = TEXT.replace("cite: notes, page 1\n", "cite: ntes, page 1\n", 1)
     (project / RELEASED).write_text(text, encoding="utf-8")
     error = refused(capsys)
     assert f"{RELEASED} cannot be shown: it has 1 finding by today's rules" in error
-    assert "vendr" in error
+    assert "ntes" in error
     assert "Traceback" not in error
 
 
 def test_a_release_that_only_rules_dislike_is_shown(project: Path) -> None:
-    text = SPEC_FILE.read_text(encoding="utf-8")
-    (project / RELEASED).write_text(text.replace("Turn one", "  Turn one", 1), encoding="utf-8")
-    other = text.replace("hex: 55 55 06 14 03 01 02 03", "hex: 55 55 06 14 03 01 02 04")
+    other = TEXT.replace("hex: 7E 04 20 FF 00 00", "hex: 7E 04 20 FE 00 00")
     (project / RELEASED).write_text(other, encoding="utf-8")
     assert main(["docs", "--out", "site"]) == 0
-    assert Path("site/reference/busservo/1.0.0/messages/ServoUnload.html").is_file()
+    assert Path("site/reference/stage_lamp/0.4.0/messages/ColourShow.html").is_file()
 
 
 def test_a_base_must_be_an_address(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -182,8 +174,8 @@ def test_a_guide_that_is_no_text_is_named(
 
 
 def test_the_project_is_found_by_the_name_of_its_spec(project: Path) -> None:
-    assert main(["docs", "busservo", "--out", "site"]) == 0
-    assert Path("site/reference/busservo/1.0.0/index.html").is_file()
+    assert main(["docs", "stage_lamp", "--out", "site"]) == 0
+    assert Path("site/reference/stage_lamp/0.4.0/index.html").is_file()
 
 
 # ------------------------------------------------------------------ which guides it took
@@ -195,18 +187,18 @@ def test_it_says_which_guides_it_took(project: Path, capsys: pytest.CaptureFixtu
     for name in "abcdefgh":
         (project / "docs" / f"{name}.md").write_text(f"# {name}\n", encoding="utf-8")
     assert main(["docs", "--out", "site"]) == 0
-    assert capsys.readouterr().err.startswith("guides: README.md, a.md, b.md, c.md, d.md, e.md,")
-    assert main(["docs", "--out", "site"]) == 0
-    assert capsys.readouterr().err.endswith(" e.md, and 3 others, of docs/\n")
+    said = capsys.readouterr().err
+    assert said.startswith("guides: README.md, a.md, b.md, c.md, d.md, e.md,")
+    assert said.endswith(" e.md, and 3 others, of docs/\n")
 
 
 def test_it_says_that_it_took_none_and_how_to_give_some(
     project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["docs", "busservo", "--out", "site"]) == 0
+    assert main(["docs", "stage_lamp", "--out", "site"]) == 0
     assert "guides: none of docs/, since a spec is named; leave" in capsys.readouterr().err
     (project / "docs" / "README.md").unlink()
-    for words in ([], ["busservo"]):
+    for words in ([], ["stage_lamp"]):
         assert main(["docs", *words, "--out", "site"]) == 0
         assert (
             "guides: none, since there is no docs/README.md; begin one" in capsys.readouterr().err

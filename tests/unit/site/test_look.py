@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,8 +19,10 @@ from framegen.site.site import render_site
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.unit.site.lamps import BASE, GUIDES, greenhouse, metas, title
-from tests.unit.site.reference import SPECS, Page
+from tests.factories import write_files
+from tests.in_turn import in_turn
+from tests.unit.site.lamps import BASE, GUIDES, greenhouse, lamps, metas, rendered_lamps, title
+from tests.unit.site.reference import LAMP, Page, pages_of
 
 if TYPE_CHECKING:
     from framegen.site.shades import Theme
@@ -39,16 +41,18 @@ COLOURS = st.integers(0, 0xFFFFFF).map("#{:06x}".format)
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a project with a spec, two guides and a logo."""
-    (tmp_path / "spec").mkdir()
-    shutil.copy(SPECS["greenhouse"], tmp_path / "spec" / "greenhouse.yaml")
-    (tmp_path / "docs" / "images").mkdir(parents=True)
-    (tmp_path / "docs" / "images" / "our logo.svg").write_bytes(SVG)
-    (tmp_path / "docs" / "mark.png").write_bytes(b"\x89PNG")
-    for name in ("README.md", "first.md"):
-        (tmp_path / "docs" / name).write_text(GUIDES[name], encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+    """Return a project with a spec, two guides, a logo, and pictures that are none of its own."""
+    folder = tmp_path / "project"
+    write_files({f"docs/{name}": GUIDES[name] for name in ("README.md", "first.md")}, folder)
+    write_files({"spec/lamp.yaml": LAMP.read_text("utf-8")}, folder)
+    (folder / "docs" / "images").mkdir()
+    (folder / "docs" / "images" / "our logo.svg").write_bytes(SVG)
+    (folder / "docs" / "mark.png").write_bytes(b"\x89PNG")
+    (folder / "docs" / "huge.png").write_bytes(bytes(1_100_000))
+    (tmp_path / "outside.png").write_bytes(b"")
+    (folder / "docs" / "linked.png").symlink_to(tmp_path / "outside.png")
+    monkeypatch.chdir(folder)
+    return folder
 
 
 def settings(text: str) -> SiteSettings:
@@ -56,18 +60,18 @@ def settings(text: str) -> SiteSettings:
     return load_settings(Source("docs/site.yaml", text))[0]
 
 
-def site(text: str, base: str = "") -> dict[str, Page]:
+@cache
+def site(text: str, base: str = BASE) -> dict[str, Page]:
     """Return the pages of a small site that looks as a file of settings says."""
     look = Look(settings(text))
-    files = render_site(Project([greenhouse()], GUIDES, base=base, look=look), snippets())
-    return {path: Page(path, made) for path, made in files.items() if path.endswith(".html")}
+    return pages_of(render_site(Project([greenhouse()], GUIDES, base=base, look=look), snippets()))
 
 
 # ------------------------------------------------------------------ what it wears
 
 
 def test_every_page_wears_what_the_settings_say() -> None:
-    pages = site(OWN)
+    pages = {path: page for path, page in site(OWN).items() if path != "404.html"}
     assert title(pages["index.html"]) == "<b>Lamps</b> & more"
     for path, page in pages.items():
         above = "../" * path.count("/")
@@ -80,9 +84,9 @@ def test_every_page_wears_what_the_settings_say() -> None:
         assert metas(page)["og:site_name"] == "<b>Lamps</b> & more"
 
 
-@pytest.mark.parametrize(
-    ("page", "words", "path"),
-    [
+@in_turn(
+    "page, words, path",
+    lambda: [
         ("index.html", "Edit this page", "docs/README.md"),
         ("first.html", "Edit this page", "docs/first.md"),
         ("project/changelog.html", "Edit this page", "CHANGELOG.md"),
@@ -92,7 +96,7 @@ def test_every_page_wears_what_the_settings_say() -> None:
     ],
 )
 def test_a_page_leads_to_where_its_file_is_edited(page: str, words: str, path: str) -> None:
-    shown = site(OWN, BASE)[page]
+    shown = site(OWN)[page]
     edits = [link for link in shown.links if link.startswith("https://example.org/edit/")]
     assert edits == ([f"https://example.org/edit/{path}?branch=main"] if path else [])
     assert words in shown.words
@@ -100,12 +104,9 @@ def test_a_page_leads_to_where_its_file_is_edited(page: str, words: str, path: s
 
 
 def test_nothing_is_worn_that_is_not_set() -> None:
-    plain = site("")
-    look = render_site(Project([greenhouse()], GUIDES), snippets())
-    assert {path: page.text for path, page in plain.items()} == {
-        path: text for path, text in look.items() if path.endswith(".html")
-    }
-    assert not [page.path for page in plain.values() if page.tags.count(("img", {}))]
+    project = Project([greenhouse()], GUIDES, version="4.5.6", look=Look(settings("")))
+    assert render_site(project, snippets()) == rendered_lamps()
+    assert not [page.path for page in lamps().values() if page.tags.count(("img", {}))]
 
 
 def test_the_logo_of_all_sites_has_their_accent() -> None:
@@ -121,11 +122,11 @@ def test_an_icon_stands_for_a_logo_and_a_logo_for_an_icon() -> None:
     assert (both.logo, both.icon) == ("images/a.svg", "images/b.svg")
 
 
-@pytest.mark.parametrize("named", [["spec/greenhouse.yaml"], []], ids=["a spec", "no spec"])
+@in_turn("named", lambda: [["spec/lamp.yaml"], []])
 def test_a_reference_alone_wears_it_too(project: Path, named: list[str]) -> None:
     (project / "docs" / "site.yaml").write_text(OWN, encoding="utf-8")
-    (project / "docs" / "README.md").unlink()
-    assert main(["docs", *named, "--out", "built"]) == 0
+    (project / "docs" / "README.md").unlink(missing_ok=True)
+    assert main(["docs", *named, "--out", "built", "--force"]) == 0
     page = Page("index.html", Path("built/index.html").read_text(encoding="utf-8"))
     assert title(page) == "<b>Lamps</b> & more"
     assert "<script>alert(1)</script> & friends" in page.words
@@ -171,14 +172,10 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("text", "why", "hint"), REFUSED)
+@in_turn("text, why, hint", lambda: REFUSED)
 def test_what_is_wrong_is_told_with_its_place(
     text: str, why: str, hint: str, project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (project / "docs" / "huge.png").write_bytes(bytes(1_100_000))
-    outside = project.parent / f"{project.name}.png"
-    outside.write_bytes(b"")
-    (project / "docs" / "linked.png").symlink_to(outside)
     (project / "docs" / "site.yaml").write_text(f"{text}\n", encoding="utf-8")
     assert main(["docs", "--out", "site"]) == 2
     said = capsys.readouterr()
@@ -197,10 +194,10 @@ def test_all_that_is_wrong_is_told_at_once(
     assert "docs/site.yaml has 3 findings\n" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("text", ["", "# title: x\n", "---\n", "title: x\n"])
-def test_every_key_may_be_left_out(text: str, project: Path) -> None:
-    (project / "docs" / "site.yaml").write_text(text, encoding="utf-8")
-    assert main(["docs", "--out", "site"]) == 0
+def test_every_key_may_be_left_out() -> None:
+    for text in ("", "# title: x\n", "---\n"):
+        assert settings(text) == SiteSettings()
+    assert settings("title: x\n") == SiteSettings(title="x")
 
 
 # ------------------------------------------------------------------ colours

@@ -7,6 +7,7 @@ import posixpath
 import re
 import shutil
 from contextlib import redirect_stderr, redirect_stdout
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import unquote
@@ -15,12 +16,13 @@ import pytest
 from framegen.cli import main
 from framegen.site.guides.links import is_elsewhere
 
-from tests.unit.site.reference import ROOT, Page
+from tests.factories import write_files
+from tests.in_turn import in_turn
+from tests.unit.site.reference import LAMP, Page
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-LAMP = ROOT / "tests" / "specs" / "lamp.yaml"
 PLAN = """# Lamps
 
 All of them.
@@ -143,15 +145,11 @@ def cases(guide: str, lines: list[str]) -> Iterator[Case]:
 
 
 def written(root: Path, guides: dict[str, str]) -> Path:
-    """Write a project, with a guide from each of the places where guides are."""
-    (root / "spec").mkdir(parents=True)
-    shutil.copy(LAMP, root / "spec" / "lamp.yaml")
-    for name in FILES:
-        (root / name).parent.mkdir(parents=True, exist_ok=True)
-        (root / name).write_text("x\n", encoding="utf-8")
-    (root.parent / "beyond.txt").write_text("x\n", encoding="utf-8")
-    for name, text in guides.items():
-        (root / "docs" / name).write_text(text, encoding="utf-8")
+    """Write a project anew, with a guide from each of the places where guides are."""
+    shutil.rmtree(root, ignore_errors=True)
+    write_files(dict.fromkeys([*FILES, "../beyond.txt"], "x\n"), root)
+    write_files({"spec/lamp.yaml": LAMP.read_text("utf-8")}, root)
+    write_files({f"docs/{name}": text for name, text in guides.items()}, root)
     return root
 
 
@@ -197,18 +195,22 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
     return Built(due, root.parent / "site", told)
 
 
-@pytest.mark.parametrize("guide", GUIDES)
+@in_turn("guide", lambda: GUIDES)
 def test_what_is_not_on_the_page_is_told_and_nothing_else(built: Built, guide: str) -> None:
     expected = {(case.line, case.column) for case in built.due[guide] if not case.kept}
     assert built.told[guide] == expected
     assert built.told.keys() == GUIDES.keys()
 
 
-@pytest.mark.parametrize("guide", GUIDES)
+@cache
+def page_in(site: Path, path: str) -> Page:
+    return Page(path, (site / path).read_text("utf-8"))
+
+
+@in_turn("guide", lambda: GUIDES)
 def test_what_is_not_told_is_on_the_page(built: Built, guide: str) -> None:
     path = GUIDES[guide][0]
-    page = Page(path, (built.site / path).read_text("utf-8"))
-    pages = {path: page}
+    page = page_in(built.site, path)
     for case in built.due[guide]:
         if (case.line, case.column) in built.told[guide]:
             continue
@@ -221,8 +223,7 @@ def test_what_is_not_told_is_on_the_page(built: Built, guide: str) -> None:
         file = built.site / unquote(where)
         assert file.is_file(), case
         if anchor:
-            pages.setdefault(where, Page(where, file.read_text("utf-8")))
-            assert unquote(anchor) in pages[where].ids, case
+            assert unquote(anchor) in page_in(built.site, where).ids, case
 
 
 # ------------------------------------------------------------------ the README
@@ -246,7 +247,7 @@ PLANS = {
 }
 
 
-@pytest.mark.parametrize("text", PLANS)
+@in_turn("text", lambda: PLANS)
 def test_what_of_the_plan_is_on_no_page_is_told(tmp_path: Path, text: str) -> None:
     readme = f"{PLAN}{text}\n"
     root = written(tmp_path / "root", {"README.md": readme, **heads()})
@@ -265,9 +266,9 @@ def heads() -> dict[str, str]:
     return {guide: text for guide, (_, text) in GUIDES.items()}
 
 
-@pytest.mark.parametrize(
-    ("readme", "title"),
-    [
+@in_turn(
+    "readme, title",
+    lambda: [
         ("Only words.\n", "Guides"),
         ("## Learn\n\n- [First](first.md)\n", "Guides"),
         ("Lamps\n=====\n\nAll of them.\n", "Lamps"),

@@ -15,12 +15,11 @@ from framegen.site.site import render_site
 
 from tests.factories import compiled_file
 from tests.in_turn import in_turn
-from tests.unit.site.reference import ROOT
+from tests.unit.site.reference import LAMP
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-LAMP = ROOT / "tests" / "specs" / "lamp.yaml"
 PLAN = "# Lamps\n\nAll of them.\n\n## Learn\n\n"
 
 
