@@ -7,17 +7,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.language.load import read_source
 
 from tests.factories import DEMO, compiled_file, library, library_files
 from tests.in_turn import in_turn
-from tests.unit.site.reference import SPECS, reference_of
+from tests.unit.site.reference import SPECS, Reference
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
     from pathlib import Path
-
-    from tests.unit.site.reference import Reference
 
 EVERYTHING = DEMO.with_name("everything.yaml")
 LOW, HIGH = "low byte first", "high byte first"
@@ -67,7 +64,7 @@ def references() -> Iterator[dict[Path, tuple[Reference, Callable[[list[str]], i
     with library(library_files(compiled_file(EVERYTHING))) as everything:
         packages = {SPECS["busservo"]: "busservo", EVERYTHING: everything.__name__}
         yield {
-            spec: (reference_of(read_source(spec)), import_module(f"{name}._cli").main)
+            spec: (Reference(compiled_file(spec)), import_module(f"{name}._cli").main)
             for spec, name in packages.items()
         }
 
@@ -108,7 +105,7 @@ def test_the_order_stands_at_every_number_and_at_nothing_else(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     site, command = references[spec]
-    page = site.pages[f"messages/{message}.html"].text
+    page = site.page(f"messages/{message}.html").text
     text = site.files[f"messages/{message}.md"]
     assert command(["docs", message]) == 0
     strip, _, fields = capsys.readouterr().out.partition("\nBytes\n")[2].partition("\nFields\n")

@@ -97,6 +97,21 @@ def asked(compiled: Compiled, program: str, texts: Sequence[tuple[str, str]]) ->
     return answers
 
 
+def frames_of(compiled: Compiled) -> list[tuple[str, str]]:
+    """Return the message and the bytes of each frame among the vectors."""
+    valid = vectors_of(compiled)["valid"]
+    return [(each["message"], each["hex"].replace(" ", "").lower()) for each in valid]
+
+
+def read_back(compiled: Compiled) -> list[tuple[str, str]]:
+    """Return the same, as it is read from what is written of each."""
+    frames = frames_of(compiled)
+    written = asked(compiled, WRITE, frames)
+    texts = [(kind, text) for (kind, _), text in zip(frames, written, strict=True)]
+    answers = asked(compiled, READ, texts)
+    return [(kind, each.get("hex", each)) for (kind, _), each in zip(frames, answers, strict=True)]
+
+
 def test_what_the_command_takes_makes_the_same_frame() -> None:
     answers = asked(reference("busservo").compiled, READ, GOOD)
     for (name, text), answer in zip(GOOD, answers, strict=True):
@@ -124,17 +139,7 @@ def test_numbers_that_no_frame_carries_are_named_with_their_bounds() -> None:
 @in_turn("name", lambda: ["busservo", "everything"])
 def test_what_is_written_is_read_back(name: str) -> None:
     compiled = reference(name).compiled if name == "busservo" else compiled_file(FILES[name])
-    frames = [
-        (each["message"], each["hex"].replace(" ", "").lower())
-        for each in vectors_of(compiled)["valid"]
-    ]
-    written = asked(compiled, WRITE, frames)
-    again = asked(
-        compiled,
-        READ,
-        [(kind, text) for (kind, _), text in zip(frames, written, strict=True)],
-    )
-    assert [answer.get("hex", answer) for answer in again] == [frame for _, frame in frames]
+    assert read_back(compiled) == frames_of(compiled)
 
 
 def test_a_name_that_every_object_of_a_script_has_is_a_name_like_others() -> None:
@@ -142,15 +147,7 @@ def test_a_name_that_every_object_of_a_script_has_is_a_name_like_others() -> Non
     for name in ("sequence", "second", "mode", "idle", "voltage"):
         changed = compiled_of(renamed(data, name, "constructor"))
         assert [finding.message for finding in changed.findings] == []
-        frames = [(each["message"], each["hex"]) for each in vectors_of(changed)["valid"]]
-        written = asked(changed, WRITE, [(kind, text.replace(" ", "")) for kind, text in frames])
-        again = asked(
-            changed,
-            READ,
-            [(kind, text) for (kind, _), text in zip(frames, written, strict=True)],
-        )
-        for answer, (_, text) in zip(again, frames, strict=True):
-            assert answer == {"hex": text.replace(" ", "").lower()}, name
+        assert read_back(changed) == frames_of(changed), name
     # What is not given is not there, though every object has something of that name.
     strange = [("Flags", "error=constructor mode=1 position=1 temperature=1")]
     (answer,) = asked(compiled_file(FILES["everything"]), READ, strange)

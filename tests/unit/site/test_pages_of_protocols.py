@@ -6,6 +6,7 @@ So is its search: it has all there is, and leads to it.
 from __future__ import annotations
 
 import json
+import re
 from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any
@@ -16,9 +17,9 @@ from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.targets.docs.stream_examples import stream_examples
 from framegen.targets.docs.walkthrough import walkthrough
 
-from tests.factories import compiled_file
+from tests.factories import compiled_file, data_of
 from tests.in_turn import in_turn
-from tests.protocols.specs import FILES, model_of
+from tests.protocols.specs import FILES
 from tests.unit.site.peers import joined, noisy_lines, reference_events
 from tests.unit.site.reference import NODE, SPECS, Reference, broken_links, reference
 from tests.unit.site.scripts import run_script
@@ -96,6 +97,16 @@ def test_every_part_and_every_field_is_shown(name: str) -> None:
 
 
 @of_each
+def test_every_note_is_shown(name: str) -> None:
+    site = site_of(name)
+    notes = re.findall(r"'text': '([^']+)', 'cite'", str(data_of(ALL[name])))
+    assert len(notes) >= (5 if name == "everything" else 0)
+    pages = " ".join(page.words for path, page in site.pages.items() if path != "spec.html")
+    kept = " ".join(site.files.values())
+    assert [text for text in notes if text not in pages or text not in kept] == []
+
+
+@of_each
 def test_no_page_shows_what_is_not_there(name: str) -> None:
     for path, text in site_of(name).files.items():
         assert "| None" not in text, path
@@ -164,13 +175,17 @@ def test_every_documented_frame_is_found_by_its_bytes(name: str) -> None:
 
 
 @pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", ALL)
 def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
-    model = model_of(name)
+    model = compiled_file(ALL[name]).model
     shown = stream_examples(model)
+    assert len(shown) >= (3 if name in SPECS else 1)
     assert shown[0].walkthrough.events[0].message
+    # Whether a frame of unknown id proves by itself that it is one.
+    is_proof = any(frame.proves_unknown for frame in model.envelopes.values())
+    many = 200 if name in SPECS else 40
     examples = [(each.walkthrough.direction, each.walkthrough.data) for each in shown]
-    lines = [(model.directions[0], line) for line in noisy_lines(model, 4, 40)]
+    lines = [(model.directions[0], line) for line in noisy_lines(model, 4, many)]
     for way, line in examples + lines:
         walk = walkthrough(model, way, line)
         events = [
@@ -182,18 +197,13 @@ def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
             for each in walk.events
         ]
         expected = [
-            ["noise" if kind == "unknown" and not proves_unknown(name) else kind, data, what]
+            ["noise" if kind == "unknown" and not is_proof else kind, data, what]
             for kind, data, what in reference_events(model, line, way)
         ]
         assert joined(events) == joined(expected), line.hex(" ")
         for step in walk.steps:
             data = bytes.fromhex(step.bytes)
             assert line[step.offset : step.offset + len(data)] == data
-
-
-def proves_unknown(name: str) -> bool:
-    """Tell whether a frame of unknown id proves by itself that it is one."""
-    return any(frame.proves_unknown for frame in model_of(name).envelopes.values())
 
 
 # What a reader finds, by protocol and page.

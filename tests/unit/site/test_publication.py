@@ -9,13 +9,10 @@ from xml.etree import ElementTree as ET
 import pytest
 from framegen.cli import main
 from framegen.reading.yamltree import Unusable
-from framegen.render import snippets
-from framegen.site.project import Project
 from framegen.site.publication import base_address
-from framegen.site.site import render_site
 
 from tests.in_turn import in_turn
-from tests.unit.site.lamps import BASE, GUIDES, greenhouse, lamps, metas
+from tests.unit.site.lamps import BASE, lamps, metas, rendered_lamps
 from tests.unit.site.reference import ROOT, SPECS
 
 if TYPE_CHECKING:
@@ -52,8 +49,7 @@ def test_the_page_for_broken_links_works_at_any_address() -> None:
 
 
 def test_the_sitemap_lists_every_page_once_and_robots_lead_to_it() -> None:
-    compiled = greenhouse()
-    made = render_site(Project([compiled], GUIDES, base=BASE), snippets())
+    made = rendered_lamps(BASE)
     root = ET.fromstring(made["sitemap.xml"])  # noqa: S314 - our own
     places = [each.text for each in root.iter("{http://www.sitemaps.org/schemas/sitemap/0.9}loc")]
     pages = [path for path in made if path.endswith(".html") and path != "404.html"]

@@ -32,7 +32,7 @@ from tests.unit.site.scripts import run_script
 from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from busservo._client.request import Request
     from framegen.model.model import Model
@@ -258,68 +258,58 @@ def outcomes(found: dict[str, Any]) -> list[Any]:
     return [each for each in found["said"] if each[0] in ("answer", "silence")]
 
 
-ANSWERS: dict[str, tuple[list[tuple[float, str, bytes]], list[list[Any]]]] = {
-    "at once": (
-        [(0, "sent", ASK), (20, "received", VOLTAGE)],
-        [["answer", "BatteryVoltageRead", "BatteryVoltage", 20, False, []]],
-    ),
-    "incomplete": (
-        [(0, "sent", WHERE), (40, "received", THERE)],
-        [["answer", "ServoPositionsRead", "ServoPositions", 40, False, ["servo_ids 9"]]],
-    ),
-    "what was not asked for is no answer": (
-        [
-            (0, "sent", WHERE),
-            (40, "received", ServoPositions([(3, 1)]).encode()),
-            (900, "tick", b""),
-        ],
-        [["silence", "ServoPositionsRead"]],
-    ),
-    "twice": (
-        [(0, "sent", ASK), (20, "received", VOLTAGE), (30, "received", VOLTAGE)],
-        [["answer", "BatteryVoltageRead", "BatteryVoltage", 20, False, []]],
-    ),
-    "late": (
-        [(0, "sent", ASK), (300, "tick", b""), (700, "received", VOLTAGE)],
-        [
-            ["silence", "BatteryVoltageRead"],
-            ["answer", "BatteryVoltageRead", "BatteryVoltage", 700, True, []],
-        ],
-    ),
+# What is sent (>) and received (<), at which ms, or that time passes; and what is said of it: of
+# each answer how long it took, and whether it is late or what is missing in it.
+PIECES = {
+    "ask": ASK,
+    "voltage": VOLTAGE,
+    "its first bytes": VOLTAGE[:3],
+    "the rest": VOLTAGE[3:],
+    "where": WHERE,
+    "there": THERE,
+    "another": ServoPositions([(3, 1)]).encode(),
+}
+ANSWERS = {
+    "at once": ("0 > ask | 20 < voltage", "voltage after 20"),
+    "incomplete": ("0 > where | 40 < there", "positions after 40 without servo_ids 9"),
+    "what was not asked for is no answer": ("0 > where | 40 < another | 900 tick", "silence"),
+    "twice": ("0 > ask | 20 < voltage | 30 < voltage", "voltage after 20"),
+    "late": ("0 > ask | 300 tick | 700 < voltage", "silence | voltage after 700 late"),
     "late, and too soon for the next question": (
-        [
-            (0, "sent", ASK),
-            (300, "tick", b""),
-            (400, "sent", ASK),
-            (403, "received", VOLTAGE),
-            (420, "received", VOLTAGE),
-        ],
-        [
-            ["silence", "BatteryVoltageRead"],
-            ["answer", "BatteryVoltageRead", "BatteryVoltage", 403, True, []],
-            ["answer", "BatteryVoltageRead", "BatteryVoltage", 20, False, []],
-        ],
+        "0 > ask | 300 tick | 400 > ask | 403 < voltage | 420 < voltage",
+        "silence | voltage after 403 late | voltage after 20",
     ),
     "just before its time is over": (
-        [
-            (0, "sent", ASK),
-            (255, "received", VOLTAGE[:3]),
-            (262, "tick", b""),
-            (270, "received", VOLTAGE[3:]),
-        ],
-        [["answer", "BatteryVoltageRead", "BatteryVoltage", 270, False, []]],
+        "0 > ask | 255 < its first bytes | 262 tick | 270 < the rest",
+        "voltage after 270",
     ),
-    "the line is closed": (
-        [(0, "sent", ASK), (5, "end", b"")],
-        [["silence", "BatteryVoltageRead"]],
-    ),
+    "the line is closed": ("0 > ask | 5 end", "silence"),
 }
+
+
+def steps_of(text: str) -> Iterator[tuple[float, str, bytes]]:
+    for each in text.split(" | "):
+        at, what, *piece = each.split(" ", 2)
+        does = {">": "sent", "<": "received"}.get(what, what)
+        yield float(at), does, PIECES[piece[0]] if piece else b""
+
+
+def in_words(outcome: list[Any]) -> str:
+    """Return what is said of a question, which is of the kind of its answer."""
+    kind, question, *answer = outcome
+    if kind == "silence":
+        return "silence"
+    name, took, late, missing = answer
+    assert name == question.removesuffix("Read")
+    short = {"BatteryVoltage": "voltage", "ServoPositions": "positions"}[name]
+    end = " late" if late else f" without {', '.join(missing)}" if missing else ""
+    return f"{short} after {took}{end}"
 
 
 @in_turn("case", lambda: ANSWERS)
 def test_a_reply_answers_what_was_asked(case: str) -> None:
     steps, expected = ANSWERS[case]
-    assert outcomes(talk(steps)) == expected
+    assert " | ".join(map(in_words, outcomes(talk(steps_of(steps))))) == expected
 
 
 @in_turn(

@@ -7,9 +7,8 @@ from framegen.targets.docs.stream_examples import stream_examples
 from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 from tests.factories import DEMO, compiled_of, data_of, layout_of
-from tests.in_turn import in_turn
-from tests.unit.site.peers import Event, joined, noisy_lines, reference_events
-from tests.unit.site.reference import SPECS, reference
+from tests.unit.site.peers import Event
+from tests.unit.site.reference import reference
 
 BUSSERVO = reference("busservo").model
 
@@ -23,18 +22,6 @@ def events_of(shown: Walkthrough) -> list[Event]:
     ]
 
 
-@in_turn("name", lambda: SPECS)
-def test_what_is_shown_is_what_the_reference_says(name: str) -> None:
-    model = reference(name).model
-    shown = stream_examples(model)
-    assert len(shown) >= 3
-    for example in shown:
-        data, way = example.walkthrough.data, example.walkthrough.direction
-        assert joined(events_of(example.walkthrough)) == reference_events(model, data, way), (
-            example.id
-        )
-
-
 def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
     reasons = {
         event.reason
@@ -43,17 +30,6 @@ def test_the_reference_shows_every_way_to_refuse_that_noise_meets() -> None:
         if event.reason
     }
     assert reasons == {"unknown command", "count mismatch", "too short"}
-
-
-@in_turn("name", lambda: SPECS)
-def test_no_byte_is_lost_and_every_step_shows_bytes_of_the_line(name: str) -> None:
-    layout = reference(name).model
-    for line in noisy_lines(layout, 4, 200):
-        shown = walkthrough(layout, layout.directions[0], line)
-        assert b"".join(event.data for event in shown.events) == line
-        for step in shown.steps:
-            data = bytes.fromhex(step.bytes)
-            assert line[step.offset : step.offset + len(data)] == data
 
 
 def test_a_stray_byte_costs_one_byte() -> None:
