@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from framegen import site
+from framegen.site.scripts.line_data import LINE_SCRIPT
 
 from tests.unit.site.reference import NODE
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 STATIC = Path(site.__file__).parent / "static" / "js"
+# What talks over a line, but for what touches the page.
+_PANEL = ("serial_settings", "serial_file", "serial_log", "serial_panel")
+SESSION = [name for name in LINE_SCRIPT if name not in _PANEL]
 HOST = Path(__file__).with_name("script_host.js")
 
 # What JSON cannot say goes as an object: {"number": "9007199254740993"}.
@@ -45,16 +49,20 @@ def run_script(names: Iterable[str], program: str, asked: object, *others: str) 
     texts = [(STATIC / f"{name}.js").read_text("utf-8") for name in names]
     text = "\n".join([*texts, *others, _BEGIN, program, _END])
     question = {"text": text, "given": json.dumps(_sayable(asked))}
+    said = json.loads(_answer(json.dumps(question)))
+    if said.get("isEnd"):
+        _node.cache_clear()
+    assert "failure" not in said, said["failure"]
+    return json.loads(said["answer"], object_hook=_meant, parse_int=_whole)
+
+
+def _answer(question: str) -> str:
     process = _node()
     assert process.stdin is not None
     assert process.stdout is not None
-    process.stdin.write(f"{json.dumps(question)}\n")
+    process.stdin.write(f"{question}\n")
     process.stdin.flush()
-    line = process.stdout.readline()
-    assert line, "node has ended"
-    said = json.loads(line)
-    assert "failure" not in said, said["failure"]
-    return json.loads(said["answer"], object_hook=_meant, parse_int=_whole)
+    return process.stdout.readline()
 
 
 @cache

@@ -63,7 +63,7 @@ ENVELOPES: dict[str, dict[str, Any]] = {
 }
 
 
-each_protocol = pytest.mark.parametrize("name", [*SPECS, *ENVELOPES])
+of_each = pytest.mark.parametrize("name", [*SPECS, *ENVELOPES])
 
 PROGRAM = """
 const codec = makeCodec(asked.protocol);
@@ -121,7 +121,7 @@ def ways_of(model: Model) -> list[tuple[str | None, list[Direction]]]:
 
 
 @pytest.mark.each_protocol
-@each_protocol
+@of_each
 def test_streams_are_decoded_as_the_reference_decodes_them(name: str) -> None:
     model, chance = model_of(name), random.Random(name)  # noqa: S311 - the same in every run
     questions: list[tuple[Any, ...]] = []
@@ -172,7 +172,7 @@ def _events(
 
 
 @pytest.mark.each_protocol
-@each_protocol
+@of_each
 def test_single_frames_are_judged_as_the_reference_judges_them(name: str) -> None:
     model = model_of(name)
     asked = [
@@ -195,7 +195,7 @@ def _verdict(model: Model, way: Direction | None, data: bytes) -> list[Any]:
 
 
 @pytest.mark.each_protocol
-@each_protocol
+@of_each
 def test_every_example_is_encoded_as_the_reference_encodes_it(name: str) -> None:
     model = model_of(name)
     examples = [

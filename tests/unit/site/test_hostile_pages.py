@@ -5,7 +5,6 @@ import re
 from functools import cache
 from typing import Any
 
-from framegen.compile import compile_spec
 from framegen.reading.yamltree import read_tree
 from framegen.site.escape import linked, script_json
 
@@ -60,9 +59,9 @@ def hostile(payload: str = HOSTILE) -> Reference:
     spoilt["messages"]["ServoMove"]["deprecated"] = payload
     # The field that it names has a unit of time, and no other text.
     del spoilt["messages"]["ServoMove"]["lasts"]
-    source = respelled(spoilt)
-    assert [finding.rule for finding in compile_spec(source).findings] == []
-    return reference_of(source)
+    made = reference_of(respelled(spoilt))
+    assert [finding.rule for finding in made.compiled.findings] == []
+    return made
 
 
 def skeleton(page: Page) -> list[tuple[str, tuple[str, ...]]]:

@@ -13,7 +13,7 @@ from framegen.language.spec import Spec
 from framegen.model.codec import encode
 from framegen.model.model import derive
 from framegen.site.scripts.codec_scripts import codec_scripts
-from framegen.site.scripts.line_data import LINE_SCRIPT, line_data
+from framegen.site.scripts.line_data import line_data
 from framegen.site.scripts.protocol_data import protocol_data
 from hypothesis import settings
 
@@ -21,7 +21,7 @@ from tests.factories import compiled_of, data_of, library, library_files
 from tests.in_turn import in_turn
 from tests.protocols.specs import model_of
 from tests.unit.site.reference import NODE, ROOT, reference
-from tests.unit.site.scripts import run_script
+from tests.unit.site.scripts import SESSION, run_script
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
-# All but what touches the page.
-PANEL = ("serial_settings", "serial_file", "serial_log", "serial_panel")
-SESSION = [name for name in LINE_SCRIPT if name not in PANEL]
 ANY = None
 # What the client adds for whoever has Python at hand.
 TARGETS = "{}() makes targets of what was read; "

@@ -21,14 +21,14 @@ from busservo._codec.decoder import StreamDecoder
 from busservo._frame.direction import RECEIVED
 from framegen.model.codec import encode
 from framegen.site.scripts.codec_scripts import codec_scripts
-from framegen.site.scripts.line_data import LINE_SCRIPT, line_data
+from framegen.site.scripts.line_data import line_data
 from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.bad_specs import BASES
 from tests.factories import compiled_file
 from tests.in_turn import in_turn
 from tests.unit.site.reference import NODE, reference
-from tests.unit.site.scripts import run_script
+from tests.unit.site.scripts import SESSION, run_script
 from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
 
 if TYPE_CHECKING:
@@ -39,19 +39,13 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 MODEL = reference("busservo").model
-# All but what touches the page.
-SCRIPTS = [
-    name
-    for name in LINE_SCRIPT
-    if name not in ("serial_settings", "serial_file", "serial_log", "serial_panel")
-]
 _WAIT = "const wait = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });"
 
 
 def answers(program: str, asked: object = None) -> Any:
     """Run the body of an async function behind the scripts of a line, and return its result."""
     fake, whole = FAKE_SERIAL.read_text("utf-8"), f"const answers = (async () => {{{program}}})();"
-    return run_script([*codec_scripts(MODEL), *SCRIPTS], whole, asked, fake, _WAIT)
+    return run_script([*codec_scripts(MODEL), *SESSION], whole, asked, fake, _WAIT)
 
 
 # ---------------------------------------------------------------------------- the port
