@@ -15,10 +15,16 @@ function compiled(text) {
   return programs.get(text);
 }
 
-const say = (said, then) => process.stdout.write(`${JSON.stringify(said)}\n`, then);
+let isOver = false;
+function say(said, then) {
+  if (!isOver) process.stdout.write(`${JSON.stringify(said)}\n`, then);
+}
 const failure = (error) => String(error?.stack ?? error);
 const fail = (error) => say({ failure: failure(error) });
-const end = (error) => say({ failure: failure(error), isEnd: true }, () => process.exit(1));
+function end(error) {
+  say({ failure: failure(error), isEnd: true }, () => process.exit(1));
+  isOver = true;
+}
 
 // Timers of programs keep a process alive; ours do not.
 const isWaiting = () => process.getActiveResourcesInfo().includes("Timeout");
@@ -34,6 +40,8 @@ async function run({ text, given }) {
     }
   };
   await Promise.race([answer, watch()]);
+  // A promise that nobody waits for has failed by then.
+  await new Promise((resolve) => { setImmediate(resolve); });
   while (isWaiting()) await pause();
   return answer;
 }

@@ -51,6 +51,7 @@ def run_script(names: Iterable[str], program: str, asked: object, *others: str) 
     question = {"text": text, "given": json.dumps(_sayable(asked))}
     said = json.loads(_answer(json.dumps(question)))
     if said.get("isEnd"):
+        _node().wait()
         _node.cache_clear()
     assert "failure" not in said, said["failure"]
     return json.loads(said["answer"], object_hook=_meant, parse_int=_whole)

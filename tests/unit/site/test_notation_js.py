@@ -64,6 +64,7 @@ GOOD = [
 # Words that it refuses, and the part that is wrong.
 BAD = [
     ("ServoMove", "time_ms=800 targets=1:2:3", "1:2:3"),
+    ("ServoMove", "time_ms=800 targets=1:2,3:4:5", "3:4:5"),
     ("ServoMove", "time_ms=800 targets=1:800,,2:3", ""),
     ("ServoMove", "time_ms=800 targets=1:800,", ""),
     ("ServoMove", "time_ms=800 targets=1:800, 2:3", ""),

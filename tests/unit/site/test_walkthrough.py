@@ -48,6 +48,7 @@ def test_a_stray_byte_costs_one_byte() -> None:
         (4, "07", True),
         (1, "", True),
     ]
+    assert shown.steps[-1].text == "ActionGroupStop, whole: 4 bytes from here"
 
 
 def test_where_every_id_is_a_message_no_example_has_an_unknown_one() -> None:
