@@ -11,7 +11,7 @@ from busservo._cli.values import message_from_text
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
-from tests.factories import DEMO, compiled_file, compiled_of, data_of, renamed, vectors_of
+from tests.factories import compiled_file, compiled_of, data_of, renamed, vectors_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, reference
@@ -144,11 +144,12 @@ def test_what_is_written_is_read_back(name: str) -> None:
 
 
 def test_a_name_that_every_object_of_a_script_has_is_a_name_like_others() -> None:
-    data = data_of(DEMO.with_name("everything.yaml"))
+    data = data_of(FILES["everything"])
     for name in ("sequence", "second", "mode", "idle", "voltage"):
-        changed = compiled_of(renamed(data, name, "constructor"))
-        assert [finding.message for finding in changed.findings] == []
-        assert read_back(changed) == frames_of(changed), name
+        data = renamed(data, name, "constructor")
+    changed = compiled_of(data)
+    assert [finding.message for finding in changed.findings] == []
+    assert read_back(changed) == frames_of(changed)
     # What is not given is not there, though every object has something of that name.
     strange = [("Flags", "error=constructor mode=1 position=1 temperature=1")]
     (answer,) = asked(compiled_file(FILES["everything"]), READ, strange)
