@@ -51,14 +51,14 @@ def run_script(names: Iterable[str], program: str, asked: object, *others: str) 
     question = {"text": text, "given": json.dumps(_sayable(asked))}
     said = json.loads(_answer(json.dumps(question)))
     if said.get("isEnd"):
-        _node().wait()
-        _node.cache_clear()
+        node().wait()
+        node.cache_clear()
     assert "failure" not in said, said["failure"]
     return json.loads(said["answer"], object_hook=_meant, parse_int=_whole)
 
 
 def _answer(question: str) -> str:
-    process = _node()
+    process = node()
     assert process.stdin is not None
     assert process.stdout is not None
     process.stdin.write(f"{question}\n")
@@ -67,8 +67,8 @@ def _answer(question: str) -> str:
 
 
 @cache
-def _node() -> subprocess.Popen[str]:
-    """Start the process of this worker."""
+def node() -> subprocess.Popen[str]:
+    """Return the process of this worker, or the next one, where a program has ended that."""
     process = subprocess.Popen(
         [str(NODE), str(HOST)],
         stdin=subprocess.PIPE,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.render import snippets
@@ -17,7 +17,10 @@ from framegen.site.site import Site
 from tests.factories import compiled_file
 from tests.unit.site.lamps import lamps
 from tests.unit.site.reference import NODE, ROOT
-from tests.unit.site.scripts import run_script
+from tests.unit.site.scripts import node, run_script
+
+if TYPE_CHECKING:
+    from subprocess import Popen
 
 # What a page of the search runs, without what touches the page.
 RANKING = ["matching", "ranking", "snippet"]
@@ -38,8 +41,8 @@ def index() -> dict[str, Any]:
 
 
 @cache
-def told() -> None:
-    """Keep the searches of this site for the programs that follow."""
+def told(_process: Popen[str]) -> None:
+    """Keep the searches of this site for the programs that follow in a process."""
     scripts = [*codec_scripts(project().specs[1].model), *RANKING, "bytes_found"]
     program = """
     Object.assign(kept, { bytesIn, search: makeSearch(asked), bytes: makeBytesSearch(asked) });
@@ -50,7 +53,7 @@ def told() -> None:
 
 def found(queries: list[str], filters: list[dict[str, str]] | None = None) -> list[dict[str, Any]]:
     """Return what is found for each query: titles and places of hits, and what is said besides."""
-    told()
+    told(node())
     program = """
     const answers = asked.queries.map((query, at) => {
       const { hits, ...rest } = kept.search.find(query, asked.filters[at] ?? {});
@@ -274,7 +277,7 @@ def test_a_snippet_shows_the_words_and_is_part_of_the_text() -> None:
 
 
 def bytes_found(queries: list[str]) -> list[dict[str, Any]]:
-    told()
+    told(node())
     program = """
     const answers = asked.map((query) => {
       const read = kept.bytesIn(query);
