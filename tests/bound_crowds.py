@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import count
-from typing import TYPE_CHECKING, TypeVar
+from itertools import groupby
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from tests.bound_names import pascal_names, snake_names
 from tests.crowd import Crowd
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from tests.factories import Data
 
+Makes: TypeAlias = "Callable[[Crowd, Sequence[str]], None]"
 _Word = TypeVar("_Word")
 # More fields than that, and a method has more arguments than linters like.
 _FIELDS = 6
@@ -59,21 +60,40 @@ def values(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name a named value, and a bit."""
     for at, some in enumerate(_in_parts(names, _BITS)):
         named = {name: {"value": value, "about": "It."} for value, name in enumerate(some)}
-        crowd.report(f"Valued{at}", ["level"], values=named)
-        crowd.report(f"Flagged{at}", ["level"], bits={name: bit for bit, name in enumerate(some)})
+        bits = {name: bit for bit, name in enumerate(some)}
+        crowd.report(f"Valued{at}", ["level"], more_of={"level": {"values": named}})
+        crowd.report(f"Flagged{at}", ["level"], more_of={"level": {"type": "u32", "bits": bits}})
 
 
 def halves(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name of several words what a field and its value, or its bit, become."""
-    number = count()
-    for name in names:
-        words = name.split("_")
+    split: dict[str, list[str]] = {}
+    for words in (name.split("_") for name in names):
         for at in range(1, len(words)):
             field, value = "_".join(words[:at]), "_".join(words[at:])
             if value[0].isalpha():
-                said = {value: {"value": 7, "about": "It."}}
-                crowd.report(f"Valued{next(number)}", [field], values=said)
-                crowd.report(f"Flagged{next(number)}", [field], bits={value: 3})
+                split.setdefault(field, []).append(value)
+    # Of one message no two make the same name, since each begins with as many words.
+    beginnings = sorted(split, key=lambda field: field.count("_"))
+    parts = [
+        some
+        for _, alike in groupby(beginnings, key=lambda field: field.count("_"))
+        for some in _in_parts([*alike], _FIELDS)
+    ]
+    for number, some in enumerate(parts):
+        named = {
+            field: {value: {"value": at, "about": "It."} for at, value in enumerate(split[field])}
+            for field in some
+        }
+        crowd.report(
+            f"Valued{number}", some, more_of={field: {"values": named[field]} for field in some}
+        )
+        bits = {field: {value: at for at, value in enumerate(split[field])} for field in some}
+        crowd.report(
+            f"Flagged{number}",
+            some,
+            more_of={field: {"type": "u32", "bits": bits[field]} for field in some},
+        )
 
 
 def ends(crowd: Crowd, names: Sequence[str]) -> None:
@@ -101,10 +121,10 @@ def elements(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name an element."""
     for at, name in enumerate(names):
         add = crowd.report if at % 2 else crowd.command
-        add(f"Received{at}", [], listed="items", element=name, of=["level"])
+        add(f"Listed{at}", [], listed="items", element=name, of=["level"])
 
 
-_OF_FIELDS: tuple[Callable[[Crowd, Sequence[str]], None], ...] = (
+_OF_FIELDS: tuple[Makes, ...] = (
     fields,
     results,
     functions,
@@ -118,15 +138,16 @@ _OF_CLASSES = (messages, elements)
 CROWDS = [each.__name__ for each in (*_OF_FIELDS, *_OF_CLASSES)]
 
 
-def crowd_of(kind: str, *, plain: bool = True, everywhere: bool = False) -> Data:
-    """Return a spec in which every name is something of this kind; one of plain frames, or not."""
+def crowd_of(*kinds: str, plain: bool = True, everywhere: bool = False) -> Data:
+    """Return a spec in which every name is something of each of these kinds.
+
+    Of `messages` and `elements`, which are classes, it can have one.
+    """
     crowd = Crowd("crowded", "host", "device")
-    for each in _OF_FIELDS:
-        if each.__name__ == kind:
-            each(crowd, snake_names(everywhere=everywhere))
-    for each in _OF_CLASSES:
-        if each.__name__ == kind:
-            each(crowd, pascal_names(everywhere=everywhere))
+    for makes, names in ((_OF_FIELDS, snake_names), (_OF_CLASSES, pascal_names)):
+        for make in makes:
+            if make.__name__ in kinds:
+                make(crowd, names(everywhere=everywhere))
     # Frames of several kinds are no plain ones.
     if not plain and "frame" in crowd.data:
         crowd.odd()

@@ -17,23 +17,8 @@ _PASCAL = re.compile(r"[A-Z][A-Za-z0-9]*")
 
 
 @cache
-def _names() -> tuple[frozenset[str], frozenset[str], frozenset[str]]:
-    """Return what a name of a spec may meet, all that is bound anywhere, and what is imported.
-
-    All at once: the trees of so many modules are larger than anything else that tests keep.
-    """
-    met, everywhere, packages = set[str](), set[str](), set[str]()
-    for alike in _modules().values():
-        for module in alike.values():
-            bound = {name for node in ast.walk(module) for name in _bound(node)}
-            everywhere |= bound
-            met |= bound if len(alike) > 1 else {*_in_classes(module)}
-            packages |= _packages(module)
-    return frozenset(met), frozenset(everywhere), frozenset(packages)
-
-
-def _modules() -> dict[str, dict[str, ast.Module]]:
-    """Return the modules of libraries by path, and by text: those that are alike once."""
+def _modules() -> dict[str, list[ast.Module]]:
+    """Return the modules of libraries by path: those that are alike once."""
     found: dict[str, dict[str, ast.Module]] = {}
     # One of plain frames, with poses, and one with all that there is besides.
     for file in (BUSSERVO, DEMO.with_name("everything.yaml")):
@@ -42,16 +27,27 @@ def _modules() -> dict[str, dict[str, ast.Module]]:
             code, known = text.partition("\n")[2], found.setdefault(path.split("/", 2)[2], {})
             if path.endswith(".py") and code not in known:
                 known[code] = ast.parse(code)
-    return found
+    return {path: [*alike.values()] for path, alike in found.items()}
 
 
+@cache
 def bound_names(*, everywhere: bool = False) -> frozenset[str]:
     """Return the names that a name of a spec may meet: all of modules that are made for a spec.
 
     Those that are the same in every library bind others, in scopes of their own. Of these, what
     stands in classes, which a class of the spec may have for a base; or all, `everywhere`.
     """
-    return _names()[1 if everywhere else 0]
+    met = set[str]()
+    for alike in _modules().values():
+        for module in alike:
+            whole = everywhere or len(alike) > 1
+            met.update(_in_whole(module) if whole else _in_classes(module))
+    return frozenset(met)
+
+
+def _in_whole(module: ast.Module) -> Iterator[str]:
+    for node in ast.walk(module):
+        yield from _bound(node)
 
 
 def _in_classes(module: ast.Module) -> Iterator[str]:
@@ -68,18 +64,16 @@ def _in_classes(module: ast.Module) -> Iterator[str]:
 
 def imported() -> frozenset[str]:
     """Return the packages that they import by their own name, wherever they do."""
-    return _names()[2]
+    modules = [module for alike in _modules().values() for module in alike]
+    return frozenset(name.partition(".")[0] for each in modules for name in _packages(each))
 
 
-def _packages(module: ast.Module) -> set[str]:
-    nodes = [*ast.walk(module)]
-    plain = {each.name for node in nodes if isinstance(node, ast.Import) for each in node.names}
-    named = {
-        node.module
-        for node in nodes
-        if isinstance(node, ast.ImportFrom) and not node.level and node.module
-    }
-    return {name.partition(".")[0] for name in plain | named}
+def _packages(module: ast.Module) -> Iterator[str]:
+    for node in ast.walk(module):
+        if isinstance(node, ast.Import):
+            yield from (each.name for each in node.names)
+        elif isinstance(node, ast.ImportFrom) and not node.level and node.module:
+            yield node.module
 
 
 def snake_names(*, everywhere: bool = False) -> list[str]:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 # More fields than that, and a method has more arguments than linters like.
 _FIELDS = 6
+# One as a number of each type that there is in a crowd.
+_ONE = {"u8": [1], "u32": [1, 0, 0, 0]}
 
 
 def taken(kind: str) -> list[str]:
@@ -45,7 +47,8 @@ def taken_names() -> Data:
         # A method of its own, since these are taken for strategies.
         name = "".join(part.capitalize() for part in word.split("_"))
         crowd.command(name, [], method=f"make{at}()")
-    crowd.command("Vendor", ["vendor"], values={"name": {"value": 1, "about": "Nobody."}})
+    named = {"values": {"name": {"value": 1, "about": "Nobody."}}}
+    crowd.command("Vendor", ["vendor"], more_of={"vendor": named})
     crowd.command("Reckon", ["id", "signed_id"], signed="id")
     crowd.command("ReckonMany", ["id"], signed="id", listed="signed_id")
     return crowd.data
@@ -182,14 +185,14 @@ class Crowd:
         element: str = "",
         of: list[str] | None = None,
         signed: str = "",
-        values: Data | None = None,
-        bits: Data | None = None,
+        more_of: dict[str, Data] | None = None,
         **more: Any,
     ) -> None:
         number = {"type": "u8", "about": "A number."}
-        declared: Data = {field: dict(number) for field in fields}
+        declared: Data = {field: number | (more_of or {}).get(field, {}) for field in fields}
         example: Data = dict.fromkeys(fields, 1)
-        length, body = str(len(fields)), len(fields)
+        body = [byte for each in declared.values() for byte in _ONE[each["type"]]]
+        length = str(len(body))
         if listed:
             inner = of or []
             declared[counter] = dict(number)
@@ -201,23 +204,17 @@ class Crowd:
             else:
                 declared[listed]["type"] = "u8"
                 example[listed] = [1]
-            body += 1 + (len(inner) or 1)
-            length = f"{len(inner) or 1} * {counter} + {len(fields) + 1}"
+            length = f"{len(inner) or 1} * {counter} + {len(body) + 1}"
+            body += [1] + [1] * (len(inner) or 1)
         if "lasts" in more:
             declared[more["lasts"]]["unit"] = "ms"
         id_ = next(self._ids)
-        examples = [_example(_frame(id_, [1] * body), example)]
+        examples = [_example(_frame(id_, body), example)]
         if signed:
             declared[signed]["signed_as"] = "i8"
             below = [255 if field == signed else 1 for field in fields]
-            below += [1] * (body - len(below))
+            below += [1] * (len(body) - len(below))
             examples.append(_example(_frame(id_, below), example | {signed: 255}))
-        if values:
-            declared[fields[0]]["values"] = values
-        if bits:
-            # As wide as it takes.
-            declared[fields[0]] |= {"type": "u32", "bits": bits}
-            length, examples = "4", [_example(_frame(id_, [1, 0, 0, 0]), example)]
         self.data["messages"][name] = {
             **self._said(direction),
             "id": id_,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.explain import explain
 from framegen.model.exchanges import snake_case
 from framegen.targets.python.names import names_of, strategy_name
-from hypothesis import Phase, find, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.factories import library, library_files
@@ -50,12 +50,13 @@ def made_of(lib: ModuleType, model: Model, message: MessageLayout) -> Any:
 
 def examples_work(lib: ModuleType, model: Model) -> None:
     """Make the first example of every message, and read it in every way that there is."""
-    for message in model.messages.values():
-        made = made_of(lib, model, message)
+    every = [made_of(lib, model, message) for message in model.messages.values()]
+    # All in one expression, since each costs as much to compile.
+    assert eval(repr(every), vars(lib.messages)) == every  # noqa: S307 - it is our own
+    for message, made in zip(model.messages.values(), every, strict=True):
         assert made.encode() == message.message.examples[0].hex
         read = lib.decode(made.encode(), made.DIRECTION)
         assert read == made
-        assert eval(repr(read), vars(lib.messages)) == made  # noqa: S307 - it is our own
         assert {name: getattr(read, name) for name in read.__match_args__} == {
             name: getattr(made, name) for name in made.__match_args__
         }
@@ -124,12 +125,24 @@ def strategies_work(lib: ModuleType) -> None:
     """Generate one of every message."""
     strategies = importlib.import_module(f"{lib.__name__}.strategies")
     each = [getattr(strategies, strategy_name(kind.__name__))() for kind in lib.MESSAGES]
-    for some in (each[at : at + _AT_ONCE] for at in range(0, len(each), _AT_ONCE)):
-        # Any will do, so that none needs to be made smaller.
-        found = find(st.tuples(*some), lambda _: True, settings=settings(phases=[Phase.generate]))
-        at = each.index(some[0])
-        assert [*map(type, found)] == [*lib.MESSAGES[at : at + len(some)]]
+    drawn = [
+        one for at in range(0, len(each), _AT_ONCE) for one in _drawn(each[at : at + _AT_ONCE])
+    ]
+    assert [*map(type, drawn)] == [*lib.MESSAGES]
     assert {"messages", "noise", "noisy_streams"} <= {*vars(strategies)}
+
+
+def _drawn(strategies: list[st.SearchStrategy[Any]]) -> list[Any]:
+    """Return what each of them makes: any will do, so that none needs to be made smaller."""
+    found: list[Any] = []
+
+    @settings(max_examples=1, phases=[Phase.generate], suppress_health_check=[*HealthCheck])
+    @given(st.tuples(*strategies))
+    def draw(some: tuple[Any, ...]) -> None:
+        found[:] = some
+
+    draw()
+    return found
 
 
 # Messages of which nothing but their fields has a name of its own.

@@ -10,13 +10,14 @@ import tokenize
 from collections import Counter
 from functools import cache
 from hashlib import sha256
+from itertools import count
 from pathlib import Path
 from shutil import which
 from typing import Any, TypeAlias
 
 import pytest
-from framegen.cases.valid import valid_frames
 from framegen.compile import Compiled
+from framegen.language.package_names import words
 from framegen.output import banner
 from framegen.reading.text import is_invisible
 from framegen.targets.python.characters import columns
@@ -26,6 +27,7 @@ from framegen.targets.python.names import names_of
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tests.bound_crowds import Makes, elements, fields, messages, results
 from tests.crowd import Crowd
 from tests.factories import (
     BUSSERVO,
@@ -41,7 +43,6 @@ from tests.factories import (
     is_misfit,
     layout_of,
     leaves,
-    library,
     library_files,
     renamed,
     rules_broken,
@@ -49,6 +50,7 @@ from tests.factories import (
     write_files,
 )
 from tests.in_turn import in_turn
+from tests.names_at_work import at_work
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 HARMLESS = "Plain words."
@@ -113,46 +115,17 @@ INERT = [
     ">>> " * 60,
     " ",
 ]
-# Text that nobody can see, or that turns what is seen around: no spec may hold it.
+# What nobody can see, or what turns that which is seen around: no spec may hold it.
 UNSEEN = [
-    "a\x00b",
-    "a\x07b",
-    "a\tb",
-    "a\rb",
-    "a\x1bb[2J",
-    "a\x7fb",
-    "a\x85b",
-    "a\xadb",
-    "a\u061cb",
-    "a\u200bb",
-    "a\u200fb",
-    "a\u2028b",
-    "a\u2029b",
-    "a\u202eb",
-    "a\u2066b",
-    "a\ufe0fb",
-    "a\ufeffb",
-    "a\U000e0041b",
-    "a\ud800b",
+    *"\x00\x07\t\r\x1b\x7f\x85\xad\u061c\u200b\u200f\u2028\u2029\u202e\u2066\ufe0f\ufeff",
+    "\U000e0041",
+    "\ud800",
 ]
 
 # The keys whose values are prose; endpoints and the commands of look-alikes are prose by place.
-PROSE = frozenset(
-    [
-        "about",
-        "changes",
-        "constructed",
-        "deprecated",
-        "description",
-        "here",
-        "summary",
-        "text",
-        "title",
-        "unit",
-        "vendor_name",
-        "what",
-        "why",
-    ]
+PROSE = words(
+    "about changes constructed deprecated description here summary text title unit vendor_name "
+    "what why"
 )
 
 
@@ -264,65 +237,71 @@ def harmless(name: str) -> dict[str, Traits]:
 
 
 @cache
-def greenhouse_with(text: str) -> dict[str, str]:
-    """Return the library of a greenhouse with `text` wherever prose stands."""
-    files = files_of(with_prose(SPECS["greenhouse"], text))
+def hostile(name: str, turn: int) -> dict[str, str]:
+    """Return a library with hostile text in each place of prose: in one after another, all kinds.
+
+    In each turn a place has another kind, and all of them together in the last.
+    """
+    numbers = count(turn)
+
+    def change(_path: Steps, old: str) -> str:
+        text = ALL_AT_ONCE if turn == len(INERT) else INERT[next(numbers) % len(INERT)]
+        return old.replace(HARMLESS, text) if HARMLESS in old else old
+
+    files = files_of(changed(with_prose(SPECS[name], HARMLESS), change))
     # Most modules are the same in all of them, and kept once.
     return {path: sys.intern(module) for path, module in files.items()}
 
 
-def vectors_of_one_frame(title: str) -> dict[str, Any]:
-    """Return the vectors of a spec with a single example, of that title."""
+def titles_of_vectors(titles: list[str]) -> list[str]:
+    """Return the titles in the vectors of a spec whose examples have these."""
     crowd = Crowd("small", "host", "device")
-    crowd.command("Only", [])
-    crowd.data["messages"]["Only"]["examples"][0]["title"] = title
-    return vectors_of(compiled_of(crowd.data))
+    for number, title in enumerate(titles):
+        crowd.command(f"Only{number}", [])
+        crowd.data["messages"][f"Only{number}"]["examples"][0]["title"] = title
+    valid = vectors_of(compiled_of(crowd.data))["valid"]
+    return [each["title"] for each in valid if not each["title"].startswith("every value")]
 
 
 # ------------------------------------------------------------------ text
 
 
-# All of them together stand in each place in the next test.
+ALL_AT_ONCE = "\n\n".join(INERT)
+# In so many turns each text stands in many places; tests/world has all turns.
+TURNS = [*range(0, len(INERT), 7), len(INERT)]
+
+
 @pytest.mark.parametrize(
-    "text",
+    "turn",
     [
-        pytest.param(text, marks=[] if at % 4 == 0 else pytest.mark.slow)
-        for at, text in enumerate(INERT)
+        pytest.param(turn, marks=[] if turn in TURNS else pytest.mark.slow)
+        for turn in range(len(INERT) + 1)
     ],
 )
-def test_text_of_any_kind_is_inert_everywhere_at_once(text: str) -> None:
-    assert traits(greenhouse_with(text)) == harmless("greenhouse")
-    assert vectors_of_one_frame(text)["valid"][0]["title"] == text
-
-
-ALL_AT_ONCE = "\n\n".join(INERT)
-
-
-def test_text_of_every_kind_is_inert_in_each_place_in_turn() -> None:
-    data = with_prose(SPECS["greenhouse"], HARMLESS)
-    places: dict[Steps, Steps] = {}
-    for path, text in leaves(data):
-        if HARMLESS in text:
-            # One of each kind of place is enough: the first of the fields, the first of the notes.
-            kind = tuple(step for step in path if step in PROSE or step in _STRUCTURE)
-            places.setdefault(kind, path)
-    assert len(places) > 25
-    for place in places.values():
-        hostile = _with(data, place, ALL_AT_ONCE)
-        assert traits(files_of(hostile)) == harmless("greenhouse"), place
+def test_text_of_every_kind_is_inert_wherever_it_stands(turn: int) -> None:
+    assert traits(hostile("greenhouse", turn)) == harmless("greenhouse")
 
 
 def test_text_of_every_kind_is_inert_in_the_real_spec() -> None:
-    data = with_prose(SPECS["busservo"], ALL_AT_ONCE)
-    assert traits(files_of(data)) == harmless("busservo")
+    assert traits(hostile("busservo", len(INERT))) == harmless("busservo")
 
 
-_STRUCTURE = frozenset(
-    re.findall(
-        r"\w+",
-        "protocol sources endpoints link frame messages fields values notes examples reserved "
-        "errata unknowns lookalikes history cite commands",
-    )
+def test_prose_stands_in_places_of_every_kind() -> None:
+    places = {
+        tuple(step for step in path if step in PROSE or step in _STRUCTURE)
+        for path, text in leaves(with_prose(SPECS["greenhouse"], HARMLESS))
+        if HARMLESS in text
+    }
+    assert len(places) > 25
+
+
+def test_the_vectors_have_the_titles_of_the_author() -> None:
+    assert titles_of_vectors(INERT) == INERT
+
+
+_STRUCTURE = words(
+    "protocol sources endpoints link frame messages fields values notes examples reserved errata "
+    "unknowns lookalikes history cite commands"
 )
 
 
@@ -336,13 +315,16 @@ def _with(data: Data, place: Steps, text: str) -> Data:
     return changed_
 
 
-@in_turn("text", lambda: UNSEEN, ids=ascii)
-def test_text_that_nobody_can_see_is_a_finding_everywhere(text: str) -> None:
+@in_turn("unseen", lambda: UNSEEN, ids=ascii)
+def test_text_that_nobody_can_see_is_a_finding_everywhere(unseen: str) -> None:
     data = SPECS["greenhouse"]
     some = [path for path, _ in leaves(data) if is_prose(path)][::10]
     assert len(some) > 3
     for place in some:
-        assert set(rules_broken(_with(data, place, text))) <= {"invisible-character", "unusable"}
+        assert set(rules_broken(_with(data, place, f"a{unseen}b"))) <= {
+            "invisible-character",
+            "unusable",
+        }
 
 
 # What no table above has thought of. A backslash and a quote are where it would go wrong.
@@ -358,7 +340,7 @@ TEXT = st.text(
 @given(TEXT)
 def test_any_text_is_inert(text: str) -> None:
     assert traits(files_of(with_prose(SPECS["greenhouse"], text))) == harmless("greenhouse")
-    assert vectors_of_one_frame(text)["valid"][0]["title"] == text
+    assert titles_of_vectors([text]) == [text]
 
 
 @given(st.text(st.characters(max_codepoint=0x10FFFF), min_size=1))
@@ -379,12 +361,12 @@ def test_hostile_modules_stay_as_the_formatter_has_them(tmp_path: Path) -> None:
         pytest.skip("ruff is not installed: `pip install --group lint`")
     # What is copied as it is, is the same in all of them.
     made = {
-        (path, module): number
-        for number, text in enumerate(INERT)
-        for path, module in python_of(greenhouse_with(text)).items()
+        (path, module): turn
+        for turn in TURNS
+        for path, module in python_of(hostile("greenhouse", turn)).items()
     }
-    for (path, module), number in made.items():
-        write_files({path: module}, tmp_path / str(number))
+    for (path, module), turn in made.items():
+        write_files({path: module}, tmp_path / str(turn))
     done = subprocess.run(
         [command, "format", "--check", "--no-cache", "--config", ROOT / "pyproject.toml", tmp_path],
         capture_output=True,
@@ -560,133 +542,32 @@ def test_no_message_can_take_a_name_that_the_generated_modules_use() -> None:
     assert [name for name in risky if names.of("message", name) == name] == []
 
 
-ODD_MESSAGES = [
-    "Print",
-    "Import",
-    "Return",
-    "Class",
-    "Lambda",
-    "Is",
-    "St",
-    "NoisyStreams",
-    "Filter",
-    "Struct2",
-    "X",
-    "HTTP",
-    "A1B2",
-    "Int",
-    "Object",
-    "Partial",
-    "Chain",
-    "Listed",
-    "Flat",
-    "Table",
-    "Octets",
-    "Main",
-    "Fields",
-    "Codec",
-    "Test",
-]
-ODD_FIELDS = [
-    "columns",
-    "flat",
-    "listed",
-    "numbers",
-    "values",
-    "message",
-    "frame",
-    "head",
-    "struct",
-    "shape",
-    "kind",
-    "data",
-    "chain",
-    "partial",
-    "starmap",
-    "iter_unpack",
-    "item",
-    "items",
-    "element",
-    "path",
-    "value",
-    "code",
-    "name",
-    "result",
-    "command",
-    "direction",
-    "lengths",
-    "st",
-    "case",
-    "match",
-    "a",
-    "l",
-]
-
-
-def _works(data: Data) -> None:
-    """Check that the library and its strategies load, and that every vector passes both ways."""
-    compiled = compiled_of(data)
-    model = compiled.model
-    names = names_of(model)
-    with library(library_files(compiled)) as made:
-        for valid in valid_frames(model):
-            frame, written = valid.data, valid.message.name
-            message = made.decode(frame, made.Direction(valid.message.direction.key))
-            assert type(message).__name__ == names.of("message", written)
-            given_ = {
-                name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
-                if isinstance(value, list)
-                else value
-                for name, value in names.values(written, dict(valid.values)).items()
-            }
-            assert type(message)(**given_).encode() == frame
-            assert {name: _plain(getattr(message, name)) for name in given_} == given_
-        for module in ("strategies", "_cli"):
-            __import__(f"{made.__name__}.{module}")
-
-
-def _plain(value: Any) -> Any:
-    return (
-        [tuple(i) if isinstance(i, tuple) else i for i in value]
-        if isinstance(value, tuple)
-        else value
+ODD_CLASSES = sorted(
+    words(
+        "Print Import Return Class Lambda Is St NoisyStreams Filter Struct2 X HTTP A1B2 Int Object "
+        "Partial Chain Listed Flat Table Octets Main Fields Codec Test"
     )
-
-
-def _turns(names: list[str], kinds: list[str]) -> list[Any]:
-    """Return each name for each kind, as many at once as there are kinds.
-
-    Each name is tried for one kind, and the rest are slow.
-    """
-    return [
-        pytest.param(
-            dict(zip(kinds[turn:] + kinds[:turn], names[at : at + len(kinds)], strict=False)),
-            marks=[] if turn == 0 else pytest.mark.slow,
-            id=" ".join(names[at : at + len(kinds)]) + f" {turn}",
-        )
-        for turn in range(len(kinds))
-        for at in range(0, len(names), len(kinds))
-    ]
-
-
-@pytest.mark.parametrize(
-    "names",
-    [
-        *_turns(ODD_MESSAGES, ["StationState", "Vent"]),
-        *_turns(ODD_FIELDS, ["ramp_s", "vent_count", "vents", "angle", "readings"]),
-    ],
 )
-def test_messages_and_fields_of_odd_names_work(names: dict[str, str]) -> None:
-    data = SPECS["greenhouse"]
-    for kind, name in names.items():
-        data = renamed(data, kind, name)
-    _works(data)
+ODD_FIELDS = sorted(
+    words(
+        "columns flat listed numbers values message frame head struct shape kind data chain "
+        "partial starmap iter_unpack item items element path value code name result command "
+        "direction lengths st case match a l"
+    )
+)
 
 
-def test_a_field_of_an_element_may_be_called_as_one_of_its_message() -> None:
-    _works(renamed(SPECS["greenhouse"], "ramp_s", "angle"))
-    _works(renamed(SPECS["greenhouse"], "vents", "angle"))
-    _works(renamed(SPECS["greenhouse"], "vent_count", "angle"))
+@pytest.mark.parametrize("classes", [messages, elements])
+def test_messages_and_fields_of_odd_names_work(classes: Makes) -> None:
+    crowd = Crowd("crowded", "host", "device")
+    classes(crowd, ODD_CLASSES)
+    fields(crowd, ODD_FIELDS)
+    results(crowd, ODD_FIELDS)
+    # A field of an element may be called as one of its message, as its list, or as what counts it.
+    crowd.command("AsField", ["angle"], listed="vents", element="Vent", of=["angle"])
+    crowd.command("AsList", [], listed="angle", element="Angle", of=["angle"])
+    crowd.command("AsCount", [], listed="vents", counter="angle", element="Slat", of=["angle"])
+    at_work(compiled_of(crowd.data))
 
 
 # ------------------------------------------------------------------ the filters alone
