@@ -16,12 +16,11 @@ from tests.contract.test_demo_library import side_by_side
 from tests.lines.boards import no_board_refuses_anything
 from tests.rows import left_out_of
 from tests.unit.runtime.tables.test_dataset import captures
-from tests.unit.targets.test_names import on_disk
 
 if TYPE_CHECKING:
     from tests.rows import Row
 
-__all__ = ["captures", "libraries", "no_board_refuses_anything", "on_disk", "scripts"]
+__all__ = ["captures", "libraries", "no_board_refuses_anything", "scripts"]
 __all__ += ["side_by_side"]
 
 ROOT = Path(__file__).parents[2]

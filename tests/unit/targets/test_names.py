@@ -7,9 +7,9 @@ import builtins
 import json
 import keyword
 import re
-import subprocess
 import sys
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +33,6 @@ from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
 from tests.factories import (
     BUSSERVO,
     DEMO,
-    ROOT,
     compiled_file,
     compiled_of,
     data_of,
@@ -47,6 +46,7 @@ from tests.factories import (
 from tests.in_turn import in_turn
 from tests.lines.device_line import DeviceLine
 from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
+from tests.side_by_side import library_of, linted, type_checked
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -319,67 +319,40 @@ def test_a_pose_is_read_and_held_under_bent_names() -> None:
             assert controller.lambda_(there.found) == [(1, 7), (2, 8)]
 
 
-@pytest.fixture(scope="module")
-def on_disk(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the libraries of all of them, side by side."""
-    folder = tmp_path_factory.mktemp("crowds")
+def test_linters_have_nothing_to_say(tmp_path: Path) -> None:
     for name in CROWDS:
-        write_files(files_of_crowd(name), folder)
-    return folder / "generated"
-
-
-def run(*words: str, cwd: Path) -> str:
-    """Return the findings of a tool; empty if there are none."""
-    pytest.importorskip(words[0], reason="`pip install --group lint`")
-    done = subprocess.run(
-        [sys.executable, "-m", *words], cwd=cwd, capture_output=True, text=True, check=False
-    )
-    return "" if done.returncode == 0 else done.stdout + done.stderr
-
-
-def test_linters_have_nothing_to_say(on_disk: Path) -> None:
-    config = str(ROOT / "pyproject.toml")
-    for words in (["check"], ["format", "--check"]):
-        assert run("ruff", *words, "--no-cache", "--config", config, ".", cwd=on_disk) == ""
+        library_of(name, files_of_crowd(name)).write(tmp_path)
+    assert linted(tmp_path) == {}
 
 
 @pytest.mark.slow
-def test_type_checkers_have_nothing_to_say(on_disk: Path) -> None:
-    packages = [file.parent.name for file in on_disk.glob("*/py.typed")]
-    assert sorted(packages) == ["pose", "taken_elements", "taken_words"]
-    config = str(ROOT / "tests" / "untyped.ini")
-    cache = str(on_disk.parent / "cache")
-    words = ("mypy", "--strict", "--config-file", config, "--cache-dir", cache, *packages)
-    assert run(*words, cwd=on_disk) == ""
+def test_type_checkers_have_nothing_to_say(tmp_path: Path) -> None:
+    for name in CROWDS:
+        write_files(files_of_crowd(name), tmp_path)
+    assert type_checked(tmp_path / "generated", tmp_path / "cache") == {}
 
 
 # ------------------------------------------------------------------ the command of such a library
 
 
-def said(package: str, folder: Path, *words: str) -> str:
-    done = subprocess.run(
-        [sys.executable, "-m", package, *words],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return done.stdout or done.stderr
+def test_the_command_says_the_names_that_the_library_has(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def said(*words: str) -> str:
+        command(words)
+        out, err = capsys.readouterr()
+        return out or err
 
-
-def test_the_command_says_the_names_that_the_library_has(on_disk: Path) -> None:
-    words = ["Ask0", "class_=7"]
-    frame = said("taken_words", on_disk, "encode", *words).strip()
-    assert said("taken_words", on_disk, "decode", "--direction", "any_", frame).split()[1:4] == [
-        "any_",
-        "Ask0",
-        "class_=7",
-    ]
-    shown = said("taken_words", on_disk, "decode", "--json", "--direction", "any_", frame)
-    assert json.loads(shown)["fields"] == {"class_": 7}
-    refused = said("taken_words", on_disk, "encode", "Ask0", "class_=700")
-    assert "class_: 700 is outside 0..255" in refused
-    assert "class_=CLASS_" in said("taken_words", on_disk, "encode", "Ask0")
+    with library(files_of_crowd("names")) as made:
+        command = import_module(f"{made.__name__}._cli").main
+        words = ["Ask0", "class_=7"]
+        frame = said("encode", *words).strip()
+        shown = said("decode", "--direction", "any_", frame)
+        assert shown.split()[1:4] == ["any_", "Ask0", "class_=7"]
+        shown = said("decode", "--json", "--direction", "any_", frame)
+        assert json.loads(shown)["fields"] == {"class_": 7}
+        assert "class_: 700 is outside 0..255" in said("encode", "Ask0", "class_=700")
+        assert "class_=CLASS_" in said("encode", "Ask0")
 
 
 # ------------------------------------------------------------------ what framegen says of them

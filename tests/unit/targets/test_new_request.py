@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from framegen.cli import main
 
 from tests.timeouts import GENEROUS
 
@@ -147,7 +148,7 @@ threading.Thread(target=serve, args=(listener, board), daemon=True).start()
 port = f"socket://127.0.0.1:{listener.getsockname()[1]}"
 """
 
-METHODS = """
+PROGRAM = """
 with busservo.open_controller(port, **LIVE) as controller:
     set_ = controller.lamp_set([(7, 9), (1, 3)], 0)
     print(set_.lasts, set_.wait())
@@ -168,9 +169,6 @@ async def work():
 
 asyncio.run(work())
 print(board.rejects)
-"""
-
-VERB = """
 from busservo._cli import main
 assert main(["send", "--port", port, "--baud", "inf", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 assert main(["send", "--port", port, "--baud", "inf", "LampsRead", "lamp_ids=7"]) == 0
@@ -186,15 +184,16 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "spec").mkdir()
     spec = folder / "spec" / "busservo.yaml"
     spec.write_text(text.replace("\n  ServoUnload:", NEW, 1), encoding="utf-8")
-    run([sys.executable, "-m", "framegen", "generate", str(spec)], sys.path)
+    assert main(["generate", str(spec)]) == 0
     return folder
 
 
-def run(command: list[str], search: list[str]) -> str:
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(search)}
+def script(project: Path, text: str) -> str:
+    """Return the output of a program that uses the library of `project`."""
+    search = os.pathsep.join([str(project / "generated"), *sys.path])
     done = subprocess.run(
-        command,
-        env=environment,
+        [sys.executable, "-W", "error", "-c", text],
+        env={**os.environ, "PYTHONPATH": search},
         capture_output=True,
         encoding="utf-8",
         timeout=5 * GENEROUS,
@@ -204,14 +203,9 @@ def run(command: list[str], search: list[str]) -> str:
     return done.stdout
 
 
-def script(project: Path, text: str) -> str:
-    """Return the output of a program that uses the library of `project`."""
-    command = [sys.executable, "-W", "error", "-c", text]
-    return run(command, [str(project / "generated"), *sys.path])
-
-
-def test_it_is_a_method_of_both_clients_and_a_handler_of_the_device(project: Path) -> None:
-    assert script(project, BOARD + METHODS).splitlines() == [
+def test_it_is_a_method_of_both_clients_a_handler_of_the_device_and_a_verb(project: Path) -> None:
+    *methods, read, shown = script(project, BOARD + PROGRAM).splitlines()
+    assert methods == [
         "0.0 True",
         "2.0",
         "LampBlinking(lamp_id=7) True",
@@ -221,13 +215,9 @@ def test_it_is_a_method_of_both_clients_and_a_handler_of_the_device(project: Pat
         "(LampLevel(lamp_id=2, level=200),)",
         "Rejects(0)",
     ]
-
-
-def test_it_can_be_sent_from_the_command_line(project: Path) -> None:
-    shown = script(project, BOARD + VERB)
-    assert "LampsState" in shown
-    assert "7:9" in shown
-    assert "55 55 06 63 00 01 07 09" in shown
+    assert "LampsState" in read
+    assert "7:9" in read
+    assert shown == "55 55 06 63 00 01 07 09"
 
 
 def test_it_is_in_the_reference_and_in_the_vectors(project: Path) -> None:

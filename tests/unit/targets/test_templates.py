@@ -156,6 +156,9 @@ def words_known(path: Path) -> list[str]:
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".jinja":
         return FORBIDDEN.findall(text)
+    # Most say none of them, not even in a docstring.
+    if not FORBIDDEN.search(text) and "5555" not in text and str(0x5555) not in text:
+        return []
     code = [*ast.walk(ast.parse(text))]
     names = {node.id for node in code if isinstance(node, ast.Name)}
     names |= {node.attr for node in code if isinstance(node, ast.Attribute)}
