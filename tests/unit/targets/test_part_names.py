@@ -38,11 +38,13 @@ _GIVEN = ("address", "counter")
 # The fields take turns in the names of the parts.
 TURNS = range(7)
 _PROGRAM = """
-const codec = makeCodec(asked.protocol);
-const answers = asked.questions.map(([way, bytes]) => {
-  const event = codec.decodeFrame(bytes, way);
-  const rows = event.rows.map(({ path, text }) => [path, text]);
-  return [event.fields, rows, Array.from(codec.encode(event.message, event.fields))];
+const answers = asked.map(({ protocol, questions }) => {
+  const codec = makeCodec(protocol);
+  return questions.map(([way, bytes]) => {
+    const event = codec.decodeFrame(bytes, way);
+    const rows = event.rows.map(({ path, text }) => [path, text]);
+    return [event.fields, rows, Array.from(codec.encode(event.message, event.fields))];
+  });
 });
 """
 
@@ -201,11 +203,17 @@ def _way(made: Any, pair: Pair) -> Any:
 
 @pytest.mark.skipif(NODE is None, reason="node is not installed")
 def test_the_pages_read_write_and_explain_the_same() -> None:
-    for turn in TURNS:
+    asked = [
+        {
+            "protocol": protocol_data(turned(turn)[0].model),
+            "questions": [(each.message.direction.key, each.example.hex) for each in pairs(turn)],
+        }
+        for turn in TURNS
+    ]
+    scripts = codec_scripts(turned(0)[0].model)
+    for turn, answers in zip(TURNS, run_script(scripts, _PROGRAM, asked), strict=True):
         model = turned(turn)[0].model
-        questions = [(each.message.direction.key, each.example.hex) for each in pairs(turn)]
-        asked = {"protocol": protocol_data(model), "questions": questions}
-        answers = run_script(codec_scripts(model), _PROGRAM, asked)
+        assert codec_scripts(model) == scripts
         for pair, (fields, rows, frame) in zip(pairs(turn), answers, strict=True):
             said = explain(model, pair.example.hex, [pair.message.direction]).readings[0].rows
             assert fields == values_of(pair.message, pair.example.hex)

@@ -67,6 +67,11 @@ def as_text(data: Data) -> str:
     return json.dumps(data, indent=1)
 
 
+@cache
+def in_json(name: str) -> str:
+    return as_text(data_of(SPECS[name]))
+
+
 def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
     """Return the paths of the files that come, go or differ."""
     paths = before.keys() | after.keys()
@@ -134,7 +139,7 @@ def test_a_comment_changes_the_manifest_alone(
 def test_how_values_are_spelt_changes_no_file(name: str) -> None:
     """In JSON nothing stands where it stood, and no line has the number that it had."""
     text = text_of(name)
-    assert changed(files(text), files(as_text(data_of(SPECS[name])))) == set()
+    assert changed(files(text), files(in_json(name))) == set()
 
 
 @pytest.mark.parametrize("name", SPECS)
@@ -161,11 +166,12 @@ def prose(value: Any, path: Steps = ()) -> Iterator[Steps]:
             yield here
 
 
+@cache
 def kinds_of_prose(name: str) -> dict[str, Steps]:
     """Return, for each kind of place with a description, the last such place."""
     known = {"messages", "fields", "values", "notes", "examples", "errata", "unknowns", "sources"}
     found = {}
-    for path in prose(data_of(SPECS[name])):
+    for path in prose(json.loads(in_json(name))):
         names = [
             "*" if isinstance(step, int) or before in known else step
             for before, step in zip(("", *path), path, strict=False)
@@ -200,8 +206,8 @@ def test_prose_stands_in_many_places() -> None:
 
 @in_turn("name, kind", lambda: PLACES)
 def test_a_changed_word_changes_few_files(name: str, kind: str) -> None:
-    data = data_of(SPECS[name])
-    before = modules_and_pages(as_text(data))
+    data = json.loads(in_json(name))
+    before = modules_and_pages(in_json(name))
     *steps, key = kinds_of_prose(name)[kind]
     at: Any = data
     for step in steps:
@@ -220,6 +226,11 @@ def reworded(value: Any, key: str = "") -> Any:
     if isinstance(value, list):
         return [f"Indeed, {each}" if key == "changes" else reworded(each) for each in value]
     return f"Indeed, {value}" if key in PROSE and isinstance(value, str) else value
+
+
+@cache
+def reworded_json(name: str) -> str:
+    return as_text(reworded(json.loads(in_json(name))))
 
 
 class _Bare(ast.NodeTransformer):
@@ -251,8 +262,7 @@ def bare(path: str, text: str) -> str:
 
 @pytest.mark.parametrize("name", SPECS)
 def test_other_words_leave_the_code_as_it_is(name: str) -> None:
-    data = data_of(SPECS[name])
-    before, after = files(as_text(data)), files(as_text(reworded(data)))
+    before, after = files(in_json(name)), files(reworded_json(name))
     assert before.keys() == after.keys()
     touched = {path for path in changed(before, after) if path.endswith(".py")}
     assert {f"generated/{name}/messages.py", f"generated/{name}/_cli/examples.py"} <= touched
@@ -263,11 +273,10 @@ def test_other_words_leave_the_code_as_it_is(name: str) -> None:
 @pytest.mark.parametrize("name", SPECS)
 def test_other_words_leave_the_vectors_as_they_are(name: str) -> None:
     """But for the titles."""
-    data = data_of(SPECS[name])
     path = f"generated/{name}/vectors.json"
     before, after = (
-        re.sub(r'"title": "(?:[^"\\]|\\.)*"', '"title": ""', files(as_text(each))[path])
-        for each in (data, reworded(data))
+        re.sub(r'"title": "(?:[^"\\]|\\.)*"', '"title": ""', files(text)[path])
+        for text in (in_json(name), reworded_json(name))
     )
     assert before == after
 
@@ -314,8 +323,7 @@ def test_a_new_message_changes_few_vectors_of_others() -> None:
 
 
 def test_a_new_named_value_changes_what_shows_it() -> None:
-    data = data_of(BUSSERVO)
-    before = files(as_text(data))
+    before, data = files(in_json("busservo")), json.loads(in_json("busservo"))
     values = data["messages"]["ServoMove"]["fields"]["time_ms"].setdefault("values", {})
     values["a_second"] = {"value": 1000, "about": "A second."}
     assert changed(before, files(as_text(data))) == {

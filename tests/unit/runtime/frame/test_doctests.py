@@ -1,8 +1,9 @@
 """The examples in the docstrings of the library, run."""
 
 import doctest
+from collections.abc import Iterator
 from importlib import import_module
-from pkgutil import walk_packages
+from pathlib import Path
 
 import busservo
 
@@ -14,14 +15,18 @@ ELSEWHERE = {
     "busservo._client.controller",
     "busservo._client.async_controller",
 }
-MODULES = [
-    module.name
-    for module in walk_packages(busservo.__path__, "busservo.")
-    if module.name not in ELSEWHERE
-]
 
 
-@in_turn("name", lambda: ["busservo", *MODULES])
+def with_examples() -> Iterator[str]:
+    """Yield the modules that have examples; to import all others would take longer than these."""
+    home = Path(busservo.__file__).parent
+    for file in home.rglob("*.py"):
+        name = ".".join(file.relative_to(home.parent).with_suffix("").parts)
+        if name not in ELSEWHERE and ">>>" in file.read_text(encoding="utf-8"):
+            yield name.removesuffix(".__init__")
+
+
+@in_turn("name", with_examples)
 def test_examples_are_true(name: str) -> None:
     assert doctest.testmod(import_module(name)).failed == 0
 
