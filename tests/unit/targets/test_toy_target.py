@@ -13,6 +13,9 @@ from framegen.targets import table
 
 from tests import toy_target
 from tests.factories import DEMO
+from tests.unit.writing.made_once import make_once, the_same_is_made_once
+
+__all__ = ["the_same_is_made_once"]
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -34,6 +37,7 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "spec").mkdir()
     shutil.copyfile(DEMO, folder / "spec" / "demo.yaml")
     with pytest.MonkeyPatch.context() as patched:
+        make_once(patched)
         patched.setattr(table, "TARGETS", WITH_IT)
         patched.chdir(folder)
         assert main(["generate"]) == 0

@@ -7,29 +7,27 @@ tests/unit/skeleton/test_new_project.py.
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
-from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 from framegen.cli import main
-from framegen.compile import compile_spec
 from framegen.reading.source import Source
-from framegen.render import render, render_shared, render_target
+from framegen.render import render, render_shared
 from framegen.targets.table import TARGETS
 from framegen.writing import Change, write
 
 from tests.documents import ROOT
-from tests.unit.writing.trees import put, snapshot, times
+from tests.unit.writing.made_once import compiled_once, make_once, the_same_is_made_once
+from tests.unit.writing.trees import Snapshot, put, snapshot, times
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from framegen.compile import Compiled
-    from framegen.targets.target import Target
+__all__ = ["the_same_is_made_once"]
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -39,34 +37,10 @@ GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
 CODEC = f"{LIBRARY}/_codec/codec.py"
 SCHEMA = "spec/framegen.schema.json"
-LEFT_OUT = re.compile(r"generated/\w+/_(?:cli|client|frame|serial)/")
-
-
-@cache
-def compiled_once(source: Source) -> Compiled:
-    return compile_spec(source)
-
-
-_RENDERED: dict[tuple[str, str, str], dict[str, str]] = {}
-
-
-def rendered_once(target: Target, compiled: Compiled) -> dict[str, str]:
-    """Render the same text once: it gives the same files, as test_deterministic.py holds."""
-    key = target.name, compiled.source.path, compiled.source.text
-    if key not in _RENDERED:
-        files = render_target(target, compiled)
-        _RENDERED[key] = {it: text for it, text in files.items() if not LEFT_OUT.match(it)}
-    return dict(_RENDERED[key])
-
-
-@pytest.fixture(autouse=True)
-def the_same_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("framegen.commands.spec_argument.compile_spec", compiled_once)
-    monkeypatch.setattr("framegen.render.render_target", rendered_once)
 
 
 with pytest.MonkeyPatch.context() as patch:
-    patch.setattr("framegen.render.render_target", rendered_once)
+    make_once(patch)
     COMPILED = compiled_once(Source("spec/demo.yaml", TEXT))
     OUTPUT, SHARED = render(COMPILED), render_shared(COMPILED)
 FILES = {**OUTPUT.files, **SHARED.files}
@@ -530,10 +504,7 @@ def test_a_diff_shows_an_empty_file_too() -> None:
 
 @pytest.mark.skipif(GIT is None, reason="git is not installed")
 @pytest.mark.parametrize("attributes", [True, False])
-@pytest.mark.parametrize("side", ["--ours", "--theirs"])
-def test_after_a_merge_with_conflicts_one_run_is_enough(
-    project: Path, side: str, attributes: bool
-) -> None:
+def test_after_a_merge_with_conflicts_one_run_is_enough(project: Path, attributes: bool) -> None:
     """Whichever side of the spec is taken: conflicts and joined files are nobody's work."""
 
     def git(*words: str, fails: bool = False) -> None:
@@ -563,14 +534,23 @@ def test_after_a_merge_with_conflicts_one_run_is_enough(
     edition("ours", RENAMED.replace(summary, "summary: Open vents a little."))
     theirs = changed(summary, "summary: Open vents wide.")
     edition("theirs", theirs.replace("a gateway, its stations", "a gateway, all stations"))
-    git("merge", "-q", "ours", fails=True)
-    git("checkout", side, "spec/demo.yaml")
-    assert main(["generate"]) == 0
-    assert main(["generate", "--check"]) == 0
-    git("add", "--all")
-    spec = (project / "spec" / "demo.yaml").read_text(encoding="utf-8")
-    compiled = compile_spec(Source("spec/demo.yaml", spec))
-    fresh = project / "fresh"
-    write(fresh, [render(compiled), render_shared(compiled)])
-    assert snapshot(fresh / "generated") == snapshot(project / "generated")
-    assert snapshot(fresh / "docs") == snapshot(project / "docs")
+    for side in ("--ours", "--theirs"):
+        git("merge", "-q", "ours", fails=True)
+        git("checkout", side, "spec/demo.yaml")
+        assert main(["generate"]) == 0
+        assert main(["generate", "--check"]) == 0
+        found = snapshot(project)
+        spec = (project / "spec" / "demo.yaml").read_text(encoding="utf-8")
+        compiled = compiled_once(Source("spec/demo.yaml", spec))
+        with TemporaryDirectory() as fresh:
+            write(Path(fresh), [render(compiled), render_shared(compiled)])
+            made = snapshot(Path(fresh))
+        for folder in ("generated", "docs"):
+            assert below(folder, found) == below(folder, made)
+        git("reset", "-q", "--hard")
+        git("clean", "-q", "-d", "--force")
+
+
+def below(folder: str, found: Snapshot) -> Snapshot:
+    """Return what lies in a folder."""
+    return {path: data for path, data in found.items() if path.startswith(f"{folder}/")}

@@ -1,0 +1,52 @@
+"""Output of the same text, made once in a process, and without most of what is copied as it is.
+
+The writer takes one file like another, so that these stand for whole libraries.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import TYPE_CHECKING
+
+import pytest
+from framegen.compile import compile_spec
+from framegen.render import render_target
+from framegen.targets import table
+
+if TYPE_CHECKING:
+    from framegen.compile import Compiled
+    from framegen.reading.source import Source
+    from framegen.targets.target import Target
+
+LEFT_OUT = re.compile(r"generated/\w+/_(?:cli|client|frame|recording|serial|tables)/")
+
+
+@cache
+def compiled_once(source: Source) -> Compiled:
+    return compile_spec(source)
+
+
+_RENDERED: dict[tuple[object, ...], dict[str, str]] = {}
+
+
+def rendered_once(target: Target, compiled: Compiled) -> dict[str, str]:
+    """Render the same text once: it gives the same files, as test_deterministic.py holds."""
+    # A page shows the snippets of all targets.
+    targets = tuple(each.name for each in table.TARGETS)
+    key = target.name, targets, compiled.source.path, compiled.source.text
+    if key not in _RENDERED:
+        files = render_target(target, compiled)
+        _RENDERED[key] = {it: text for it, text in files.items() if not LEFT_OUT.match(it)}
+    return dict(_RENDERED[key])
+
+
+@pytest.fixture(autouse=True)
+def the_same_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    make_once(monkeypatch)
+
+
+def make_once(patch: pytest.MonkeyPatch) -> None:
+    """Have the commands make the same once."""
+    patch.setattr("framegen.commands.spec_argument.compile_spec", compiled_once)
+    patch.setattr("framegen.render.render_target", rendered_once)
