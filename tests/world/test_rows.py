@@ -12,7 +12,6 @@ import pytest
 
 from tests.contract.crossed.test_crossed import scripts
 from tests.contract.protocols.conftest import libraries
-from tests.contract.test_demo_library import side_by_side
 from tests.lines.boards import no_board_refuses_anything
 from tests.rows import left_out_of
 from tests.unit.runtime.tables.test_dataset import captures
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from tests.rows import Row
 
 __all__ = ["captures", "libraries", "no_board_refuses_anything", "scripts"]
-__all__ += ["side_by_side"]
 
 ROOT = Path(__file__).parents[2]
 HAS_SOME = re.compile(
