@@ -21,6 +21,7 @@ from framegen.targets.table import TARGETS
 from framegen.writing import Change, write
 
 from tests.documents import ROOT
+from tests.in_turn import in_turn
 from tests.unit.writing.made_once import compiled_once, make_once, the_same_is_made_once
 from tests.unit.writing.trees import Snapshot, put, snapshot, times
 
@@ -466,37 +467,49 @@ def test_obsolete_pages_are_removed(project: Path) -> None:
 # ------------------------------------------------------------------ diffs
 
 
-def test_a_diff_says_what_would_change_line_by_line() -> None:
-    assert Change("a.py", "stale", "one\ntwo\n", "one\n2\n").diff() == (
-        "--- a/a.py\n+++ b/a.py\n@@ -1,2 +1,2 @@\n one\n-two\n+2\n"
-    )
-
-
-def test_a_diff_shows_a_new_file_and_a_removed_one() -> None:
-    assert Change("a", "missing", None, "x\n").diff() == (
-        "--- /dev/null\n+++ b/a\n@@ -0,0 +1 @@\n+x\n"
-    )
-    assert Change("a", "orphaned", "x\n", None).diff() == (
-        "--- a/a\n+++ /dev/null\n@@ -1 +0,0 @@\n-x\n"
-    )
-
-
-def test_a_diff_shows_a_last_line_without_an_end() -> None:
-    assert Change("a", "stale", "x", "x\n").diff() == (
-        "--- a/a\n+++ b/a\n@@ -1 +1 @@\n-x\n\\ No newline at end of file\n+x\n"
-    )
-
-
-def test_a_diff_ends_its_lines_where_the_file_does() -> None:
-    """Only at a line feed: a form feed or a lone carriage return stands inside a line."""
-    assert Change("a", "stale", "x\x0cy\rz\n", "x\n").diff() == (
-        "--- a/a\n+++ b/a\n@@ -1 +1 @@\n-x\x0cy\rz\n+x\n"
-    )
-
-
-def test_a_diff_shows_an_empty_file_too() -> None:
-    assert Change("py.typed", "missing", None, "").diff() == "--- /dev/null\n+++ b/py.typed\n"
-    assert Change("py.typed", "orphaned", "", None).diff() == "--- a/py.typed\n+++ /dev/null\n"
+@in_turn(
+    "change, diff",
+    lambda: [
+        pytest.param(
+            Change("a", "stale", "one\ntwo\n", "one\n2\n"),
+            "--- a/a\n+++ b/a\n@@ -1,2 +1,2 @@\n one\n-two\n+2\n",
+            id="line by line",
+        ),
+        pytest.param(
+            Change("a", "missing", None, "x\n"),
+            "--- /dev/null\n+++ b/a\n@@ -0,0 +1 @@\n+x\n",
+            id="a new file",
+        ),
+        pytest.param(
+            Change("a", "orphaned", "x\n", None),
+            "--- a/a\n+++ /dev/null\n@@ -1 +0,0 @@\n-x\n",
+            id="a removed file",
+        ),
+        pytest.param(
+            Change("a", "stale", "x", "x\n"),
+            "--- a/a\n+++ b/a\n@@ -1 +1 @@\n-x\n\\ No newline at end of file\n+x\n",
+            id="a last line without an end",
+        ),
+        # A form feed or a lone carriage return stands inside a line.
+        pytest.param(
+            Change("a", "stale", "x\x0cy\rz\n", "x\n"),
+            "--- a/a\n+++ b/a\n@@ -1 +1 @@\n-x\x0cy\rz\n+x\n",
+            id="lines end at a line feed alone",
+        ),
+        pytest.param(
+            Change("py.typed", "missing", None, ""),
+            "--- /dev/null\n+++ b/py.typed\n",
+            id="a new file that is empty",
+        ),
+        pytest.param(
+            Change("py.typed", "orphaned", "", None),
+            "--- a/py.typed\n+++ /dev/null\n",
+            id="a removed file that is empty",
+        ),
+    ],
+)
+def test_a_diff_says_what_would_change_line_by_line(change: Change, diff: str) -> None:
+    assert change.diff() == diff
 
 
 # ------------------------------------------------------------------ git

@@ -27,9 +27,11 @@ from tests.unit.writing.trees import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 MANIFEST = "generated/kiln.manifest"
+CHANGED, NEW = f"{LIBRARY}/changed.py", f"{LIBRARY}/new.py"
 
 
 @pytest.fixture
@@ -65,8 +67,8 @@ def test_a_second_time_nothing_is_touched(root: Path) -> None:
 
 def test_changes_are_reported_with_their_reasons(root: Path) -> None:
     expected = {
-        f"{LIBRARY}/changed.py": "stale",
-        f"{LIBRARY}/new.py": "missing",
+        CHANGED: "stale",
+        NEW: "missing",
         f"{LIBRARY}/deep/er/new.py": "missing",
         f"{LIBRARY}/gone.py": "orphaned",
         f"{LIBRARY}/old/inner.py": "orphaned",
@@ -158,47 +160,21 @@ def test_a_name_that_changes_its_capitals_alone_keeps_its_file(root: Path) -> No
 # ------------------------------------------------------------------ edits and files of others
 
 
-def _edited(root: Path) -> tuple[str, bytes]:
-    file = root / LIBRARY / "changed.py"
-    file.write_bytes(file.read_bytes() + b"# mine\n")
-    return f"{LIBRARY}/changed.py", file.read_bytes()
-
-
-def _edited_orphan(root: Path) -> tuple[str, bytes]:
-    file = root / LIBRARY / "gone.py"
-    file.write_bytes(b"# mine\n")
-    return f"{LIBRARY}/gone.py", b"# mine\n"
-
-
-def _foreign(root: Path) -> tuple[str, bytes]:
-    put(root, f"{LIBRARY}/new.py", "# mine\n")
-    return f"{LIBRARY}/new.py", b"# mine\n"
-
-
-def _foreign_with_banner(root: Path) -> tuple[str, bytes]:
-    """Return a copy that somebody made, though the manifest says that framegen wrote none there."""
-    put(root, f"{LIBRARY}/new.py", f"{BANNER}x = 3\n")
-    return f"{LIBRARY}/new.py", f"{BANNER}x = 3\n".encode()
-
-
-def _binary(root: Path) -> tuple[str, bytes]:
-    put(root, f"{LIBRARY}/changed.py", "\udcff\udcfe\0")
-    return f"{LIBRARY}/changed.py", b"\xff\xfe\0"
-
-
+# What somebody has put where, and what it is called.
 OTHERS = {
-    "edited by hand": (_edited, "edited by hand"),
-    "an orphan edited by hand": (_edited_orphan, "edited by hand"),
-    "a file of somebody else": (_foreign, "foreign"),
-    "a copy": (_foreign_with_banner, "foreign"),
-    "no text": (_binary, "edited by hand"),
+    "edited by hand": (CHANGED, f"{BEFORE.files[CHANGED]}# mine\n", "edited by hand"),
+    "an orphan edited by hand": (f"{LIBRARY}/gone.py", "# mine\n", "edited by hand"),
+    "a file of somebody else": (NEW, "# mine\n", "foreign"),
+    # Though it has the banner, the manifest says that framegen wrote none there.
+    "a copy": (NEW, f"{BANNER}x = 3\n", "foreign"),
+    "no text": (CHANGED, "\udcff\udcfe\0", "edited by hand"),
 }
 
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_foreign_files_are_never_replaced_or_removed(root: Path, name: str) -> None:
-    spoil, why = OTHERS[name]
-    path, _ = spoil(root)
+    path, text, why = OTHERS[name]
+    put(root, path, text)
     before = snapshot(root)
     assert whys(changes(root, [AFTER]))[path] == why
     with pytest.raises(Unusable) as caught:
@@ -211,7 +187,8 @@ def test_foreign_files_are_never_replaced_or_removed(root: Path, name: str) -> N
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_with_force_a_foreign_file_is_kept_beside(root: Path, tmp_path: Path, name: str) -> None:
-    path, data = OTHERS[name][0](root)
+    path, text, _ = OTHERS[name]
+    data = put(root, path, text).read_bytes()
     put(root, f"{path}.mine", "kept before\n")
     done = write(root, [AFTER], force=True)
     assert done.kept == {path: f"{path}.mine-2"}
@@ -225,16 +202,16 @@ def test_with_force_a_foreign_file_is_kept_beside(root: Path, tmp_path: Path, na
 
 
 def test_an_edit_is_reported_even_with_an_unchanged_spec(root: Path) -> None:
-    path, _ = _edited(root)
-    assert whys(changes(root, [BEFORE])) == {path: "edited by hand"}
+    put(root, CHANGED, f"{BEFORE.files[CHANGED]}# mine\n")
+    assert whys(changes(root, [BEFORE])) == {CHANGED: "edited by hand"}
     with pytest.raises(Unusable):
         write(root, [BEFORE])
 
 
 def test_an_edit_equal_to_the_new_output_is_no_edit(root: Path) -> None:
     """Whoever has anticipated the output has nothing to lose."""
-    put(root, f"{LIBRARY}/changed.py", AFTER.files[f"{LIBRARY}/changed.py"])
-    put(root, f"{LIBRARY}/new.py", AFTER.files[f"{LIBRARY}/new.py"])
+    put(root, CHANGED, AFTER.files[CHANGED])
+    put(root, NEW, AFTER.files[NEW])
     write(root, [AFTER])
     assert changes(root, [AFTER]) == []
 
@@ -293,37 +270,31 @@ def test_the_manifest_reads_as_sha256sum_writes(root: Path) -> None:
     assert paths == sorted(BEFORE.files)
 
 
-def _gone(file: Path) -> None:
-    file.unlink()
+def _conflicted(data: bytes) -> bytes:
+    *lines, last = data.splitlines(keepends=True)
+    theirs = last.replace(last[:64], b"0" * 64)
+    return b"".join([*lines, b"<<<<<<< ours\n", last, b"=======\n", theirs, b">>>>>>> theirs\n"])
 
 
-def _empty(file: Path) -> None:
-    file.write_bytes(b"")
-
-
-def _cut(file: Path) -> None:
-    file.write_bytes(file.read_bytes()[:-50])
-
-
-def _conflicted(file: Path) -> None:
-    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
-    theirs = lines[-1].replace(lines[-1][:64], "0" * 64)
-    marked = ["<<<<<<< ours\n", lines[-1], "=======\n", theirs, ">>>>>>> theirs\n"]
-    file.write_text("".join([*lines[:-1], *marked]), encoding="utf-8")
-
-
-def _binary_manifest(file: Path) -> None:
-    file.write_bytes(b"\xff\xfe\0")
+DAMAGES: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda _data: b"",
+    "cut": lambda data: data[:-50],
+    "conflicted": _conflicted,
+    "binary": lambda _data: b"\xff\xfe\0",
+}
 
 
 @pytest.mark.parametrize("edition", [BEFORE, AFTER], ids=["the same", "the next"])
-@pytest.mark.parametrize("spoil", [_gone, _empty, _cut, _conflicted, _binary_manifest])
+@pytest.mark.parametrize("damage", ["gone", *DAMAGES])
 def test_a_manifest_that_is_lost_or_damaged_is_made_anew(
-    root: Path, tmp_path: Path, spoil: object, edition: Output
+    root: Path, tmp_path: Path, damage: str, edition: Output
 ) -> None:
-    assert callable(spoil)
-    spoil(root / MANIFEST)
-    state = "is not there" if spoil is _gone else "is damaged"
+    file = root / MANIFEST
+    if damage == "gone":
+        file.unlink()
+    else:
+        file.write_bytes(DAMAGES[damage](file.read_bytes()))
+    state = "is not there" if damage == "gone" else "is damaged"
     done = write(root, [edition])
     assert done.notices == [f"{MANIFEST} {state}: files are recognised by their contents"]
     assert snapshot(root) == fresh(tmp_path / "elsewhere", edition)
@@ -335,18 +306,18 @@ def test_a_fresh_folder_is_no_loss(tmp_path: Path) -> None:
 
 def test_without_a_manifest_a_file_of_somebody_else_is_not_adopted(root: Path) -> None:
     (root / MANIFEST).unlink()
-    path, _ = _foreign(root)
-    with pytest.raises(Unusable, match=f"foreign: {path}"):
+    put(root, NEW, "# mine\n")
+    with pytest.raises(Unusable, match=f"foreign: {NEW}"):
         write(root, [AFTER])
 
 
 def test_files_with_merge_conflicts_are_no_edits(root: Path) -> None:
     conflict = f"{BANNER}<<<<<<< ours\nx = 1\n=======\nx = 2\n>>>>>>> theirs\n"
-    put(root, f"{LIBRARY}/changed.py", conflict)
-    put(root, f"{LIBRARY}/new.py", conflict)
+    put(root, CHANGED, conflict)
+    put(root, NEW, conflict)
     put(root, f"{LIBRARY}/gone.py", conflict)
     found = whys(changes(root, [AFTER]))
-    assert found[f"{LIBRARY}/changed.py"] == found[f"{LIBRARY}/new.py"] == "conflicted"
+    assert found[CHANGED] == found[NEW] == "conflicted"
     assert found[f"{LIBRARY}/gone.py"] == "orphaned"
     write(root, [AFTER])
     assert changes(root, [AFTER]) == []
@@ -354,7 +325,7 @@ def test_files_with_merge_conflicts_are_no_edits(root: Path) -> None:
 
 def test_after_a_conflict_the_manifest_says_what_it_said(root: Path) -> None:
     before = snapshot(root)
-    put(root, f"{LIBRARY}/changed.py", "<<<<<<< a\n=======\n>>>>>>> b\n")
+    put(root, CHANGED, "<<<<<<< a\n=======\n>>>>>>> b\n")
     write(root, [BEFORE])
     assert snapshot(root) == before
 
@@ -366,7 +337,7 @@ def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) ->
     theirs = (root / MANIFEST).read_text(encoding="utf-8").splitlines()
     joined = [*ours, *(line for line in theirs if line not in ours)]
     put(root, MANIFEST, "\n".join(joined) + "\n")
-    for path in (f"{LIBRARY}/changed.py", f"{LIBRARY}/gone.py"):
+    for path in (CHANGED, f"{LIBRARY}/gone.py"):
         put(root, path, BEFORE.files[path])
     # And what git has joined of both is no edit, either.
     joined_page = f"{PAGES}/messages/Heat.md"
@@ -374,7 +345,7 @@ def test_two_manifests_that_git_has_joined_know_the_files_of_both(root: Path) ->
     edited = f"{LIBRARY}/same.py"
     put(root, edited, f"{BEFORE.files[edited]}# mine\n")
     assert whys(changes(root, [AFTER])) == {
-        f"{LIBRARY}/changed.py": "stale",
+        CHANGED: "stale",
         f"{LIBRARY}/gone.py": "orphaned",
         joined_page: "stale",
         edited: "edited by hand",

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from functools import cache
 
 import busservo
 import pytest
@@ -29,8 +30,16 @@ BROUGHT |= {"org", "posixpath", "reprlib", "types"}
 WARNED = {"warnings"} if any(kind.DEPRECATED for kind in busservo.MESSAGES) else set[str]()
 
 
-def imported(statement: str) -> set[str]:
-    """Return the modules that a statement adds to a bare Python; of packages, the outermost."""
+# All that needs no port.
+NO_PORT = """from busservo import (
+    MESSAGES, PROTOCOL_VERSION, Counters, DecodeError, Direction, EncodeError, Message, Noise,
+    ProtocolError, Reason, ServoMove, ServoTarget, StreamDecoder, UnknownFrame, decode
+)"""
+
+
+@cache
+def modules_after(statement: str) -> set[str]:
+    """Return the modules that a statement adds to a bare Python, without those of .pth files."""
     code = f"import sys; bare = {{*sys.modules}}\n{statement}\nprint(*({{*sys.modules}} - bare))"
     done = subprocess.run(
         [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}\n{code}"],
@@ -38,7 +47,7 @@ def imported(statement: str) -> set[str]:
         text=True,
         check=True,
     )
-    return {name.partition(".")[0] for name in done.stdout.split()}
+    return {*done.stdout.split()}
 
 
 @pytest.mark.parametrize(
@@ -46,11 +55,29 @@ def imported(statement: str) -> set[str]:
     [
         ("import busservo", set()),
         ("import busservo._codec.codec", CODEC),
-        ("from busservo import StreamDecoder, decode", CODEC),
+        (NO_PORT, CODEC),
         ("from busservo import Controller", CLIENT),
         ("from busservo import Controller, Device, ServoMove, UnknownFrame", CLIENT),
     ],
 )
 def test_no_more_is_imported_than_is_needed(statement: str, allowed: set[str]) -> None:
-    brought = {name for name in imported(statement) if not name.startswith("_")}
+    outermost = {name.partition(".")[0] for name in modules_after(statement)}
+    brought = {name for name in outermost if not name.startswith("_")}
     assert brought - {"busservo"} <= allowed | BROUGHT | WARNED
+
+
+def test_the_package_alone_imports_no_module_of_its_own() -> None:
+    found = modules_after("import busservo")
+    assert {name for name in found if "busservo" in name} == {"busservo"}
+
+
+def test_a_port_has_to_be_opened_before_pyserial_is_imported() -> None:
+    modules = modules_after("from busservo import *")
+    assert "busservo._serial.serial_port" in modules
+    assert "serial" not in modules
+
+
+def test_what_opens_a_port_imports_nothing_that_looks_for_devices() -> None:
+    modules = modules_after("from busservo import Controller, open_controller")
+    assert "busservo._serial.hid_devices" in modules
+    assert "pathlib" not in modules

@@ -2,11 +2,8 @@
 
 import copy
 import inspect
-import os
 import pickle
 import pydoc
-import subprocess
-import sys
 import weakref
 from collections.abc import Callable, Iterator
 from enum import IntEnum
@@ -726,49 +723,6 @@ def test_a_public_name_is_documented(name: str) -> None:
 
 def _has_code(value: object) -> bool:
     return callable(value) or isinstance(value, (property, classmethod, staticmethod))
-
-
-@pytest.mark.parametrize(
-    "unwanted", ["serial", "typing", "typing_extensions", "dataclasses", "hypothesis", "json", "re"]
-)
-def test_importing_the_codec_imports_little(unwanted: str, imported: set[str]) -> None:
-    assert "busservo" in imported
-    assert unwanted not in imported
-
-
-@pytest.fixture(scope="module")
-def imported() -> set[str]:
-    """Return the modules that are imported with all that needs no port."""
-    return modules_after(f"from busservo import {', '.join(sorted(PUBLIC - {'__version__'}))}")
-
-
-def test_the_package_alone_imports_no_module_of_its_own() -> None:
-    assert {name for name in modules_after("import busservo") if "busservo" in name} == {"busservo"}
-
-
-def test_a_port_has_to_be_opened_before_pyserial_is_imported() -> None:
-    modules = modules_after("from busservo import *")
-    assert "busservo._serial.serial_port" in modules
-    assert "serial" not in modules
-
-
-def test_what_opens_a_port_imports_nothing_that_looks_for_devices() -> None:
-    modules = modules_after("from busservo import Controller, open_controller")
-    assert "busservo._serial.hid_devices" in modules
-    assert "pathlib" not in modules
-
-
-def modules_after(statement: str) -> set[str]:
-    """Return all modules imported after a statement; -S keeps away those of a site's .pth files."""
-    home = Path(busservo.__file__).parent.parent
-    output = subprocess.run(
-        [sys.executable, "-S", "-c", f"import sys; {statement}; print(*sys.modules)"],
-        env={**os.environ, "PYTHONPATH": str(home)},
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout
-    return set(output.split())
 
 
 def test_the_package_is_typed() -> None:
