@@ -167,6 +167,8 @@ OTHERS = {
     "a file of somebody else": (NEW, "# mine\n", "foreign"),
     # Though it has the banner, the manifest says that framegen wrote none there.
     "a copy": (NEW, f"{BANNER}x = 3\n", "foreign"),
+    # Nothing is lost where framegen wrote something; here it did not.
+    "a blank file": (NEW, "", "foreign"),
     "no text": (CHANGED, "\udcff\udcfe\0", "edited by hand"),
 }
 
