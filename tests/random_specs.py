@@ -6,6 +6,7 @@ without fields. Whatever is drawn besides is as small as can be.
 
 from __future__ import annotations
 
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any
 
 from framegen.cases.valid import frames_of, values_at
@@ -16,7 +17,7 @@ from framegen.model.model import derive
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Hashable, Sequence
 
     from framegen.model.layout import MessageLayout
 
@@ -30,7 +31,25 @@ METHODS = tuple(CHECKSUMS)
 # Few of them, so that most frames of a line have one that is cheap to work out.
 USUAL = ("sum", "xor", "inverted sum", "fletcher-8", "crc-16/modbus")
 
-orders = st.sampled_from(["little", "big"])
+
+# To make a strategy takes longer than to draw from it, so that each is made once.
+
+
+@lru_cache(maxsize=512, typed=True)
+def _of(*choices: Hashable) -> st.SearchStrategy[Any]:
+    return st.sampled_from(choices)
+
+
+@lru_cache(maxsize=512)
+def _either(low: int, high: int, *others: int) -> st.SearchStrategy[int]:
+    """Return a whole number of a range, or one of a few."""
+    return st.integers(low, high) | _of(*others)
+
+
+orders = _of("little", "big")
+_FEW_BYTES = st.lists(_of(*BYTES), min_size=1, max_size=2)
+_METHODS = _of(*USUAL) | _of(*METHODS)
+_KINDS = _of(*WHOLE[:4]) | _of(*WHOLE)
 
 _NOTE = {"text": "It was seen.", "cite": "dice, 2"}
 
@@ -46,25 +65,26 @@ def _sometimes(draw: st.DrawFn, one_in: int = 4) -> bool:
 # ------------------------------------------------------------------ the frame
 
 
+@cache
 @st.composite
 def frames(draw: st.DrawFn, header: Sequence[int] | None = None) -> Data:
     """Draw the parts of a frame, in an order that the language allows."""
     head, tail = draw(_ends())
-    checksums = draw(st.sampled_from([0, 1, 1, 1, 2]))
+    checksums = draw(_of(0, 1, 1, 1, 2))
     if header is None:
         # Without a constant in front, a checksum tells what a frame is.
-        headers = [[0x55], [0x55, 0x55], [0x55, 0xAA], *([[]] if checksums else [])]
-        header = draw(st.sampled_from(headers))
+        headers = [(0x55,), (0x55, 0x55), (0x55, 0xAA), *([()] if checksums else [])]
+        header = draw(_of(*headers))
     if header:
         head.insert(0, ("header", {"is": "constant", "bytes": _hex(header)}))
     parts: Data = dict([*head, ("body", {"is": "body"}), *tail])
     for number in range(checksums):
-        parts = draw(_checksummed(parts, f"check{number}"))
+        parts = _checksummed(draw, parts, f"check{number}")
     if any(part["is"] == "checksum" for part in parts.values()) and _sometimes(draw):
-        parts = draw(_with_unsent(parts))
+        parts = _with_unsent(draw, parts)
     if "length" in parts:
         sent = [name for name, part in parts.items() if part.get("sent", True)]
-        counted = draw(st.sets(st.sampled_from(sent))) | {"body"}
+        counted = draw(st.sets(_of(*sent))) | {"body"}
         parts["length"]["counts"] = [name for name in parts if name in counted]
     return parts
 
@@ -72,26 +92,28 @@ def frames(draw: st.DrawFn, header: Sequence[int] | None = None) -> Data:
 Parts = list[tuple[str, Data]]
 
 
+@cache
 @st.composite
 def _ends(draw: st.DrawFn) -> tuple[Parts, Parts]:
     """Draw the parts in front of the body and behind it, but for header and checksums."""
     head: Parts = []
     tail: Parts = []
-    if draw(st.sampled_from([True, True, True, False])):
-        kind = draw(st.sampled_from(["u8", "u8", "u16", "u24"]))
+    if draw(_of(True, True, True, False)):
+        kind = draw(_of("u8", "u8", "u16", "u24"))
         head.append(("length", _ordered(draw, {"is": "length", "type": kind, "counts": []})))
-    for number in range(draw(st.sampled_from([1, 1, 1, 2, 0]))):
-        kind = draw(st.sampled_from(["u8", "u8", "u16"]))
+    for number in range(draw(_of(1, 1, 1, 2, 0))):
+        kind = draw(_of("u8", "u8", "u16"))
         head.append((f"id{number}", _ordered(draw, {"is": "id", "type": kind})))
     if _sometimes(draw):
         head.append(("address", draw(_addresses())))
     if _sometimes(draw):
-        place = draw(st.sampled_from([head, head, tail]))
+        place = tail if draw(_of(False, False, True)) else head
         place.append(("sequence", _ordered(draw, {"is": "counter", "type": "u8"})))
     for name, what in ("spare", "reserved"), ("mark", "constant"):
         if _sometimes(draw):
-            data = _hex(draw(st.lists(st.sampled_from(BYTES), min_size=1, max_size=2)))
-            draw(st.sampled_from([head, tail])).append((name, {"is": what, "bytes": data}))
+            data = _hex(draw(_FEW_BYTES))
+            place = tail if draw(_of(False, True)) else head
+            place.append((name, {"is": what, "bytes": data}))
     return draw(st.permutations(head)), tail
 
 
@@ -100,23 +122,23 @@ def _ordered(draw: st.DrawFn, what: Data) -> Data:
     return {**what, "byte_order": draw(orders)} if _sometimes(draw) else what
 
 
+@cache
 @st.composite
 def _addresses(draw: st.DrawFn) -> Data:
-    part: Data = {"is": "address", "type": draw(st.sampled_from(["u8", "u8", "u16"]))}
+    part: Data = {"is": "address", "type": draw(_of("u8", "u8", "u16"))}
     if draw(st.booleans()):
         low = draw(st.integers(0, 3))
         part["range"] = f"{low}..{low + draw(st.integers(0, 100))}"
     if draw(st.booleans()):
-        part["values"] = {"all": {"value": draw(st.sampled_from([254, 0])), "silent": True}}
+        part["values"] = {"all": {"value": draw(_of(254, 0)), "silent": True}}
     return _ordered(draw, part)
 
 
-@st.composite
 def _checksummed(draw: st.DrawFn, parts: Data, name: str) -> Data:
     """Add a checksum behind the body, or in front of it, that covers some of what there is."""
-    method = draw(st.sampled_from(USUAL) | st.sampled_from(METHODS))
-    width = draw(st.sampled_from([each for each in CHECKSUMS[method].widths if each != 56]))
-    covers = draw(st.lists(st.sampled_from([*parts]), min_size=1, unique=True))
+    method = draw(_METHODS)
+    width = draw(_of(*(each for each in CHECKSUMS[method].widths if each != 56)))
+    covers = draw(st.lists(_of(*parts), min_size=1, unique=True))
     part = _ordered(draw, {"is": "checksum", "type": f"u{width}", "method": method})
     part["covers"] = ["body"] + [each for each in covers if each != "body"]
     if draw(st.booleans()):
@@ -124,7 +146,7 @@ def _checksummed(draw: st.DrawFn, parts: Data, name: str) -> Data:
     names = [*parts]
     body = names.index("body")
     first = 1 if "header" in parts else 0
-    at = draw(st.sampled_from([len(names), len(names), body + 1]) | st.integers(first, body))
+    at = draw(_either(first, body, len(names), len(names), body + 1))
     # What stands behind a checksum is covered by it, but for another checksum.
     late = {each for each in names[at:] if parts[each]["is"] == "checksum"}
     part["covers"] = [each for each in part["covers"] if each not in late]
@@ -132,11 +154,10 @@ def _checksummed(draw: st.DrawFn, parts: Data, name: str) -> Data:
     return {each: part if each == name else parts[each] for each in names}
 
 
-@st.composite
 def _with_unsent(draw: st.DrawFn, parts: Data) -> Data:
     """Add an id that is not sent, and covered."""
     checks = [name for name, part in parts.items() if part["is"] == "checksum"]
-    check = draw(st.sampled_from(checks))
+    check = draw(_of(*checks))
     covers = [*parts[check]["covers"]]
     covers.insert(draw(st.integers(0, len(covers))), "extra")
     added = {**parts, check: {**parts[check], "covers": covers}}
@@ -146,22 +167,23 @@ def _with_unsent(draw: st.DrawFn, parts: Data) -> Data:
 # ------------------------------------------------------------------ fields
 
 
+@cache
 @st.composite
 def numbers(draw: st.DrawFn, *, whole: bool = False) -> Data:
     """Draw a number of any type, with a range now and then."""
-    kind = draw(st.sampled_from(WHOLE[:4]) | st.sampled_from(WHOLE))
+    kind = draw(_KINDS)
     if not whole and _sometimes(draw, 6):
-        kind = draw(st.sampled_from(["f32", "f64"]))
+        kind = draw(_of("f32", "f64"))
     field: Data = _ordered(draw, {"type": kind, "about": "A number."})
     if kind[0] == "f":
         return field
     bits, signed = int(kind[1:]), kind[0] == "i"
     low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
     if not whole and _sometimes(draw, 5):
-        value = draw(st.sampled_from([0, 1, high]))
-        return {**field, draw(st.sampled_from(["always", "reserved"])): value}
+        value = draw(_of(0, 1, high))
+        return {**field, draw(_of("always", "reserved")): value}
     if _sometimes(draw):
-        bottom = draw(st.integers(low, high) | st.sampled_from([0, 1]))
+        bottom = draw(_either(low, high, 0, 1))
         top = draw(st.integers(bottom, high))
         field["range"] = f"{bottom}..{top}"
     elif not signed and _sometimes(draw, 6):
@@ -169,30 +191,37 @@ def numbers(draw: st.DrawFn, *, whole: bool = False) -> Data:
     return field
 
 
+@cache
 @st.composite
 def _texts(draw: st.DrawFn) -> Data:
     size = draw(st.integers(1, 4))
     return {"type": "u8", "count": size, "text": "ascii", "about": "Some text."}
 
 
+@cache
 @st.composite
 def _packed(draw: st.DrawFn) -> Data:
-    bits, count = draw(st.sampled_from([(4, 2), (1, 8), (12, 2), (11, 8), (3, 8)]))
+    bits, count = draw(_of((4, 2), (1, 8), (12, 2), (11, 8), (3, 8)))
     field: Data = {"type": f"u{bits}", "count": count, "about": "Some bits."}
     if _sometimes(draw):
         field["range"] = f"1..{(1 << bits) - 2}" if bits > 1 else "0..0"
     return _ordered(draw, field)
 
 
+_INNER = st.lists(numbers() | numbers() | _texts(), min_size=1, max_size=3)
+
+
+@cache
 @st.composite
 def _elements(draw: st.DrawFn) -> Data:
-    inner = draw(st.lists(st.one_of(numbers(), numbers(), _texts()), min_size=1, max_size=3))
+    inner = draw(_INNER)
     if all("always" in each or "reserved" in each for each in inner):
         inner.append({"type": "u8", "about": "A number."})
     fields = {f"part{number}": each for number, each in enumerate(inner)}
     return {"element": "Item", "about": "Some elements.", "fields": fields}
 
 
+@cache
 @st.composite
 def _bare(draw: st.DrawFn) -> Data:
     field = draw(numbers(whole=True))
@@ -202,30 +231,33 @@ def _bare(draw: st.DrawFn) -> Data:
     return field
 
 
+_LISTED = _bare() | _elements()
+
+
+@cache
 @st.composite
 def _single_fields(draw: st.DrawFn) -> Data:
     """Draw a field of a fixed size."""
     if not _sometimes(draw):
         return draw(numbers())
-    kind = draw(st.sampled_from(["text", "packed", "list", "list"]))
+    kind = draw(_of("text", "packed", "list", "list"))
     if kind == "text":
         return draw(_texts())
     if kind == "packed":
         return draw(_packed())
-    listed = draw(_bare() | _elements())
+    listed = draw(_LISTED)
     if listed.get("text"):
         return {**listed, "count": draw(st.integers(1, 4))}
     return {**listed, "count": draw(st.integers(1, 3))}
 
 
-@st.composite
+_SINGLE = st.lists(_single_fields(), max_size=3)
+
+
 def _bodies(draw: st.DrawFn, length: Data | None) -> tuple[Data, str, bool]:
     """Draw the fields of a message, and what its length depends on; and whether they may lack."""
-    fields = {
-        f"field{number}": each
-        for number, each in enumerate(draw(st.lists(_single_fields(), max_size=3)))
-    }
-    shape = draw(st.sampled_from(["plain", "plain", "list", "optional"]))
+    fields = {f"field{number}": each for number, each in enumerate(draw(_SINGLE))}
+    shape = draw(_of("plain", "plain", "list", "optional"))
     if shape == "optional" and length is not None:
         for number in range(draw(st.integers(1, 3))):
             field = draw(numbers(whole=True))
@@ -233,16 +265,15 @@ def _bodies(draw: st.DrawFn, length: Data | None) -> tuple[Data, str, bool]:
         return fields, "", True
     if shape != "list":
         return fields, "", False
-    return *draw(_listed(fields, length)), False
+    return *_listed(draw, fields, length), False
 
 
-@st.composite
 def _listed(draw: st.DrawFn, fields: Data, length: Data | None) -> tuple[Data, str]:
     """Add a list of a size that varies, with what says how long it is."""
-    items = draw(_bare() | _elements())
+    items = draw(_LISTED)
     hows = ["counted_by", "sized_by", *([] if length is None else ["left", "left", "both"])]
-    how = draw(st.sampled_from(hows))
-    kind = _ordered(draw, {"type": draw(st.sampled_from(["u8", "u8", "u16"])), "about": "Of it."})
+    how = draw(_of(*hows))
+    kind = _ordered(draw, {"type": draw(_of("u8", "u8", "u16")), "about": "Of it."})
     before = [*fields.items()]
     if length is not None and how == "left":
         kind = length
@@ -260,7 +291,7 @@ def _listed(draw: st.DrawFn, fields: Data, length: Data | None) -> tuple[Data, s
     if not open_ended or draw(st.booleans()):
         low = draw(st.integers(0, 2))
         bounds = [f"{low}..{low + 4}", *([f"{low}.."] if open_ended else [])]
-        items["count"] = draw(st.sampled_from(bounds))
+        items["count"] = draw(_of(*bounds))
     return {**dict(before), "items": items}, "number" if "counted_by" in items else "items"
 
 
@@ -274,13 +305,13 @@ def specs(draw: st.DrawFn) -> Data:
     kinds: Data = {"frame": first}
     several = _sometimes(draw)
     if several:
-        header = draw(st.sampled_from([None, [0x55, 0x01]]))
+        header = draw(_of(None, (0x55, 0x01)))
         kinds = {"one": first, "two": draw(frames(header))}
     messages: Data = {}
     for number in range(draw(st.integers(1, 5))):
-        way = WAYS[number % 2] if number < 2 else draw(st.sampled_from(WAYS))
-        kind = draw(st.sampled_from([*kinds]))
-        message = draw(_messages(kinds[kind], [*messages.values()], kind, way))
+        way = WAYS[number % 2] if number < 2 else draw(_of(*WAYS))
+        kind = draw(_of(*kinds))
+        message = _messages(draw, kinds[kind], [*messages.values()], kind, way)
         if message is not None:
             _name_elements(message, number)
             messages[f"Message{number}"] = {**message, **({"frame": kind} if several else {})}
@@ -302,18 +333,17 @@ def specs(draw: st.DrawFn) -> Data:
     }
 
 
-@st.composite
 def _messages(
     draw: st.DrawFn, parts: Data, others: Sequence[Data], kind: str, way: str
 ) -> Data | None:
     ids = {name: part for name, part in parts.items() if part["is"] == "id"}
     sent = [name for name, part in ids.items() if part.get("sent", True)]
-    small = st.sampled_from([1, 2, 3, 0x55, 255])
+    small = _of(1, 2, 3, 0x55, 255)
     given = {name: draw(small) for name in ids}
     same = [each for each in others if (each["direction"], each.get("frame", kind)) == (way, kind)]
     if any(_ids(each, ids, sent) == [given[name] for name in sent] for each in same):
         return None
-    fields, variable, optional = draw(_bodies(parts.get("length")))
+    fields, variable, optional = _bodies(draw, parts.get("length"))
     message: Data = {"direction": way, "summary": "Say something.", "cite": "dice, 1"}
     message["notes"] = [_NOTE]
     if given:
@@ -323,7 +353,7 @@ def _messages(
     if lengths is None:
         message["length"] = rule
     else:
-        chosen = draw(st.sets(st.sampled_from(lengths)))
+        chosen = draw(st.sets(_of(*lengths)))
         message["length"] = sorted(chosen | {lengths[0], lengths[-1]})
     return {**message, "fields": fields}
 
@@ -437,7 +467,7 @@ def values_of(draw: st.DrawFn, spec: Data, name: str) -> Data:
         elif what["is"] == "counter":
             values[part] = draw(st.integers(0, 255))
     counters = {field.get(how) for field in fields.values() for how in ("counted_by", "sized_by")}
-    there = draw(_there(parts, message))
+    there = _there(draw, parts, message)
     for key, field in fields.items():
         if key in counters or "always" in field or "reserved" in field:
             continue
@@ -448,13 +478,12 @@ def values_of(draw: st.DrawFn, spec: Data, name: str) -> Data:
     return values
 
 
-@st.composite
 def _there(draw: st.DrawFn, parts: Data, message: Data) -> list[str]:
     """Draw which of the optional fields there are."""
     if not isinstance(message["length"], list):
         return []
     sizes = _optional_lengths(parts, message["fields"])
-    number = draw(st.sampled_from([sizes.index(each) for each in message["length"]]))
+    number = draw(_of(*map(sizes.index, message["length"])))
     optional = [key for key, field in message["fields"].items() if field.get("optional")]
     return optional[:number]
 
@@ -462,7 +491,7 @@ def _there(draw: st.DrawFn, parts: Data, message: Data) -> list[str]:
 def _address_values(what: Data) -> st.SearchStrategy[int]:
     low, _, high = what.get("range", f"0..{(1 << int(what['type'][1:])) - 1}").partition("..")
     named = [each["value"] for each in what.get("values", {}).values()]
-    return st.integers(int(low), int(high)) | st.sampled_from([*named, int(low)])
+    return _either(int(low), int(high), *named, int(low))
 
 
 def _values(field: Data) -> st.SearchStrategy[Any]:
@@ -496,10 +525,12 @@ def _number_values(field: Data) -> st.SearchStrategy[Any]:
     if "range" in field:
         low, high = (int(each) for each in field["range"].split(".."))
     near = [each for each in (0x55, 0xAA, 1, 0) if low <= each <= high]
-    return st.integers(low, high) | st.sampled_from([*near, low, high])
+    return _either(low, high, *near, low, high)
 
 
 # ------------------------------------------------------------------ lines
+
+_NOISE = st.lists(_of(*BYTES), max_size=4)
 
 
 @st.composite
@@ -508,16 +539,16 @@ def lines(draw: st.DrawFn, frames_: Sequence[bytes]) -> bytes:
     pieces = []
     for _ in range(draw(st.integers(0, 4))):
         frame = draw(st.sampled_from(frames_))
-        what = draw(st.sampled_from(["whole", "whole", "cut", "damaged", "doubled", "noise"]))
+        what = draw(_of("whole", "whole", "cut", "damaged", "doubled", "noise"))
         at = draw(st.integers(0, len(frame)))
         if what == "cut":
             frame = frame[:at]
         elif what == "damaged":
-            other = bytes([draw(st.sampled_from(BYTES) | st.integers(0, 255))])
+            other = bytes([draw(_either(0, 255, *BYTES))])
             frame = frame[:at] + other + frame[at + draw(st.integers(0, 1)) :]
         elif what == "doubled":
             frame = frame[:at] + draw(st.sampled_from(frames_)) + frame[at:]
         elif what == "noise":
-            frame = bytes(draw(st.lists(st.sampled_from(BYTES), max_size=4)))
+            frame = bytes(draw(_NOISE))
         pieces.append(frame)
     return b"".join(pieces)

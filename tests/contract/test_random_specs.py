@@ -123,9 +123,16 @@ def test_a_line_is_read_as_by_trying_everything(spec: Data, data: st.DataObject)
     model = model_of(spec)
     ways = data.draw(directions_of(spec))
     line = data.draw(lines_of(spec, model, ways))
+    decoder = decoder_of(model, ways)
     expected = Reader(spec).scan(ways, line)
-    assert scanned(decoder_of(model, ways), line) == expected
+    assert scanned(decoder, line) == expected
     assert b"".join(piece for _, piece in expected) == line
+    # What is reported early stays, and little is held.
+    cut = data.draw(st.integers(0, len(line)))
+    early, late = split(decoder.decode_so_far(line[:cut])), split(decoder.decode(line))
+    assert late[: len(early)] == early
+    held = cut - sum(len(piece) for _, piece in early)
+    assert held <= model.largest(decoder.directions)
 
 
 def scanned(decoder: ReferenceDecoder, line: bytes) -> list[tuple[str, bytes]]:
@@ -142,19 +149,6 @@ def scanned(decoder: ReferenceDecoder, line: bytes) -> list[tuple[str, bytes]]:
         else:
             found.append((kind, event.data))
     return found
-
-
-@given(specs(), st.data())
-def test_what_is_reported_early_stays_and_little_is_held(spec: Data, data: st.DataObject) -> None:
-    model = model_of(spec)
-    ways = data.draw(directions_of(spec))
-    line = data.draw(lines_of(spec, model, ways))
-    cut = data.draw(st.integers(0, len(line)))
-    decoder = decoder_of(model, ways)
-    early, late = decoder.decode_so_far(line[:cut]), decoder.decode(line)
-    assert split(late)[: len(split(early))] == split(early)
-    held = cut - sum(len(event.data) for event in early)
-    assert held <= model.largest(decoder.directions)
 
 
 def split(events: Sequence[Event]) -> list[tuple[str, bytes]]:
@@ -174,25 +168,16 @@ def split(events: Sequence[Event]) -> list[tuple[str, bytes]]:
 
 
 @given(specs())
-def test_valid_vectors_are_read_as_they_say(spec: Data) -> None:
+def test_vectors_are_read_or_refused_as_they_say(spec: Data) -> None:
     model, reader = model_of(spec), Reader(spec)
     frames = [*valid_frames(model)]
     assert {each.message.name for each in frames} == set(model.messages)
     for frame in frames:
         assert plain(reader.read(frame.message.name, frame.data)) == plain(frame.values)
-
-
-@given(specs())
-def test_unencodable_vectors_are_refused(spec: Data) -> None:
-    for unfit in unencodable(model_of(spec)):
+    for unfit in unencodable(model):
         with pytest.raises(Unencodable):
             encode(unfit.message, unfit.values)
-
-
-@given(specs())
-def test_invalid_vectors_are_no_frames_and_fail_where_they_say(spec: Data) -> None:
-    reader = Reader(spec)
-    for wrong in invalid_frames(model_of(spec)):
+    for wrong in invalid_frames(model):
         names = reader.names([str(wrong.direction)])
         assert [name for name in names if reader.read(name, wrong.data) is not None] == []
         assert wrong.offset <= len(wrong.data)
