@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import pytest
@@ -31,8 +32,14 @@ MOST = 20_000
 each_spec = pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
 
 
+@cache
 def model_of(spec: Path) -> Model:
     return layout_of(data_of(spec))
+
+
+@cache
+def cases_of(spec: Path) -> list[StreamCase]:
+    return [*streams(model_of(spec))]
 
 
 def events_of(model: Model, case: StreamCase) -> list[Event | None]:
@@ -41,7 +48,7 @@ def events_of(model: Model, case: StreamCase) -> list[Event | None]:
 
 @each_spec
 def test_there_are_some_hundreds_and_they_are_short(spec: Path) -> None:
-    cases = [*streams(model_of(spec))]
+    cases = cases_of(spec)
     # However many messages there are: see Sender.small_frames.
     assert 70 <= len(cases) <= 400
     assert sum(len(part) for case in cases for part in case.parts if part) <= MOST
@@ -49,7 +56,7 @@ def test_there_are_some_hundreds_and_they_are_short(spec: Path) -> None:
 
 @each_spec
 def test_each_has_a_title_and_bytes_of_its_own(spec: Path) -> None:
-    cases = [*streams(model_of(spec))]
+    cases = cases_of(spec)
     for what in ("title", "parts"):
         found = [(case.direction, case.max_frame, getattr(case, what)) for case in cases]
         assert len({*found}) == len(found)
@@ -58,7 +65,7 @@ def test_each_has_a_title_and_bytes_of_its_own(spec: Path) -> None:
 @each_spec
 def test_no_byte_is_lost_and_all_but_a_few_end_with_quiet(spec: Path) -> None:
     model = model_of(spec)
-    for case in streams(model):
+    for case in cases_of(spec):
         events = events_of(model, case)
         sent = b"".join(part for part in case.parts if part)
         said = b"".join(event.data for event in events if event)
@@ -73,7 +80,7 @@ def test_every_kind_of_event_occurs_in_each_direction(spec: Path) -> None:
     for direction in model.directions:
         events = [
             event
-            for case in streams(model)
+            for case in cases_of(spec)
             if case.direction == direction
             for event in events_of(model, case)
         ]

@@ -15,7 +15,7 @@ from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model import codec
 from framegen.model.model import Model, derive
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import data_of
@@ -557,7 +557,6 @@ def damaged(draw: st.DrawFn) -> bytes:
     return draw(st.binary(max_size=4)) + bytes(data[:cut]) + draw(st.binary(max_size=4))
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
 @given(
     model=st.sampled_from([LAYOUT, GREENHOUSE]),
     data=st.one_of(st.binary(min_size=1, max_size=40), damaged()),

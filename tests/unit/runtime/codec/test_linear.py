@@ -85,7 +85,6 @@ def _put_on_a_bus(messages: dict[str, Any]) -> None:
     """Have the stations of a bus answer, or refuse, with frames that prove themselves."""
     for message in messages.values():
         if "reply" in message:
-            message["reports"] = []
             message["refusal"] = message["reply"].replace("Tell", "Not")
         (example,) = message["examples"]
         frame = bytes.fromhex(example["hex"]) + b"\x07"
