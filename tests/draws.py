@@ -1,9 +1,11 @@
-"""What Hypothesis draws: the same in every run, and a digest of it for each test.
+"""What Hypothesis draws: the same in every run, and a digest of it for each test and for all.
 
-    python -m pytest -p tests.draws tests/unit/language               prints the digests
-    python -m pytest -p tests.draws --backwards tests/unit/language   the last test first
+    python -m pytest -p tests.draws tests/unit                 prints the digests
+    python -m pytest -p tests.draws tests/unit --backwards     the last test first
+    python -m pytest -p tests.draws tests/unit --shuffled 7    files in some order, and their tests
 
-The digests of a test are the same whatever ran before it, and in whichever process.
+The digests are the same whatever ran before, in whichever process: also with `-n 4`, and with any
+`--dist`. So is the one of all, in the last line, for the same tests.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ import hashlib
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.util import find_spec
+from random import Random
 from typing import TYPE_CHECKING, Any
 from unittest import mock
 
@@ -21,7 +24,8 @@ from hypothesis.internal.conjecture import data as conjecture
 from hypothesis.internal.conjecture import engine
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
 # For so long a failing example is made smaller, which the engine bounds to five minutes.
 SHRINKING_SECONDS = 30
@@ -87,6 +91,7 @@ def recorded() -> Iterator[list[str]]:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--backwards", action="store_true", help="begin with the last test")
+    parser.addoption("--shuffled", type=int, metavar="SEED", help="in another order")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -95,8 +100,20 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.option.shuffled is not None:
+        items[:] = _shuffled(items, config.option.shuffled)
     if config.option.backwards:
         items.reverse()
+
+
+def _shuffled(items: Iterable[pytest.Item], seed: int) -> Iterator[pytest.Item]:
+    """Yield the tests of each file together, in an order of which all workers have the same."""
+    files: dict[Path, list[pytest.Item]] = {}
+    for item in items:
+        files.setdefault(item.path, []).append(item)
+    dice = Random(seed)  # noqa: S311 - nothing is secret here
+    for file in dice.sample([*files], len(files)):
+        yield from dice.sample(files[file], len(files[file]))
 
 
 class _Digests:
@@ -110,8 +127,7 @@ class _Digests:
         with recorded() as drawn:
             yield
         if drawn:
-            data = "\n".join(drawn).encode("utf-8", "surrogatepass")
-            item.user_properties.append(("draws", hashlib.sha256(data).hexdigest()[:16]))
+            item.user_properties.append(("draws", _digest(drawn)))
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         for name, digest in report.user_properties:
@@ -119,5 +135,13 @@ class _Digests:
                 self._found[report.nodeid] = str(digest)
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        for name, digest in sorted(self._found.items()):
-            terminalreporter.write_line(f"drawn: {digest} {name}")
+        found = [f"{digest} {name}" for name, digest in sorted(self._found.items())]
+        for line in found:
+            terminalreporter.write_line(f"drawn: {line}")
+        whole = _digest(found)
+        terminalreporter.write_line(f"drawn: {whole} by all {len(found)} of them")
+
+
+def _digest(lines: list[str]) -> str:
+    data = "\n".join(lines).encode("utf-8", "surrogatepass")
+    return hashlib.sha256(data).hexdigest()[:16]

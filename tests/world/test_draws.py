@@ -1,4 +1,4 @@
-"""All properties draw the same in either order, those of each file in processes of their own."""
+"""All properties draw the same in any order, on any number of workers; each file by itself too."""
 
 from __future__ import annotations
 
@@ -9,6 +9,11 @@ from subprocess import run
 
 import pytest
 
+from tests.unit.project.test_draws_of_kinds import drawn as drawn_of_kinds
+from tests.unit.project.test_draws_of_kinds import folder
+
+__all__ = ["folder"]
+
 ROOT = Path(__file__).parents[2]
 FILES = sorted(
     file.relative_to(ROOT).as_posix()
@@ -18,7 +23,7 @@ FILES = sorted(
 
 
 def drawn(file: str, hash_seed: int, *options: str) -> list[str]:
-    """Return the digest of each property of a file."""
+    """Return the digest of each property of a file, and of all."""
     plugins = ["-p", "tests.draws", "-p", "no:cacheprovider", "-n", "0"]
     done = run(
         [sys.executable, "-m", "pytest", *plugins, "-m", "hypothesis", *options, file],
@@ -34,5 +39,18 @@ def drawn(file: str, hash_seed: int, *options: str) -> list[str]:
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_properties_draw_the_same_in_either_order(file: str) -> None:
-    assert drawn(file, 1) == drawn(file, 2, "--backwards")
+def test_properties_draw_the_same_in_any_order(file: str) -> None:
+    there = drawn(file, 1)
+    assert there
+    assert drawn(file, 2, "--shuffled", "7") == there
+
+
+@pytest.mark.parametrize(
+    "options", ["-n 1", "-n 2", "-n 3 --dist loadfile", "-n 4 --dist worksteal"]
+)
+def test_workers_draw_what_one_process_does(folder: Path, options: str) -> None:
+    there = drawn_of_kinds(folder, "-n 0 --backwards", "one_of_ours", 1)
+    assert len(there) > 1
+    for seed in (1, 2):
+        shuffled = f"{options} --shuffled {seed}"
+        assert drawn_of_kinds(folder, shuffled, "another_of_ours", 2) == there

@@ -1,6 +1,6 @@
 """What Hypothesis draws depends on the test alone, and a failing example is soon made smaller.
 
-tests/world/test_draws_of_kinds.py compares the draws of processes that have imported other modules.
+test_draws_of_kinds.py compares the draws of processes that have imported other modules.
 """
 
 from __future__ import annotations
