@@ -33,7 +33,6 @@ from hypothesis import HealthCheck, settings
 from serial.urlhandler import protocol_socket
 
 from tests.draws import draw_the_same
-from tests.rows import is_left_out
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -164,17 +163,11 @@ def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out rows that tests/world has, and all but a sample of the rest if one is asked for."""
     many = config.option.sample
-    kept = {item for item in items if not left_out(item)}
+    kept = {item for item in items if item.get_closest_marker("slow") is None}
     if many is not None:
         kept = sample([item for item in items if item in kept], many, config.option.seed)
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])
     items[:] = [item for item in items if item in kept]
-
-
-def left_out(item: pytest.Item) -> bool:
-    """Tell whether a test is a row that tests/world has."""
-    values = item.callspec.params if hasattr(item, "callspec") else {}
-    return is_left_out({mark.name for mark in item.iter_markers()}, values)
 
 
 def sample(items: Sequence[pytest.Item], many: int, seed: int) -> set[pytest.Item]:

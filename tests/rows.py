@@ -1,26 +1,23 @@
-"""Rows that `make test` leaves out of its tables: those marked `slow`, and protocols like others.
-
-tests/world/test_rows.py has all of these.
-"""
+"""Rows that `make test` leaves out of its tables, each marked `slow`; tests/world has them."""
 
 from __future__ import annotations
 
 from itertools import product
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from types import ModuleType
 
 # Protocols of which each kind of frame, or what is odd in it, is one of another as well.
 ALIKE = {
     *("crsf", "dynamixel1", "ibus", "learm", "mavlink1", "mhz19", "msp", "sbus", "tfmini", "visca")
 }
+_PARAM = type(pytest.param())
 # What makes a row; other marks say what goes for it.
-_OURS = {"parametrize", "slow", "each_protocol"}
+_OURS = {"parametrize", "slow"}
 
 
 class Row(NamedTuple):
@@ -30,12 +27,15 @@ class Row(NamedTuple):
     values: dict[str, Any]
 
 
-def is_left_out(marks: Collection[str], values: Mapping[str, Any]) -> bool:
-    """Tell whether a test with these marks and parameters is left out of `make test`."""
-    names = {
-        getattr(each, "stem", each) for each in values.values() if isinstance(each, str | Path)
-    }
-    return "slow" in marks or ("each_protocol" in marks and not ALIKE.isdisjoint(names))
+def each_protocol(table: Iterable[Any]) -> list[Any]:
+    """Return rows that each begin with a protocol; those of protocols like others are slow."""
+    rows = [row if isinstance(row, _PARAM) else pytest.param(row) for row in table]
+    return [
+        pytest.param(*row.values, id=row.id, marks=[*row.marks, pytest.mark.slow])
+        if getattr(row.values[0], "stem", row.values[0]) in ALIKE
+        else row
+        for row in rows
+    ]
 
 
 def left_out_of(module: ModuleType) -> Iterator[Any]:
@@ -47,7 +47,7 @@ def left_out_of(module: ModuleType) -> Iterator[Any]:
             for parts in product(*(_table(each) for each in marks if each.name == "parametrize")):
                 values = {key: value for part, _ in parts for key, value in part.items()}
                 whole = [*marks, *(mark for _, own in parts for mark in own)]
-                if is_left_out({each.name for each in whole}, values):
+                if "slow" in {each.name for each in whole}:
                     others = [each for each in whole if each.name not in _OURS]
                     yield pytest.param(
                         Row(test, values),
@@ -72,9 +72,7 @@ def _table(mark: pytest.Mark) -> list[tuple[dict[str, Any], list[pytest.Mark]]]:
     names, rows = mark.args
     keys = [each.strip() for each in names.split(",")] if isinstance(names, str) else [*names]
     params = (
-        row
-        if isinstance(row, type(pytest.param()))
-        else pytest.param(*(row if keys[1:] else [row]))
+        row if isinstance(row, _PARAM) else pytest.param(*(row if keys[1:] else [row]))
         for row in rows
     )
     return [

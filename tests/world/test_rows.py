@@ -23,7 +23,7 @@ __all__ = ["captures", "libraries", "no_board_refuses_anything", "scripts"]
 
 ROOT = Path(__file__).parents[2]
 HAS_SOME = re.compile(
-    r"\bmark\.slow\b|\bmark\.each_protocol\b|^from tests\.\S+\.tables\.shown ",
+    r"\bmark\.slow\b|^from tests\.rows import each_protocol|^from tests\.\S+\.tables\.shown ",
     re.MULTILINE,
 )
 MODULES = [

@@ -18,6 +18,7 @@ from framegen.model.data import method_terms
 from tests.factories import compiled_of, library, library_files
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of, model_of
+from tests.rows import each_protocol
 from tests.unit.site.peers import noisy_lines
 
 if TYPE_CHECKING:
@@ -91,8 +92,7 @@ def damaged(name: str) -> list[bytes]:
     return found[:60] + noisy_lines(model_of(name), 6, 40)
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", each_protocol(FILES))
 def test_what_is_no_frame_is_explained_up_to_where_it_stops_being_one(name: str) -> None:
     model = model_of(name)
     for data in damaged(name):
@@ -109,8 +109,7 @@ def rows_begin(rows: tuple[Row, ...], data: bytes) -> bool:
     return data.startswith(b"".join(row.data for row in rows))
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", each_protocol(FILES))
 def test_a_library_explains_as_the_reference_does(libraries: Libraries, name: str) -> None:
     made, model = libraries[name], model_of(name)
     explained = import_module(f"{made.__name__}._cli.explain").explained

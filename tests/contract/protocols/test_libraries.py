@@ -17,6 +17,7 @@ from tests.in_turn import in_turn
 from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
 from tests.protocols.specs import FILES, all_messages, messages_of, model_of
 from tests.protocols.streams import all_ways, lines
+from tests.rows import each_protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -48,8 +49,7 @@ def test_a_published_frame_is_read_and_written_again(
         assert made_again.to_dict() == read.to_dict()
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize(("name", "way"), WAYS)
+@pytest.mark.parametrize(("name", "way"), each_protocol(WAYS))
 @few_each
 @given(data=st.data())
 def test_bytes_are_refused_for_the_same_reason(
@@ -98,8 +98,7 @@ def test_a_list_of_bytes_may_be_given_as_bytes(
         )
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", each_protocol(FILES))
 def test_the_examples_of_a_library_are_true(libraries: Libraries, name: str) -> None:
     messages = import_module(f"{libraries[name].__name__}.messages")
     found = doctest.testmod(messages)

@@ -13,13 +13,14 @@ from hypothesis import strategies as st
 from tests.few_each import few_each
 from tests.protocols.specs import model_of
 from tests.protocols.streams import all_ways, frames, lines, noise, proven, published, told_apart
+from tests.rows import each_protocol
 
 if TYPE_CHECKING:
     from framegen.language.values import Direction
 
-pytestmark = pytest.mark.each_protocol
-
-WAYS = [pytest.param(name, way, id=f"{name}-{way.sender}") for name, way in all_ways()]
+WAYS = each_protocol(
+    [pytest.param(name, way, id=f"{name}-{way.sender}") for name, way in all_ways()]
+)
 
 
 def decoder(name: str, way: Direction) -> ReferenceDecoder:

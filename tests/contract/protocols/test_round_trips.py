@@ -15,6 +15,7 @@ from tests.in_turn import in_turn
 from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
 from tests.protocols.specs import FILES, messages_of, model_of, values_of
 from tests.protocols.streams import LARGE
+from tests.rows import each_protocol
 
 # The protocols with messages that only a checksum tells from the beginning of a longer one.
 BY_CHANCE = ["roboclaw", "gauges"]
@@ -24,8 +25,7 @@ def test_the_protocols_in_which_frames_begin_alike_are_known() -> None:
     assert [name for name in FILES if [*begun(model_of(name))]] == BY_CHANCE
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", each_protocol(FILES))
 @in_turn("message", messages_of)
 @few_each
 @given(data=st.data())

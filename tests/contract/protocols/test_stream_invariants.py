@@ -16,6 +16,7 @@ from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import all_ways, lines
+from tests.rows import each_protocol
 from tests.unit.runtime.codec.test_stream import calls
 
 if TYPE_CHECKING:
@@ -24,11 +25,10 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
 
-pytestmark = pytest.mark.each_protocol
-
-each_protocol = pytest.mark.parametrize("name", FILES)
+each_name = pytest.mark.parametrize("name", each_protocol(FILES))
 each_way = pytest.mark.parametrize(
-    ("name", "way"), [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
+    ("name", "way"),
+    each_protocol([pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]),
 )
 
 
@@ -84,7 +84,7 @@ def drawn_line(data: st.DataObject, name: str) -> bytes:
     return b"".join(parts)[:300]
 
 
-@each_protocol
+@each_name
 @few_each
 @given(data=st.data())
 def test_messages_come_as_soon_as_they_are_certain(
@@ -220,7 +220,7 @@ def assert_linear(name: str, way: Direction, costs: Sequence[int], pattern: byte
     assert most - more <= 2.2 * (more - few) + 20 * 256, pattern.hex(" ")
 
 
-@each_protocol
+@each_name
 def test_a_sum_proves_what_a_length_only_claims(libraries: Libraries, name: str) -> None:
     """A frame of an id that nobody knows is taken whole where its checksum is right."""
     made, model = libraries[name], model_of(name)

@@ -24,6 +24,7 @@ from tests.factories import BUSSERVO, compiled_file
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
+from tests.rows import each_protocol
 from tests.unit.guess.traffic import traffic
 from tests.unit.guess.truth import wrong
 
@@ -65,8 +66,7 @@ def compiled(found: Guess) -> Compiled:
     return compile_spec(Source("guess.yaml", spec_text(found, "line.bin")))
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("protocol", EACH)
+@pytest.mark.parametrize("protocol", each_protocol(EACH))
 def test_what_200_frames_decide_is_right_and_makes_a_spec_that_explains_them(protocol: str) -> None:
     found, capture = guessed(protocol)
     assert wrong(found, model_of(protocol)) == []

@@ -13,6 +13,7 @@ from hypothesis import settings
 
 from tests.factories import BUSSERVO, compiled_file
 from tests.protocols.specs import FILES
+from tests.rows import each_protocol
 from tests.unit.site.peers import noisy_lines
 from tests.unit.site.reference import NODE
 from tests.unit.site.scripts import run_script
@@ -138,8 +139,7 @@ def _changed(chance: random.Random, frame: bytes) -> bytes:
     )
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", SPECS)
+@pytest.mark.parametrize("name", each_protocol(SPECS))
 def test_bytes_are_explained_in_the_words_of_the_reference(name: str) -> None:
     model = compiled_file(SPECS[name]).model
     questions = [

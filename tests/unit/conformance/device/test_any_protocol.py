@@ -27,6 +27,7 @@ from tests.lines.devices import VirtualLine, by_the_reference, in_reply_to, is_d
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
 from tests.random_specs import WAYS, specs, with_examples
+from tests.rows import each_protocol
 from tests.unit.conformance.device.runs import Run, model_of, run
 
 if TYPE_CHECKING:
@@ -58,8 +59,9 @@ def on(name: str, answer: Answer, *options: str) -> Run:
     return run(model_of(SPECS[name]), VirtualLine(answer), *options)
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", [name for name in SPECS if allowing(model_of(SPECS[name]))])
+@pytest.mark.parametrize(
+    "name", each_protocol([name for name in SPECS if allowing(model_of(SPECS[name]))])
+)
 def test_a_device_by_the_reference_passes_with_all_that_it_answers(name: str) -> None:
     model = model_of(SPECS[name])
     done = on(name, by_the_reference(model), *allowing(model))
@@ -67,8 +69,7 @@ def test_a_device_by_the_reference_passes_with_all_that_it_answers(name: str) ->
     assert [each["not_sent"] for each in done.report["steps"] if each["not_sent"]] == []
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", ASKED)
+@pytest.mark.parametrize("name", each_protocol(ASKED))
 def test_a_device_by_the_reference_passes_with_malformed_frames(name: str) -> None:
     done = on(name, by_the_reference(model_of(SPECS[name])), "--malformed")
     assert (done.code, done.faults) == (0, [])
@@ -173,8 +174,7 @@ def values_in_reply(exchange: Exchange, asked: dict[str, Any]) -> dict[str, Any]
     return values
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", ASKED)
+@pytest.mark.parametrize("name", each_protocol(ASKED))
 def test_the_generated_device_passes(name: str) -> None:
     with ExitStack() as until:
         done = on(name, generated(name, until), "--malformed")

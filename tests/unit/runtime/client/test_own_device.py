@@ -12,14 +12,14 @@ from framegen.targets.python.names import names_of
 from tests.factories import compiled_file, library, library_of
 from tests.lines.every_method import converse_alone
 from tests.protocols.specs import FILES
+from tests.rows import each_protocol
 
 if TYPE_CHECKING:
     from types import ModuleType
 
 
 # The library of one is installed.
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", [name for name in FILES if name != "lxservo"])
+@pytest.mark.parametrize("name", each_protocol([name for name in FILES if name != "lxservo"]))
 def test_each_method_is_answered_by_the_device_of_the_same_library(name: str) -> None:
     with library(library_of(FILES[name])) as made:
         answered(made, name)
