@@ -145,13 +145,14 @@ def generated(number: int, *, bus: bool) -> None:
 
 
 @nobody_traces
-@pytest.mark.parametrize("bus", [False, True])
+# What is on no bus goes other ways in few places.
+@pytest.mark.parametrize("bus", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_work_grows_no_faster_than_the_messages(bus: bool) -> None:
     generated(2, bus=bus)  # templates are compiled and read once for all
     few, more, most = (
         lines_run(partial(generated, number, bus=bus), "pydantic") for number in MANY
     )
-    # A search through all messages for each of them makes it 1.01.
+    # A search through all messages for each of them makes it 1.005.
     assert most - more <= 1.0004 * (more - few)
 
 
