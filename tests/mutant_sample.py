@@ -1,0 +1,260 @@
+"""A sample of mutants, which shows whether other tests detect as much as those before them.
+
+tests/mutant_sample.yaml has one row for each: a place in the code, and what it becomes there. They
+were drawn by a seed, before any was tried, from lines that were the same in an older edition, so
+that the tests of that edition can be tried on the same mutants. What only words depend on is left
+out: tests/mutant_places.py. A row in which nothing can show a difference says so: `equivalent`.
+
+    python -m tests.mutant_sample --choose 7 > tests/mutant_sample.yaml
+    python -m tests.mutant_sample --results before.yaml
+    python -m tests.mutant_sample --killers before.yaml --results after.yaml
+    python -m tests.mutant_sample --only codec-3 --commit 3fe21efa --tests tests/test_stream.py
+
+Each mutant is made in a clone of the commit, the libraries are generated there again if it is part
+of them, and the tests of its subject run until one fails, then all others. With --killers, files
+of the name of the killer run first, wherever they are now.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import re
+import resource
+import shutil
+import subprocess
+import sys
+from collections import defaultdict
+from fnmatch import fnmatch
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+import yaml
+
+from tests.mutant_places import Change, changes
+
+ROOT = Path(__file__).parent.parent
+SAMPLE = Path(__file__).with_suffix(".yaml")
+OLDER = "3fe21efa"
+PYTHON = "codegen/framegen/targets/python"
+SECONDS, BYTES = 300, 4 << 30
+
+
+class Subject(NamedTuple):
+    """What is changed, how often, and which files and folders of tests are tried first."""
+
+    code: list[str]
+    many: int
+    tests: list[str]
+
+
+SUBJECTS = {
+    "model": Subject(
+        ["codegen/framegen/model/*.py", "codegen/framegen/language/*.py"],
+        9,
+        ["tests/model"],
+    ),
+    "checks": Subject(
+        ["codegen/framegen/checks/*.py"],
+        9,
+        ["tests/test_bad_specs.py"],
+    ),
+    "comparison": Subject(
+        ["codegen/framegen/comparison/*.py"],
+        9,
+        ["tests/comparison"],
+    ),
+    "codec": Subject(
+        [
+            f"{PYTHON}/{part}/{folder}/*"
+            for part in ("runtime", "templates")
+            for folder in ("_frame", "_codec")
+        ],
+        9,
+        ["tests/test_stream.py"],
+    ),
+    "client": Subject([f"{PYTHON}/runtime/_client/*.py"], 8, ["tests/client", "tests/independent"]),
+    "tables": Subject([f"{PYTHON}/runtime/_tables/*.py"], 8, ["tests/tables"]),
+    "page": Subject(["codegen/framegen/site/static/js/*.js"], 8, ["tests/docs"]),
+}
+
+
+def git(*arguments: str, folder: Path = ROOT) -> str:
+    """Return what git prints."""
+    command = ["git", "-C", str(folder), *arguments]
+    return subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout
+
+
+def choose(seed: int) -> list[dict[str, str]]:
+    """Draw the sample: for each subject all operators in turn, and no file twice."""
+    draw = random.Random(seed)  # noqa: S311
+    return [
+        {"id": f"{name}-{number}", **row}
+        for name, subject in SUBJECTS.items()
+        for number, row in enumerate(_drawn(draw, subject), 1)
+    ]
+
+
+def _drawn(draw: random.Random, subject: Subject) -> list[dict[str, str]]:
+    by_operator: defaultdict[str, list[dict[str, str]]] = defaultdict(list)
+    older = set(git("ls-tree", "-r", "--name-only", OLDER).splitlines())
+    for file in git("ls-tree", "-r", "--name-only", "HEAD").splitlines():
+        if file in older and any(fnmatch(file, pattern) for pattern in subject.code):
+            texts = [git("show", f"{commit}:{file}") for commit in ("HEAD", OLDER)]
+            for change in changes(file, texts[0]):
+                if row := _row(file, change, texts):
+                    by_operator[change.operator].append(row)
+    rows: list[dict[str, str]] = []
+    while True:
+        for operator in draw.sample(sorted(by_operator), len(by_operator)):
+            taken = {row["file"] for row in rows}
+            left = [row for row in by_operator[operator] if row["file"] not in taken]
+            rows += draw.sample(left, min(1, len(left)))
+            if len(rows) == subject.many:
+                return rows
+
+
+def _row(file: str, change: Change, texts: list[str]) -> dict[str, str] | None:
+    """Describe a change with as many lines before it as make it the only one in both texts."""
+    lines = texts[0].splitlines()
+    for first in range(change.number, max(-1, change.number - 4), -1):
+        was = lines[first : change.number + 1]
+        if all(len(_places(was, text)) == 1 for text in texts):
+            row = {"operator": change.operator, "file": file, "was": "\n".join(was)}
+            return row | {"becomes": "\n".join([*was[:-1], change.becomes])}
+    return None
+
+
+def _places(some: list[str], text: str) -> list[int]:
+    lines = text.splitlines()
+    return [at for at in range(len(lines)) if lines[at : at + len(some)] == some]
+
+
+class Run:
+    """A clone of a commit, in which mutants are made and tests run."""
+
+    def __init__(self, folder: Path, commit: str) -> None:
+        self.folder = folder
+        git("clone", "-q", "--shared", "--no-checkout", str(ROOT), str(folder))
+        git("checkout", "-q", "--detach", git("rev-parse", commit).strip(), folder=folder)
+        path = os.pathsep.join(str(folder / part) for part in ("generated", "codegen", "simulator"))
+        self.environment = os.environ | {"PYTHONPATH": path}
+        self.environment.pop("PYTHONDONTWRITEBYTECODE", None)
+
+    def mutate(self, row: dict[str, str]) -> bool:
+        """Make a mutant in place of the last one, and tell whether libraries could be generated."""
+        git("reset", "-q", "--hard", folder=self.folder)
+        git("clean", "-q", "-d", "--force", folder=self.folder)
+        path = self.folder / row["file"]
+        text = path.read_text(encoding="utf-8")
+        (at,) = _places(row["was"].splitlines(), text)
+        lines = text.splitlines(keepends=True)
+        lines[at : at + row["was"].count("\n") + 1] = [row["becomes"] + "\n"]
+        path.write_text("".join(lines), encoding="utf-8")
+        in_library = row["file"].startswith(f"{PYTHON}/")
+        done = not in_library or self.python("-m", "framegen", "generate").returncode == 0
+        # What is compiled is known by its second and size, which two mutants may share.
+        for part in ("codegen", "generated"):
+            for compiled in [*(self.folder / part).rglob("__pycache__")]:
+                shutil.rmtree(compiled)
+        return done
+
+    def killer(self, *arguments: str) -> str | None:
+        """Run tests, and return the first that fails, or the one that has no end."""
+        limit = f"faulthandler_timeout={SECONDS}"
+        options = ["-x", "-q", "--tb=no", "-p", "no:cacheprovider", "-o", limit]
+        options += ["-o", "faulthandler_exit_on_timeout=true", *arguments]
+        run = self.python("-m", "pytest", *options)
+        if run.returncode in {0, 5}:  # 5: there are no such tests
+            return None
+        failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", run.stdout, re.MULTILINE)
+        endless = re.search(r"(tests/\S+)\", line \d+ in (test_\w+)", run.stderr)
+        return (
+            failed[1] if failed else "::".join(endless.groups()) if endless else "tests/conftest.py"
+        )
+
+    def python(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Run a module in the clone."""
+        command, here = [sys.executable, *arguments], self.folder
+        return subprocess.run(
+            command,
+            cwd=here,
+            env=self.environment,
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+
+    def files(self, killer: str) -> list[str]:
+        """Return files of tests with the name of the one that killed before, or with its test."""
+        name, _, test = killer.partition("::")
+        test = test.partition("[")[0]
+        files = [*(self.folder / "tests").rglob("test_*.py")]
+        found = [file for file in files if file.name == Path(name).name]
+        moved = [file for file in files if test and f"def {test}(" in file.read_text("utf-8")]
+        return [str(file.relative_to(self.folder)) for file in found or moved]
+
+    def judge(self, row: dict[str, str], tests: list[str], killer: str) -> str | None:
+        """Return what kills a mutant: the former killer, or tests of its subject, or any other."""
+        if not self.mutate(row):
+            return "framegen generate"
+        if tests:
+            return self.killer(*tests)
+        first = self.files(killer) if killer else []
+        near = [each for each in SUBJECTS[row["subject"]].tests if (self.folder / each).exists()]
+        rest = ["-n", "2", *(f"--ignore={each}" for each in near)]
+        return (
+            (first and self.killer(*first)) or (near and self.killer(*near)) or self.killer(*rest)
+        )
+
+
+def table(rows: object) -> str:
+    """Write YAML, with several lines as they are."""
+
+    def lines(dumper: yaml.SafeDumper, text: str) -> yaml.Node:
+        style = "|" if "\n" in text else None
+        return dumper.represent_scalar("tag:yaml.org,2002:str", text, style)
+
+    class Dumper(yaml.SafeDumper):
+        """Does not change how others write."""
+
+    Dumper.add_representer(str, lines)
+    return yaml.dump(rows, Dumper=Dumper, sort_keys=False, allow_unicode=True, width=1000)
+
+
+def main() -> None:
+    """Choose a sample, or try one."""
+    parser = argparse.ArgumentParser(prog="python -m tests.mutant_sample")
+    parser.add_argument("--choose", type=int, metavar="SEED", help="print a new sample")
+    parser.add_argument("--only", action="append", metavar="ID", help="one mutant of the sample")
+    parser.add_argument("--tests", nargs="+", default=[], metavar="FILE", help="these tests alone")
+    parser.add_argument("--commit", default="HEAD", help="where tests and code are from")
+    parser.add_argument("--results", type=Path, metavar="FILE", help="what to write: who killed")
+    parser.add_argument("--killers", type=Path, metavar="FILE", help="results, to try those first")
+    asked = parser.parse_args()
+    if asked.choose is not None:
+        print(f"# python -m tests.mutant_sample --choose {asked.choose}")
+        print(table(choose(asked.choose)), end="")
+        return
+    killers = yaml.safe_load(asked.killers.read_text("utf-8")) if asked.killers else {}
+    results = {}
+    if asked.results and asked.results.exists():
+        results = yaml.safe_load(asked.results.read_text("utf-8"))
+    resource.setrlimit(resource.RLIMIT_DATA, (BYTES, BYTES))
+    with TemporaryDirectory() as folder:
+        run = Run(Path(folder) / "clone", asked.commit)
+        for row in yaml.safe_load(SAMPLE.read_text("utf-8")):
+            if row["id"] in asked.only if asked.only else "equivalent" not in row:
+                used = sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+                killer = run.judge(row, asked.tests, killers.get(row["id"], {}).get("killer") or "")
+                used = sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]) - used
+                results[row["id"]] = {"killer": killer, "seconds": round(used)}
+                print(f"{row['id']}: {killer or 'survived'} ({used:.0f} s)", flush=True)
+                if asked.results:
+                    asked.results.write_text(table(results), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
