@@ -20,6 +20,7 @@ from tests.factories import BUSSERVO, compiled_file, data_of
 from tests.hex_cases import HEX, NO_HEX, random_texts
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
+from tests.rows import each_protocol
 from tests.unit.site.peers import Event, joined, noisy_lines
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.scripts import run_script
@@ -63,7 +64,7 @@ ENVELOPES: dict[str, dict[str, Any]] = {
 }
 
 
-of_each = pytest.mark.parametrize("name", [*SPECS, *ENVELOPES])
+of_each = pytest.mark.parametrize("name", each_protocol([*SPECS, *ENVELOPES]))
 
 PROGRAM = """
 const codec = makeCodec(asked.protocol);
@@ -120,7 +121,6 @@ def ways_of(model: Model) -> list[tuple[str | None, list[Direction]]]:
     return [*((way.key, [way]) for way in model.directions), (None, model.directions)]
 
 
-@pytest.mark.each_protocol
 @of_each
 def test_streams_are_decoded_as_the_reference_decodes_them(name: str) -> None:
     model, chance = model_of(name), random.Random(name)  # noqa: S311 - the same in every run
@@ -171,7 +171,6 @@ def _events(
             yield [event.kind, event.data.hex(), (event.message.name, values)]
 
 
-@pytest.mark.each_protocol
 @of_each
 def test_single_frames_are_judged_as_the_reference_judges_them(name: str) -> None:
     model = model_of(name)
@@ -194,7 +193,6 @@ def _verdict(model: Model, way: Direction | None, data: bytes) -> list[Any]:
     return [decoded.layout.name, decoded.values]
 
 
-@pytest.mark.each_protocol
 @of_each
 def test_every_example_is_encoded_as_the_reference_encodes_it(name: str) -> None:
     model = model_of(name)

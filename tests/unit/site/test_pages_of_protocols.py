@@ -20,6 +20,7 @@ from framegen.targets.docs.walkthrough import walkthrough
 from tests.factories import compiled_file, data_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
+from tests.rows import each_protocol
 from tests.unit.site.peers import joined, noisy_lines, reference_events
 from tests.unit.site.reference import NODE, SPECS, Reference, broken_links, reference
 from tests.unit.site.scripts import run_script
@@ -174,8 +175,7 @@ def test_every_documented_frame_is_found_by_its_bytes(name: str) -> None:
         assert mine["hex"] == bytes(data).hex(" ").upper()
 
 
-@pytest.mark.each_protocol
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", each_protocol(ALL))
 def test_the_stream_is_shown_as_the_reference_decodes_it(name: str) -> None:
     model = compiled_file(ALL[name]).model
     shown = stream_examples(model)
