@@ -22,7 +22,7 @@ _WORDS = ("title", "summary", "description", "about", "vendor_name", "text", "wh
 
 def _differs(twin: Twin[Any], key: str) -> bool:
     # What a kind of thing does not have is nothing; pydantic is slow to say so.
-    return vars(twin.old).get(key) != vars(twin.new).get(key)
+    return bool(vars(twin.old).get(key) != vars(twin.new).get(key))
 
 
 def _change(twin: Twin[Any], key: KeyPath) -> Change:
