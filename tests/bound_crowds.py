@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import groupby
+from itertools import count, groupby
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from tests.bound_names import pascal_names, snake_names
@@ -59,10 +59,7 @@ def methods(crowd: Crowd, names: Sequence[str]) -> None:
 def values(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name a named value, and a bit."""
     for at, some in enumerate(_in_parts(names, _BITS)):
-        named = {name: {"value": value, "about": "It."} for value, name in enumerate(some)}
-        bits = {name: bit for bit, name in enumerate(some)}
-        crowd.report(f"Valued{at}", ["level"], more_of={"level": {"values": named}})
-        crowd.report(f"Flagged{at}", ["level"], more_of={"level": {"type": "u32", "bits": bits}})
+        _named(crowd, at, {"level": some})
 
 
 def halves(crowd: Crowd, names: Sequence[str]) -> None:
@@ -73,27 +70,33 @@ def halves(crowd: Crowd, names: Sequence[str]) -> None:
             field, value = "_".join(words[:at]), "_".join(words[at:])
             if value[0].isalpha():
                 split.setdefault(field, []).append(value)
-    # Of one message no two make the same name, since each begins with as many words.
+    number = count()
+    # Of one message no two make the same name, since each begins with as many words; and a field
+    # has no more values there than bits.
     beginnings = sorted(split, key=lambda field: field.count("_"))
-    parts = [
-        some
-        for _, alike in groupby(beginnings, key=lambda field: field.count("_"))
-        for some in _in_parts([*alike], _FIELDS)
-    ]
-    for number, some in enumerate(parts):
-        named = {
-            field: {value: {"value": at, "about": "It."} for at, value in enumerate(split[field])}
-            for field in some
-        }
-        crowd.report(
-            f"Valued{number}", some, more_of={field: {"values": named[field]} for field in some}
-        )
-        bits = {field: {value: at for at, value in enumerate(split[field])} for field in some}
-        crowd.report(
-            f"Flagged{number}",
-            some,
-            more_of={field: {"type": "u32", "bits": bits[field]} for field in some},
-        )
+    for _, alike in groupby(beginnings, key=lambda field: field.count("_")):
+        for some in _in_parts([*alike], _FIELDS):
+            parted = {field: [*_in_parts(split[field], _BITS)] for field in some}
+            for turn in range(max(map(len, parted.values()))):
+                _named(
+                    crowd,
+                    next(number),
+                    {f: each[turn] for f, each in parted.items() if each[turn:]},
+                )
+
+
+def _named(crowd: Crowd, number: int, names: dict[str, list[str]]) -> None:
+    """Add messages whose fields have such values, and such bits."""
+    values: Data = {
+        field: {"values": {name: {"value": at, "about": "It."} for at, name in enumerate(some)}}
+        for field, some in names.items()
+    }
+    bits: Data = {
+        field: {"type": "u32", "bits": {name: at for at, name in enumerate(some)}}
+        for field, some in names.items()
+    }
+    crowd.report(f"Valued{number}", [*names], more_of=values)
+    crowd.report(f"Flagged{number}", [*names], more_of=bits)
 
 
 def ends(crowd: Crowd, names: Sequence[str]) -> None:
