@@ -27,6 +27,8 @@ ALONE_test := pylx16a
 PINS_VENV := .tools/pins
 # How many tests run at once. Many only wait, so more than there are cores; 0 is one after another.
 WORKERS = 3
+# The tests of a file follow each other in one process, which works out once what they share.
+AT_ONCE = -n $(WORKERS) --dist loadfile
 # Which of the tests, for `quick`: all.
 TESTS =
 # How many tests of each file of tests/world are a sample; others each day, or those of a SEED.
@@ -59,20 +61,20 @@ all: $(READY)  ## Check the spec, generate everything, decode a recorded noisy l
 	$(IN)/python examples/virtual_arm.py
 
 test: $(TO_TEST)  ## Run the tests
-	$(IN)/python -m pytest -n $(WORKERS)
+	$(IN)/python -m pytest $(AT_ONCE)
 
 quick: $(TO_TEST)  ## Run the tests with fewer examples
-	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q $(AT_ONCE) $(TESTS)
 
 library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples: make library TESTS=tests/unit/runtime/client
-	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q -n $(WORKERS) $(TESTS)
+	HYPOTHESIS_PROFILE=quick $(IN)/python -m pytest -q $(AT_ONCE) $(TESTS)
 
 test-all: $(TO_TEST) $(TO_LINT)  ## Run tests/world as well, and eight times as many examples
-	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS)
-	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS) tests/world
+	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest $(AT_ONCE)
+	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest $(AT_ONCE) tests/world
 
 sample: $(TO_TEST) $(TO_LINT)  ## Run some of tests/world: make sample SAMPLE=5 SEED=7
-	$(IN)/python -m pytest -n $(WORKERS) tests/world $(foreach file,$(WHOLE),--ignore tests/world/test_$(file).py) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
+	$(IN)/python -m pytest $(AT_ONCE) tests/world $(foreach file,$(WHOLE),--ignore tests/world/test_$(file).py) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
@@ -103,7 +105,7 @@ format: $(TO_LINT)  ## Mend what ruff can mend
 fuzz: $(TO_TEST)  ## Search for new counterexamples, for long; change the specs, and cross them
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
 	CONTRACT=all $(IN)/python -m pytest tests/world/test_contract.py
-	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest -n $(WORKERS) tests/contract/crossed/test_crossed.py
+	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest $(AT_ONCE) tests/contract/crossed/test_crossed.py
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)
@@ -149,7 +151,7 @@ release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: mak
 	$(MAKE) wheel
 
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
-	$(IN)/python -m pytest -n $(WORKERS) tests/world/test_packages.py
+	$(IN)/python -m pytest $(AT_ONCE) tests/world/test_packages.py
 
 newcomer:  ## Follow README and guides in a new clone, with the system's own Python
 	.ci/newcomer
