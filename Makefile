@@ -71,10 +71,10 @@ library: $(VENV)/.ready-library  ## Run tests of the library with fewer examples
 
 test-all: $(TO_TEST) $(TO_LINT)  ## Run tests/world as well, and eight times as many examples
 	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest $(AT_ONCE)
-	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest $(AT_ONCE) tests/world
+	HYPOTHESIS_PROFILE=all $(IN)/python -m pytest -n $(WORKERS) tests/world
 
 sample: $(TO_TEST) $(TO_LINT)  ## Run some of tests/world: make sample SAMPLE=5 SEED=7
-	$(IN)/python -m pytest $(AT_ONCE) tests/world $(foreach file,$(WHOLE),--ignore tests/world/test_$(file).py) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
+	$(IN)/python -m pytest -n $(WORKERS) tests/world $(foreach file,$(WHOLE),--ignore tests/world/test_$(file).py) --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 coverage: $(TO_TEST)  ## Measure which lines and branches the quick tests reach, commands included
 	$(IN)/coverage erase
@@ -105,7 +105,7 @@ format: $(TO_LINT)  ## Mend what ruff can mend
 fuzz: $(TO_TEST)  ## Search for new counterexamples, for long; change the specs, and cross them
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
 	CONTRACT=all $(IN)/python -m pytest tests/world/test_contract.py
-	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest $(AT_ONCE) tests/contract/crossed/test_crossed.py
+	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest -n $(WORKERS) tests/contract/crossed/test_crossed.py
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)
@@ -151,7 +151,7 @@ release: $(TO_TEST)  ## Check all, set the version, tag it, and build dist/: mak
 	$(MAKE) wheel
 
 packages: $(TO_TEST)  ## Build the packages, and try them in empty environments
-	$(IN)/python -m pytest $(AT_ONCE) tests/world/test_packages.py
+	$(IN)/python -m pytest -n $(WORKERS) tests/world/test_packages.py
 
 newcomer:  ## Follow README and guides in a new clone, with the system's own Python
 	.ci/newcomer
