@@ -3,9 +3,8 @@
 tests/mutant_sample.yaml has one row for each: a place in the code, and what it becomes there. They
 were drawn by a seed, before any was tried, from lines that were the same in an older edition, so
 that the tests of that edition can be tried on the same mutants. What only words depend on is left
-out: tests/mutant_places.py. A row in which nothing can show a difference says so: `equivalent`.
+out. A row in which nothing can show a difference says so: `equivalent`.
 
-    python -m tests.mutant_sample --choose 7 > tests/mutant_sample.yaml
     python -m tests.mutant_sample --results before.yaml
     python -m tests.mutant_sample --killers before.yaml --results after.yaml
     python -m tests.mutant_sample --only codec-3 --commit 3fe21efa --tests tests/test_stream.py
@@ -19,66 +18,34 @@ from __future__ import annotations
 
 import argparse
 import os
-import random
 import re
 import resource
 import shutil
 import subprocess
 import sys
-from collections import defaultdict
-from fnmatch import fnmatch
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import NamedTuple
 
 import yaml
 
-from tests.mutant_places import Change, changes
-
 ROOT = Path(__file__).parent.parent
 SAMPLE = Path(__file__).with_suffix(".yaml")
-OLDER = "3fe21efa"
 PYTHON = "codegen/framegen/targets/python"
 SECONDS, BYTES = 300, 4 << 30
 
 
-class Subject(NamedTuple):
-    """What is changed, how often, and names of files and folders of tests that are tried first."""
-
-    many: int
-    code: list[str]
-    tests: list[str]
-
-
+# Names of files and folders of tests that are tried first on the mutants of a subject.
 SUBJECTS = {
-    "model": Subject(
-        9,
-        ["codegen/framegen/model/*.py", "codegen/framegen/language/*.py"],
-        [
-            *("model", "language", "test_bad_specs.py", "test_editions.py", "test_exchanges.py"),
-            *("test_explain.py", "test_formula.py", "test_layout.py", "test_misfit.py"),
-            *("test_reference_stream.py", "test_values.py", "test_vectors.py", "test_verdict.py"),
-        ],
-    ),
-    "checks": Subject(
-        9,
-        ["codegen/framegen/checks/*.py"],
-        ["checks", "test_bad_specs.py", "test_rules.py", "test_findings.py", "test_part_names.py"],
-    ),
-    "comparison": Subject(9, ["codegen/framegen/comparison/*.py"], ["comparison"]),
-    "codec": Subject(
-        9,
-        [f"{PYTHON}/*/_frame/*.py*", f"{PYTHON}/*/_codec/*.py*"],
-        [
-            *("codec", "test_decode.py", "test_edges.py", "test_messages.py", "test_stream.py"),
-            *("test_running_checksums.py", "test_demo_library.py", "protocols"),
-        ],
-    ),
-    "client": Subject(8, [f"{PYTHON}/runtime/_client/*.py"], ["client", "independent"]),
-    "tables": Subject(8, [f"{PYTHON}/runtime/_tables/*.py"], ["tables"]),
-    "page": Subject(
-        8, ["codegen/framegen/site/static/js/*.js"], ["page", "test_*_js.py", "test_search.py"]
-    ),
+    "model": [
+        *("model", "language", "test_bad_specs.py", "test_explain.py", "test_reference_stream.py"),
+        "test_vectors.py",
+    ],
+    "checks": ["checks", "test_findings.py", "test_part_names.py"],
+    "comparison": ["comparison"],
+    "codec": ["codec", "test_messages.py", "test_demo_library.py", "protocols"],
+    "client": ["client", "independent"],
+    "tables": ["tables"],
+    "page": ["page", "test_*_js.py", "test_search.py"],
 }
 # A clone is no installed package, so that its version is that of the spec.
 LEFT_OUT = "not test_there_is_one_version"
@@ -88,46 +55,6 @@ def git(*arguments: str, folder: Path = ROOT) -> str:
     """Return what git prints."""
     command = ["git", "-C", str(folder), *arguments]
     return subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout
-
-
-def choose(seed: int) -> list[dict[str, str]]:
-    """Draw the sample: for each subject all operators in turn, and no file twice."""
-    draw = random.Random(seed)  # noqa: S311
-    return [
-        {"id": f"{name}-{number}", **row}
-        for name, subject in SUBJECTS.items()
-        for number, row in enumerate(_drawn(draw, subject), 1)
-    ]
-
-
-def _drawn(draw: random.Random, subject: Subject) -> list[dict[str, str]]:
-    by_operator: defaultdict[str, list[dict[str, str]]] = defaultdict(list)
-    older = set(git("ls-tree", "-r", "--name-only", OLDER).splitlines())
-    for file in git("ls-tree", "-r", "--name-only", "HEAD").splitlines():
-        if file in older and any(fnmatch(file, pattern) for pattern in subject.code):
-            texts = [git("show", f"{commit}:{file}") for commit in ("HEAD", OLDER)]
-            for change in changes(file, texts[0]):
-                if row := _row(file, change, texts):
-                    by_operator[change.operator].append(row)
-    rows: list[dict[str, str]] = []
-    while True:
-        for operator in draw.sample(sorted(by_operator), len(by_operator)):
-            taken = {row["file"] for row in rows}
-            left = [row for row in by_operator[operator] if row["file"] not in taken]
-            rows += draw.sample(left, min(1, len(left)))
-            if len(rows) == subject.many:
-                return rows
-
-
-def _row(file: str, change: Change, texts: list[str]) -> dict[str, str] | None:
-    """Describe a change with as many lines before it as make it the only one in both texts."""
-    lines = texts[0].splitlines()
-    for first in range(change.number, max(-1, change.number - 4), -1):
-        was = lines[first : change.number + 1]
-        if all(len(_places(was, text)) == 1 for text in texts):
-            row = {"operator": change.operator, "file": file, "was": "\n".join(was)}
-            return row | {"becomes": "\n".join([*was[:-1], change.becomes])}
-    return None
 
 
 def _places(some: list[str], text: str) -> list[int]:
@@ -195,6 +122,7 @@ class Run:
         name, _, test = killer.partition("::")
         test = test.partition("[")[0]
         files = [*(self.folder / "tests").rglob("test_*.py")]
+        files = [file for file in files if "world" not in file.parts]
         found = [file for file in files if file.name == Path(name).name]
         moved = [file for file in files if test and f"def {test}(" in file.read_text("utf-8")]
         return [str(file.relative_to(self.folder)) for file in found or moved]
@@ -202,7 +130,7 @@ class Run:
     def near(self, subject: str) -> list[str]:
         """Return the files and folders of tests of a subject, wherever they are."""
         tests = self.folder / "tests"
-        found = [file for name in SUBJECTS[subject].tests for file in sorted(tests.rglob(name))]
+        found = [file for name in SUBJECTS[subject] for file in sorted(tests.rglob(name))]
         inside = [file.relative_to(self.folder) for file in found]
         return [str(file) for file in inside if "world" not in file.parts]
 
@@ -235,19 +163,14 @@ def table(rows: object) -> str:
 
 
 def main() -> None:
-    """Choose a sample, or try one."""
+    """Try the sample, or some of it."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutant_sample")
-    parser.add_argument("--choose", type=int, metavar="SEED", help="print a new sample")
     parser.add_argument("--only", action="append", metavar="ID", help="one mutant of the sample")
     parser.add_argument("--tests", nargs="+", default=[], metavar="FILE", help="these tests alone")
     parser.add_argument("--commit", default="HEAD", help="where tests and code are from")
     parser.add_argument("--results", type=Path, metavar="FILE", help="what to write: who killed")
     parser.add_argument("--killers", type=Path, metavar="FILE", help="results, to try those first")
     asked = parser.parse_args()
-    if asked.choose is not None:
-        print(f"# python -m tests.mutant_sample --choose {asked.choose}")
-        print(table(choose(asked.choose)), end="")
-        return
     killers = yaml.safe_load(asked.killers.read_text("utf-8")) if asked.killers else {}
     results = {}
     if asked.results and asked.results.exists():
