@@ -442,7 +442,7 @@ def test_what_no_frame_can_carry_is_refused(
     assert str(refused.value) == said
 
 
-@pytest.mark.parametrize(("name", "examples"), [("greenhouse", 5), ("shapes", 14)])
+@pytest.mark.parametrize(("name", "examples"), [("greenhouse", 5), ("shapes", 15)])
 def test_the_docstrings_of_the_library_run(name: str, examples: int) -> None:
     module = importlib.import_module(f"{name}.messages")
     result = doctest.testmod(module, extraglobs={**vars(lib(name))}, verbose=False)
