@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from framegen.comparison.edges import values_to_try
 from framegen.comparison.effect import OUTCOMES
 from framegen.comparison.wire import trials_of, try_out, wire_effects
 
@@ -90,6 +91,15 @@ def test_a_value_that_is_free_now_was_never_asked_of_an_old_end(
     old, new = (with_field(direction, 1, "kind", each) for each in ({**kind, "always": 4}, kind))
     # A device that sends what no old end reads is another matter: nobody there chose that.
     assert broken(old, new) == outcomes
+
+
+def test_what_is_not_varied_has_a_value_that_both_ends_allow() -> None:
+    kind: Data = {"type": "u8", "about": "Which layout."}
+    ends = (with_field(WAY, 1, "kind", {**kind, "range": each}) for each in ("0..240", "0..1"))
+    pair = pair_of(*ends)
+    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    usual = next(values_to_try(old, new, {"door": "door", "kind": "kind"}, pairs=False))
+    assert usual["kind"] == 1
 
 
 @pytest.mark.parametrize(("widened", "outcomes"), [("0..250", set()), ("0..200", {"refused"})])
