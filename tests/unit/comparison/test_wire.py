@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from framegen.comparison.edges import values_to_try
 from framegen.comparison.effect import OUTCOMES
+from framegen.comparison.meaning import translated
 from framegen.comparison.wire import trials_of, try_out, wire_effects
 
 from tests.mutations.edits import ALL, LISTS, SPECS, pair_of
@@ -100,6 +101,16 @@ def test_what_is_not_varied_has_a_value_that_both_ends_allow() -> None:
     old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
     usual = next(values_to_try(old, new, {"door": "door", "kind": "kind"}, pairs=False))
     assert usual["kind"] == 1
+
+
+def test_what_stands_behind_a_field_that_is_gone_is_said_again() -> None:
+    kind: Data = {"type": "u8", "about": "Which layout."}
+    pair = pair_of(
+        with_field(WAY, 1, "kind", kind), house({"DoorAsked": {**DOOR, "fields": {"kind": kind}}})
+    )
+    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    said = translated(pair.fields(old, new), old, new, {"door": 3, "kind": 5})
+    assert said == {"kind": 5}
 
 
 @pytest.mark.parametrize(("widened", "outcomes"), [("0..250", set()), ("0..200", {"refused"})])
