@@ -160,6 +160,14 @@ def test_an_unknown_frame_that_ends_otherwise_is_one_row(libraries: Libraries) -
     assert row.fields["parameters"] == b"\xaa\xbb"
 
 
+def test_a_checksum_is_not_taken_for_a_number_that_is_absent(libraries: Libraries) -> None:
+    made = libraries["everything"]
+    # Its last byte, AB, would be too high for the number that may stand there.
+    line = made.Tail(first=1).encode() + filler("everything")
+    first, *_ = rows_in_tables(made, line, made.Direction.TELLER_TO_ASKER)
+    assert (first.table, first.offset) == ("Tail", 0)
+
+
 def test_a_character_that_is_none_and_an_address_that_is_none_are_refused(
     libraries: Libraries,
 ) -> None:
