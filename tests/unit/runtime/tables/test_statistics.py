@@ -7,6 +7,7 @@ from collections import Counter
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+import busservo
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -169,3 +170,13 @@ def test_what_is_drawn_is_in_the_larger_unit(libraries: Libraries) -> None:
     (altitude,) = (each for each in found.ranges if each.quantity.path == "altitude")
     assert (altitude.lowest, altitude.highest) == (1234, 1234)
     assert altitude.quantity.slot.scaled(1234) == 234
+
+
+def test_where_nothing_is_measured_other_numbers_are_drawn_first_those_of_the_device() -> None:
+    asked, told = busservo.ActionGroupRun(8, 2), busservo.ActionGroupCompleted(8, 2)
+    for messages, drawn in (([asked], asked), ([asked, told], told)):
+        line = b"".join(each.encode() for each in messages)
+        traces = part(busservo, "_tables.stats.traces").Traces(9600)
+        part(busservo, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+        kinds = {quantity.layout.kind for quantity, _ in traces.panels()}
+        assert kinds == {type(drawn)}
