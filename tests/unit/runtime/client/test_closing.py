@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import subprocess
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -208,6 +210,24 @@ def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_bac
     await_that(lambda: line.closed)
     await_that(lambda: not own_threads())
     assert len(warned) == 2
+
+
+def test_a_script_that_leaves_a_client_open_ends() -> None:
+    program = f"""if True:
+        import sys
+        sys.path[:] = {sys.path!r}
+        import asyncio
+        from busservo import AsyncController
+        from tests.lines.live_line import LiveLine
+
+        async def work():
+            controller = AsyncController(LiveLine())
+            await controller.stop_action_group()
+            return controller
+
+        controller = asyncio.run(work())
+    """
+    subprocess.run([sys.executable, "-c", program], timeout=GENEROUS, check=True)
 
 
 class ReadsOn(LiveLine):
