@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.factories import library, library_files
-from tests.lines.device_line import DeviceLine
+from tests.lines.timed_line import DeviceLine
 
 if TYPE_CHECKING:
     from types import ModuleType

@@ -19,7 +19,7 @@ from framegen.render import render_target
 from framegen.targets import python
 
 from tests.factories import library
-from tests.lines.device_line import DeviceLine
+from tests.lines.timed_line import DeviceLine
 from tests.protocols.libraries import made_of
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.factories import Data, files_of, kiln, layout_of, library
-from tests.lines.device_line import DeviceLine
+from tests.lines.timed_line import DeviceLine
 
 
 def long_question(*, echoed: bool) -> Data:

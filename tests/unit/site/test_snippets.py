@@ -18,7 +18,7 @@ from framegen.render import snippets
 
 from tests.factories import compiled_file, library, library_files
 from tests.in_turn import in_turn
-from tests.lines.scripted_line import ScriptedLine
+from tests.lines.timed_line import ScriptedLine
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import SPECS, reference
 

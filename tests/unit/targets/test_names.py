@@ -44,7 +44,7 @@ from tests.factories import (
     write_files,
 )
 from tests.in_turn import in_turn
-from tests.lines.device_line import DeviceLine
+from tests.lines.timed_line import DeviceLine
 from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
 from tests.side_by_side import library_of, linted, type_checked
 

@@ -10,10 +10,8 @@ import lxservo
 import pytest
 
 from tests.factories import library, library_of
-from tests.lines.device_line import client_of
-from tests.lines.scripted_line import ScriptedLine
 from tests.lines.servo_bus import READ_ID, READ_POSITION, frame
-from tests.lines.timed_line import client_on
+from tests.lines.timed_line import ScriptedLine, client_of, client_on
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:

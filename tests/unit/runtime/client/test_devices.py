@@ -10,9 +10,8 @@ import lxservo
 import pytest
 from busservo_simulator.virtual_loop import run_virtual
 
-from tests.lines.scripted_line import ScriptedLine
 from tests.lines.servo_bus import MOVE, READ_POSITION, ServoBus, frame
-from tests.lines.timed_line import client_on
+from tests.lines.timed_line import ScriptedLine, client_on
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from tests.factories import DEMO, library, library_of
-from tests.lines.device_line import DeviceLine, client_of
+from tests.lines.timed_line import DeviceLine, client_of
 
 
 @pytest.fixture(scope="module")

@@ -20,8 +20,7 @@ from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, library, library_of
 from tests.in_turn import in_turn
-from tests.lines.device_line import client_of
-from tests.lines.timed_line import client_on
+from tests.lines.timed_line import client_of, client_on
 from tests.lines.virtual_line import VirtualLine
 
 OWN = {1: (100, 900), 2: None, 3: (500, 2500)}

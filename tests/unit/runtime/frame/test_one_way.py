@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import DEMO, data_of, files_of, layout_of, library
-from tests.lines.device_line import DeviceLine, client_of
+from tests.lines.timed_line import DeviceLine, client_of
 from tests.timeouts import GENEROUS
 
 WEATHER, LAMP = (data_of(DEMO.with_name(f"{name}.yaml")) for name in ("weather", "lamp"))
