@@ -16,7 +16,6 @@ from types import CodeType, ModuleType
 from typing import Any, TypeAlias
 
 from framegen.compile import Compiled, compile_loaded, compile_spec
-from framegen.explanation.protocol import Slot
 from framegen.language.load import Loaded, read_source
 from framegen.language.spec import Spec
 from framegen.language.values import Scale
@@ -25,6 +24,7 @@ from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree, Unusable, read_tree
 from framegen.render import render_target
 from framegen.targets import python, vectors
+from framewire.explain.protocol import Slot
 from pydantic import ValidationError
 
 ROOT = Path(__file__).parents[1]

@@ -36,7 +36,7 @@ JUDGES = {
     "framegen": {
         "unit/model": "verdict layout",
         "contract": "reference_stream",
-        "unit/explanation": "explain",
+        "unit/runtime/explain": "explain",
         "unit/checks": "bad_specs",
         "unit/reading": "findings scalars",
         "unit/runtime/codec": "edges",

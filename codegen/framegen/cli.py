@@ -8,10 +8,12 @@ from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol, cast
 
-from framegen import __version__, console
-from framegen.console import DONE, UNUSABLE, visible
+from framewire.command import console
+from framewire.command.console import DONE, UNUSABLE, visible
+from framewire.command.shell_completion import CompletionError, add_option
+
+from framegen import __version__
 from framegen.reading.findings import did_you_mean
-from framegen.shell_completion import CompletionError, add_option
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,20 +61,7 @@ class Verb(Protocol):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line. 0: clean; 1: findings, or no frame; 2: unusable input or usage."""
     words = sys.argv[1:] if argv is None else argv
-    return console.run("framegen", lambda: _run_or_tell(words))
-
-
-def _run_or_tell(words: Sequence[str]) -> int:
-    try:
-        return _run(words)
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith("framegen"):
-            raise
-        _complain(
-            f"the generator needs `{error.name}`, which is not installed",
-            "in a clone of its repository: pip install ./codegen",
-        )
-        return UNUSABLE
+    return console.run("framegen", lambda: _run(words))
 
 
 def _run(words: Sequence[str]) -> int:

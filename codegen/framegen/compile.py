@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.checks import check_model, check_structure
 from framegen.language.load import load
 from framegen.language.spec import AddressPart, ListField
 from framegen.model.model import derive
-from framegen.pluralize import pluralize
 from framegen.reading.findings import in_order
 from framegen.reading.yamltree import Unusable
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.shell_completion import Files, Folders, Words, script
+from framewire.command.shell_completion import Files, Folders, Words, script
 
 if TYPE_CHECKING:
     from argparse import Action, ArgumentParser
 
-    from framegen.shell_completion import Candidates
+    from framewire.command.shell_completion import Candidates
 
 _SPEC = Files(".yaml", ".yml")
 # What stands for an argument, by the word that help has for it.

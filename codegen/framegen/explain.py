@@ -1,19 +1,21 @@
-"""Explanation of bytes by the reference: `framegen.explanation` with its verdicts."""
+"""Explanation of bytes by the reference: `framewire.explain` with its verdicts."""
 
 from __future__ import annotations
 
 from functools import partial
 from typing import TYPE_CHECKING
 
-from framegen.explanation import explanation
-from framegen.explanation.explanation import Judgement, rows_of
+from framewire.explain import explanation
+from framewire.explain.explanation import Judgement, rows_of
+
 from framegen.language.values import Direction
 from framegen.model.verdict import weigh_whole
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from framegen.explanation.explanation import Explanation, Row
+    from framewire.explain.explanation import Explanation, Row
+
     from framegen.model.model import Model
     from framegen.model.verdict import Verdict
 

@@ -6,7 +6,8 @@ import os
 import re
 from pathlib import Path
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.reading.yamltree import Unusable
 
 FOLDER = "spec"

@@ -16,8 +16,8 @@ if sys.platform != "linux":
 from tests.lines.boards import no_board_refuses_anything
 from tests.lines.terminal import OnTerminal
 from tests.timeouts import await_that
-from tests.unit.runtime.cli.conftest import board
-from tests.unit.runtime.cli.test_teach_and_play import PATIENT, poses_of
+from tests.unit.runtime.command.conftest import board
+from tests.unit.runtime.command.test_teach_and_play import PATIENT, poses_of
 
 if TYPE_CHECKING:
     from pathlib import Path

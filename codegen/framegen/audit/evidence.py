@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.language.spec import ListField
 from framegen.model.codec import values_of
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from framegen.explanation.lookalikes import recognise
+from framewire.explain.lookalikes import recognise
+
 from framegen.model.slots import Constant, Items, Number, Packed
 
 if TYPE_CHECKING:

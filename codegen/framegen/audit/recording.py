@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from framewire.codec.hextext import HexError, read_hex
+from framewire.recording.file import EITHER, NOISE, QUIET
+from framewire.recording.form import TIMED_LINE, LogError, is_text, log_lines, text_of
+
 from framegen.cases.malformed import malformed_in
-from framegen.hextext import HexError, read_hex
 from framegen.reading.yamltree import Unusable
-from framegen.recording_file import EITHER, NOISE, QUIET
-from framegen.recording_form import TIMED_LINE, LogError, is_text, log_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.audit.evidence import OBSERVATION
 from framegen.audit.words import described
 from framegen.language.values import to_hex
-from framegen.pluralize import pluralize
 from framegen.reading.yamltext import flow, scalar
 
 if TYPE_CHECKING:

@@ -6,14 +6,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from framegen.compile import without_bounds
-from framegen.explanation.refusals import (
+from framewire.explain.refusals import (
     BAD_HEADER,
     COUNT_MISMATCH,
     LENGTH_MISMATCH,
     OUT_OF_RANGE,
     UNKNOWN_COMMAND,
 )
+
+from framegen.compile import without_bounds
 from framegen.model.codec import values_of
 from framegen.model.stream import Event, ReferenceDecoder
 from framegen.model.verdict import weigh, weigh_whole

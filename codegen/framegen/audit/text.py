@@ -6,8 +6,9 @@ import re
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+
 from framegen.audit.report import sections, summary, verdict
-from framegen.console import visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from framegen.explanation.refusals import (
+from framewire.explain.refusals import (
     BAD_CHECKSUM,
     BAD_TRAILER,
     COUNT_MISMATCH,

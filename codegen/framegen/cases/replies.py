@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.cases.valid import frames_of, values_at
 from framegen.model.codec import encode
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

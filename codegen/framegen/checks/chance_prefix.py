@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.checks.rule import ModelRule, Problem
 from framegen.language.values import to_hex
 from framegen.model.apart import begun, shares_checksums
 from framegen.model.verdict import weigh
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

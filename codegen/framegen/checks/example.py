@@ -5,10 +5,11 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from framewire.explain.refusals import BAD_CHECKSUM, UNKNOWN_COMMAND
+
 from framegen.checks.other_checksum import checksum_hint
 from framegen.checks.rule import ModelRule, Problem
 from framegen.checks.wrong_checksum import other_id, wrong_checksum
-from framegen.explanation.refusals import BAD_CHECKSUM, UNKNOWN_COMMAND
 from framegen.language.values import to_hex
 from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.slots import Constant, Number

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.explain.lookalikes import recognise
+
 from framegen.checks.rule import ModelRule, Problem
-from framegen.explanation.lookalikes import recognise
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

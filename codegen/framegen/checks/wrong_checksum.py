@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framegen.explanation.refusals import BAD_CHECKSUM, Refused
+from framewire.explain.refusals import BAD_CHECKSUM, Refused
+
 from framegen.model.codec import NotAFrame, decode
 from framegen.model.slots import Constant
 

@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
-from framegen.recording_form import FORMS
+from framewire.command.console import visible
+from framewire.recording.form import FORMS
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -6,7 +6,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.reading.findings import did_you_mean
 from framegen.reading.yamltree import Unusable
 

@@ -8,7 +8,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import pluralize
+from framewire.frame.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -143,9 +143,10 @@ def _questions(model: Model, arguments: Namespace) -> Iterator[tuple[str, Questi
 
 def _answer(model: Model) -> int:
     """Answer the questions on the input; report a line that is no question, and go on."""
+    from framewire.command.console import UNUSABLE, visible  # noqa: PLC0415
+
     from framegen.conformance.language import END, answer  # noqa: PLC0415
     from framegen.conformance.question_reader import NotAQuestion, read_question  # noqa: PLC0415
-    from framegen.console import UNUSABLE, visible  # noqa: PLC0415
 
     status = 0
     for line in filter(bytes.strip, sys.stdin.buffer):
@@ -186,8 +187,8 @@ def _tell(model: Model, trial: Trial, arguments: Namespace) -> None:
 
 
 def _show(line: str, colour: str) -> None:
-    from framegen.colour import painted, takes_colour  # noqa: PLC0415
-    from framegen.console import visible, write_as_it_is  # noqa: PLC0415
+    from framewire.command.colour import painted, takes_colour  # noqa: PLC0415
+    from framewire.command.console import visible, write_as_it_is  # noqa: PLC0415
 
     if colour and takes_colour(sys.stdout):
         # What a program said must not command the terminal.

@@ -6,15 +6,17 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.hextext import HexError, read_hex
+from framewire.codec.hextext import HexError, read_hex
+from framewire.recording.form import LogError, without_log
+
 from framegen.reading.text import shown
-from framegen.recording_form import LogError, without_log
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Sequence
 
-    from framegen.explanation.explanation import Explanation
+    from framewire.explain.explanation import Explanation
+
     from framegen.model.model import Model
 
 # Enough of a text to find a place by; a long paste is cut around it.
@@ -45,8 +47,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the explanation. 0 for a frame, 1 for none. Raises Unusable."""
+    from framewire.explain.text import as_json, as_text  # noqa: PLC0415
+
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
-    from framegen.explanation.text import as_json, as_text  # noqa: PLC0415
     from framegen.project import all_specs  # noqa: PLC0415
     from framegen.reading.yamltree import Unusable  # noqa: PLC0415
 

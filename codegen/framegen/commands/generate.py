@@ -7,9 +7,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framewire.command.console import table, visible
+from framewire.frame.pluralize import pluralize
+
 from framegen.commands.output_arguments import add_force, add_spec
-from framegen.console import table, visible
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
-from framegen.recording_form import FORMS
+from framewire.command.console import visible
+from framewire.recording.form import FORMS
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import pluralize
+from framewire.frame.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -35,8 +35,9 @@ def run(arguments: Namespace) -> int:
 
     1 where anything is missing, 2 where nothing says what there should be. Raises Unusable.
     """
+    from framewire.command.console import UNUSABLE  # noqa: PLC0415
+
     from framegen.commands.spec_argument import compiled  # noqa: PLC0415
-    from framegen.console import UNUSABLE  # noqa: PLC0415
     from framegen.project import all_specs, named_spec, project_root  # noqa: PLC0415
     from framegen.witnesses import find_missing, read_witnesses  # noqa: PLC0415
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
-from framegen.pluralize import pluralize
+from framewire.command.console import visible
+from framewire.frame.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

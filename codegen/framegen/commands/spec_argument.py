@@ -5,9 +5,10 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.compile import compile_spec, placed
 from framegen.language.load import read_source
-from framegen.pluralize import pluralize
 from framegen.project import default_spec, named_spec
 from framegen.reading.yamltree import Unusable
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import pluralize
+from framewire.frame.pluralize import pluralize
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

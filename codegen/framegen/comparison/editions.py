@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeGuard
 
+from framewire.command.console import visible
+
 from framegen.comparison.listing import (
     RELEASED,
     earlier_specs,
@@ -21,7 +23,6 @@ from framegen.comparison.listing import (
 )
 from framegen.comparison.partners import partners
 from framegen.comparison.revision import NotInRevision, Revision
-from framegen.console import visible
 from framegen.language.load import MAX_BYTES, read_source, refuse_size, source_of
 from framegen.project import FOLDER, all_specs, named_spec
 from framegen.reading.findings import did_you_mean

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.comparison.changes.wording import called
 from framegen.comparison.due import tells_versions, warns
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from framegen.comparison.changes.change import Change

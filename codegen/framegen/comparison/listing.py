@@ -7,11 +7,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+
 from framegen.comparison.edition import Edition
 from framegen.comparison.partners import Listed
 from framegen.comparison.revision import NotInRevision, Revision
 from framegen.compile import compile_leniently, placed
-from framegen.console import visible
 from framegen.language.load import read_source
 from framegen.language.version import Version
 from framegen.model.layout import LONGEST

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from shutil import which
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.language.load import refuse_size, source_of
 from framegen.reading.yamltree import Unusable
 

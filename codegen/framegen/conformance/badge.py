@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
-from framegen.console import visible
+from framewire.command.console import visible
 
 # How wide a character is, for want of a font: the text is fitted to it.
 _CHARACTER, _MARGIN, _HEIGHT = 6.5, 8, 20

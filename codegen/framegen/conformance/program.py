@@ -17,8 +17,9 @@ from queue import SimpleQueue
 from threading import Condition, Thread
 from typing import IO, TYPE_CHECKING, Any
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.conformance.language import END
-from framegen.pluralize import pluralize
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from framewire.command.console import visible
+from framewire.frame.pluralize import pluralize
+
 from framegen.conformance.badge import badge
 from framegen.conformance.language import Decode, Encode, Stream
 from framegen.conformance.strip import strip
-from framegen.console import visible
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

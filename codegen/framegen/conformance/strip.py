@@ -7,18 +7,20 @@ from difflib import SequenceMatcher
 from itertools import accumulate
 from typing import TYPE_CHECKING, TypeAlias
 
+from framewire.explain.text import table
+from framewire.frame.pluralize import pluralize
+
 from framegen.conformance.language import HEX_AT, Decode, Encode, Stream
 from framegen.explain import seen_rows
-from framegen.explanation.text import table
 from framegen.model.codec import Unencodable, encode
 from framegen.model.verdict import weigh, weigh_whole
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from framewire.explain.explanation import Row
+
     from framegen.conformance.comparison import Difference
-    from framegen.explanation.explanation import Row
     from framegen.model.model import Model
 
     # Lines of an answer, each behind the offset of its first byte, if it has any.

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from framegen.hextext import HexError, read_hex
-from framegen.recording_form import LogError, is_text, log_lines, text_of
+from framewire.codec.hextext import HexError, read_hex
+from framewire.recording.form import LogError, is_text, log_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.compile import compile_spec
 from framegen.model.stream import ReferenceDecoder
-from framegen.pluralize import pluralize
 from framegen.reading.source import Source
 
 if TYPE_CHECKING:

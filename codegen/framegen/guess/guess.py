@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.guess.hidden import HiddenFit
 from framegen.guess.reading import readings
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

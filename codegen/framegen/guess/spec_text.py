@@ -6,7 +6,8 @@ from collections import defaultdict
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framegen.explanation.protocol import listed
+from framewire.explain.protocol import listed
+
 from framegen.guess.framing import read_number
 from framegen.guess.hidden import HiddenFit
 

@@ -27,5 +27,5 @@ def refusal(value: object) -> tuple[str, str]:
     what = f"this spec is written in edition {value} of the language"
     return (
         f"{what}, and framegen {__version__} reads up to {LATEST}",
-        "a newer framegen is needed: git pull in its clone, then pip install ./codegen",
+        "a newer framegen is needed: git pull in its clone, then pip install . ./codegen",
     )

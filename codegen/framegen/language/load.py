@@ -6,9 +6,9 @@ import stat
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
 from pydantic import ValidationError
 
-from framegen.console import visible
 from framegen.language.edition import is_newer, refusal
 from framegen.language.misfit import misfits
 from framegen.language.spec import Spec

@@ -6,9 +6,9 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
+from framewire.codec.hextext import is_hex, read_hex
 from pydantic import BaseModel
 
-from framegen.hextext import is_hex, read_hex
 from framegen.language.edition import LATEST
 from framegen.language.other_words import kind_of, other_key, other_kind
 from framegen.language.spec import ListField, NumberField, Spec

@@ -9,13 +9,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
+from framewire.frame.pluralize import pluralize
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic import Field as Key
 
 from framegen.language.misfit import misfits
 from framegen.language.notation import Notation
 from framegen.language.web_address import address_fault
-from framegen.pluralize import pluralize
 from framegen.reading.findings import in_order
 from framegen.reading.yamltree import Tree, Unusable, read_values
 

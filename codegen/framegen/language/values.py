@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 
-from framegen.hextext import is_hex, read_hex
+from framewire.codec.hextext import is_hex, read_hex
 
 _HEX = re.compile(r"(?:[0-9A-Fa-f]{2}\s+)*[0-9A-Fa-f]{2}")
 _BYTE = re.compile(r"[0-9A-Fa-f]{2}")

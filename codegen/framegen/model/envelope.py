@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.explanation.checksum import in_turn
+from framewire.explain.checksum import in_turn
+
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import (
     AddressPart,

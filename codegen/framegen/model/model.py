@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.explanation.protocol import Protocol
+from framewire.explain.protocol import Protocol
+
 from framegen.model.data import model_data
 from framegen.model.envelope import derive_envelope
 from framegen.model.exchanges import exchanges

@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from framegen.explanation.refusals import BAD_HEADER, UNKNOWN_COMMAND
+from framewire.explain.refusals import BAD_HEADER, UNKNOWN_COMMAND
+
 from framegen.model.verdict import weigh
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from functools import lru_cache, partial
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from framegen.explanation.refusals import (
+from framewire.explain.refusals import (
     BAD_CHECKSUM,
     BAD_HEADER,
     BAD_TRAILER,
@@ -23,6 +23,7 @@ from framegen.explanation.refusals import (
     UNKNOWN_COMMAND,
     Refused,
 )
+
 from framegen.model.slots import Constant, Number, Packed, Text
 
 if TYPE_CHECKING:

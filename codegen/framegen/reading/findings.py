@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import pluralize
+from framewire.frame.pluralize import pluralize
+
 from framegen.reading.text import shown
 
 if TYPE_CHECKING:

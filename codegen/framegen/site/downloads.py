@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.output import banner
-from framegen.pluralize import pluralize
 from framegen.render import render_target
 from framegen.site.recordings import recordings_of
 from framegen.site.scripts.javascript_module import javascript_module

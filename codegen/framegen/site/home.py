@@ -12,10 +12,10 @@ from framegen.site.guides.guide import Guide, rendered
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from framewire.explain.explanation import Row
     from markdown_it.token import Token
     from markupsafe import Markup
 
-    from framegen.explanation.explanation import Row
     from framegen.site.guides.plan import Plan
     from framegen.site.reference_pages import ReferencePages
     from framegen.targets.docs.examples import ExampleView

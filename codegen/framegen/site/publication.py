@@ -6,9 +6,9 @@ import re
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
+from framewire.command.console import visible
 from markupsafe import escape
 
-from framegen.console import visible
 from framegen.language.web_address import address_fault
 from framegen.reading.yamltree import Unusable
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:

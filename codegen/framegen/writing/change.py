@@ -7,8 +7,8 @@ from difflib import unified_diff
 from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
-from framegen.console import visible
-from framegen.pluralize import pluralize
+from framewire.command.console import visible
+from framewire.frame.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

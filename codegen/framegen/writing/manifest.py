@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+
 from framegen import __version__
-from framegen.console import visible
 from framegen.output import banner
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from framegen.console import visible
+from framewire.command.console import visible
 
 # Far enough into any file for its banner to have come.
 _HEAD = 1_000

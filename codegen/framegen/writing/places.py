@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.reading.yamltree import Unusable
 from framegen.writing import disk
 

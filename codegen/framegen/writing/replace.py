@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.reading.yamltree import Unusable
 from framegen.writing import disk
 from framegen.writing.places import Places

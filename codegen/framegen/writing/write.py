@@ -13,7 +13,8 @@ from glob import escape
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.reading.yamltree import Unusable
 from framegen.writing import disk
 from framegen.writing.change import Change, describe

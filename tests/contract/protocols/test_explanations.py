@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import pytest
 import yaml
 from framegen.explain import explain
-from framegen.explanation.checksum import checksum
-from framegen.explanation.text import as_json, as_text
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
 from framegen.model.codec import decode
 from framegen.model.data import method_terms
+from framewire.explain.checksum import checksum
+from framewire.explain.text import as_json, as_text
 
 from tests.factories import compiled_of, library, library_files
 from tests.in_turn import in_turn
@@ -24,7 +24,7 @@ from tests.unit.site.peers import noisy_lines
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framegen.explanation.explanation import Row
+    from framewire.explain.explanation import Row
 
     from tests.protocols.libraries import Libraries
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from framegen.audit.recording import read_recording
 from framegen.cli import main
-from framegen.recording_form import FORMS
+from framewire.recording.form import FORMS
 
 from tests.factories import BUSSERVO, compiled_file
 from tests.in_turn import in_turn

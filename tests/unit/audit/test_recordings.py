@@ -21,7 +21,7 @@ from tests.lines.patient import board_with, diagnosis_of
 from tests.lines.tallied_line import audited
 from tests.lines.virtual_line import VirtualLine
 from tests.unit.conformance.device.runs import run
-from tests.unit.runtime.cli.checks.conftest import nothing_else_comes
+from tests.unit.runtime.command.checks.conftest import nothing_else_comes
 
 if TYPE_CHECKING:
     from pathlib import Path

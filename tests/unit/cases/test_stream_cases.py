@@ -10,8 +10,8 @@ from framegen.cases.stream_case import chunks, single_bytes
 from framegen.cases.streams import senders_of, streams
 from framegen.cases.unknown_id import unknown_id
 from framegen.compile import compile_spec
-from framegen.explanation import refusals
 from framegen.model.stream import ReferenceDecoder
+from framewire.explain import refusals
 
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
 from tests.unit.runtime.codec.test_linear import many

@@ -14,11 +14,11 @@ from framegen import __version__
 from framegen.checks import RULES
 from framegen.checks.rule import AnyRule
 from framegen.cli import VERBS, main
-from framegen.console import INTERRUPTED, READER_GONE
 from framegen.language.spec import Spec
 from framegen.project import default_spec, project_root
 from framegen.reading.yamltree import Unusable
 from framegen.render import render, render_shared
+from framewire.command.console import INTERRUPTED, READER_GONE
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -465,17 +465,20 @@ def test_characters_missing_in_the_terminal_are_escaped() -> None:
     assert errors.startswith(r"framegen: error: there is no verb `expl\xe4in`")
 
 
-def test_a_missing_package_is_named_with_its_cure() -> None:
+@pytest.mark.parametrize("package", ["yaml", "framewire.command"])
+def test_a_missing_package_is_named_with_its_cure(package: str) -> None:
     script = (
-        "import sys; sys.modules['yaml'] = None\n"
-        "from framegen.cli import main; sys.exit(main(['check']))"
+        f"import sys; sys.modules['{package}'] = None\n"
+        "sys.argv[1:] = ['check']\n"
+        "from framegen.__main__ import main; sys.exit(main())"
     )
+    name = package.partition(".")[0]
     assert process("-c", script) == (
         2,
         "",
         (
-            "framegen: error: the generator needs `yaml`, which is not installed\n"
-            "  hint: in a clone of its repository: pip install ./codegen\n"
+            f"framegen: error: the generator needs `{name}`, which is not installed\n"
+            "  hint: in a clone of its repository: pip install . ./codegen\n"
         ),
     )
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 import os
-import re
 import subprocess
 import sys
 import unicodedata
@@ -16,10 +15,9 @@ import busservo._cli
 import busservo_simulator.cli
 import framegen.cli
 import pytest
-from busservo._cli import console as library_console
-from framegen import console
-from framegen.console import Screen, visible
 from framegen.reading.text import first_invisible
+from framewire.command import console
+from framewire.command.console import Screen, visible
 from hypothesis import example, given
 from hypothesis import strategies as st
 from serial.tools.list_ports_common import ListPortInfo
@@ -185,7 +183,7 @@ def test_the_input_is_closed(command: Command) -> None:
 @not_windows
 def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
     program = (
-        "import os, sys; from framegen.console import run;"
+        "import os, sys; from framewire.command.console import run;"
         "sys.exit(run('it', lambda: os.open(os.devnull, os.O_RDONLY)))"
     )
     done = subprocess.run(
@@ -395,18 +393,3 @@ def test_a_colour_of_our_own_passes() -> None:
     console.write_as_it_is(Screen(behind), "\x1b[31mred\x1b[0m")
     console.write_as_it_is(behind, "\r")
     assert behind.getvalue() == "\x1b[31mred\x1b[0m\r"
-
-
-def test_a_library_has_the_same_console() -> None:
-    assert re.search("^(?:#.*\n)*", library_console_text()) is not None
-    assert library_console_text().endswith(text_of(console.__file__))
-
-
-def library_console_text() -> str:
-    return text_of(library_console.__file__)
-
-
-def text_of(file: str | None) -> str:
-    assert file is not None
-    with open(file, encoding="utf-8") as stream:  # noqa: PTH123
-        return stream.read()

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from framegen.explanation.refusals import OUT_OF_RANGE
 from framegen.language.spec import Spec
 from framegen.model.codec import decode, encode
 from framegen.model.model import Model, derive
 from framegen.model.verdict import weigh
+from framewire.explain.refusals import OUT_OF_RANGE
 
 from tests.factories import DEMO, data_of
 

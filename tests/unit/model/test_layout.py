@@ -11,7 +11,7 @@ from framegen.model.facts import NoSuchFact, look_up
 from framegen.model.layout import MessageLayout
 from framegen.model.model import Model
 from framegen.model.slots import Items, Number
-from framegen.pluralize import describe_range
+from framewire.frame.pluralize import describe_range
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -102,7 +102,7 @@ def places(words: list[str], pattern: re.Pattern[str]) -> list[str]:
 # Where the code is that the tests of each folder are for; the rest is about the project as a whole.
 ROOMS = {
     "simulator": "simulator/busservo_simulator",
-    "runtime": "codegen/framegen/targets/python/runtime",
+    "runtime": "runtime/framewire",
     "": "codegen/framegen",
 }
 
@@ -111,8 +111,7 @@ def room_of(folder: str) -> str:
     """Return the folder of the code that a folder of tests/unit is for."""
     top, _, rest = folder.partition("/")
     if top in ROOMS:
-        # The folders of a library are private, and have a line in front of their names.
-        return "/_".join([ROOMS[top], *filter(None, [rest])])
+        return "/".join([ROOMS[top], *filter(None, [rest])])
     return f"{ROOMS['']}/{folder}"
 
 

@@ -1,6 +1,7 @@
 """Imports point only downwards, in the generator and in the libraries that it makes."""
 
 import ast
+import sys
 from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
@@ -11,18 +12,8 @@ GENERATOR = Path(__file__).parents[3] / "codegen" / "framegen"
 
 # From the bottom up. The parts of one layer do not import each other.
 LAYERS = [
-    {"visible"},
-    {
-        "__version__",
-        "colour",
-        "console",
-        "hextext",
-        "recording_file",
-        "recording_form",
-        "shell_completion",
-        "pluralize",
-    },
-    {"reading", "explanation"},
+    {"__version__"},
+    {"reading"},
     {"project", "language"},
     {"model"},
     {"checks", "cases"},
@@ -125,6 +116,60 @@ def test_imports_point_downwards() -> None:
 def test_a_module_with_one_user_is_imported_there_alone(name: str) -> None:
     importing = {part for part, file in MODULES if name in set(imported(file))}
     assert importing == ALONE[name]
+
+
+# ------------------------------------------------------------------ what libraries have in common
+
+COMMON = Path(__file__).parents[3] / "runtime" / "framewire"
+# From the bottom up.
+COMMON_LAYERS = [
+    {"frame"},
+    {"codec", "explain"},
+    {"recording", "line"},
+    {"client"},
+    {"tables"},
+    {"command"},
+]
+COMMON_PARTS = [file.relative_to(COMMON) for file in sorted(COMMON.glob("*/**/*.py"))]
+
+
+def needed_in_common(path: Path) -> Iterator[str]:
+    """Yield every room that a module in another one imports from."""
+    for node in statements(COMMON / path):
+        if isinstance(node, ast.ImportFrom) and node.level == len(path.parts):
+            names = [node.module] if node.module else [alias.name for alias in node.names]
+            yield from (name.partition(".")[0] for name in names)
+
+
+def test_imports_of_the_common_runtime_point_downwards() -> None:
+    found = ((path.parts[0], path, needed_in_common(path)) for path in COMMON_PARTS)
+    assert upwards(COMMON_LAYERS, found) == []
+
+
+# What a port needs, and tables; imported by those who open one, or make some.
+OF_OTHERS = {"numpy", "pyarrow", "shtab", "typing_extensions"}
+
+
+def test_the_common_runtime_works_wherever_it_is_copied_to() -> None:
+    outside = {
+        (path.as_posix(), name.partition(".")[0])
+        for path in COMMON_PARTS
+        for node in statements(COMMON / path)
+        for name in (
+            [alias.name for alias in node.names]
+            if isinstance(node, ast.Import)
+            else [node.module or ""] * (node.level == 0)
+        )
+    }
+    known = sys.stdlib_module_names | OF_OTHERS
+    assert [(path, name) for path, name in sorted(outside) if name not in known] == []
+    above = [
+        path.as_posix()
+        for path in COMMON_PARTS
+        for node in statements(COMMON / path)
+        if isinstance(node, ast.ImportFrom) and node.level > len(path.parts)
+    ]
+    assert above == []
 
 
 # ------------------------------------------------------------------ a library

@@ -14,9 +14,9 @@ from busservo import Reason, recordings
 from busservo._cli.entries import EntryLines
 from busservo._codec.event_bytes import bytes_of
 from busservo._recording.form import log_lines
-from framegen.hextext import HexError, read_hex
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.codec.hextext import HexError, read_hex
 
 from tests.hex_cases import HEX, LOGS, NO_LOGS, random_texts
 from tests.in_turn import in_turn

@@ -19,8 +19,8 @@ from tests.unit.site.reference import NODE
 from tests.unit.site.scripts import run_script
 
 if TYPE_CHECKING:
-    from framegen.explanation.explanation import Row
     from framegen.model.model import Model
+    from framewire.explain.explanation import Row
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

@@ -9,7 +9,8 @@ import pytest
 from framegen.site import rendering
 from framegen.targets.docs import markdown_pages
 from framegen.targets.python import _environment
-from framegen.targets.python.files import INSTEAD, ONLY_WITH, SHARED
+from framegen.targets.python.copies import copies
+from framegen.targets.python.files import INSTEAD, ONLY_WITH
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
@@ -19,6 +20,7 @@ from tests.in_turn import in_turn
 
 CODEGEN = ROOT / "codegen" / "framegen"
 TARGET = CODEGEN / "targets" / "python"
+COMMON = sorted((ROOT / "runtime" / "framewire").rglob("*.py"))
 TEMPLATES = sorted((TARGET / "templates").rglob("*.jinja"))
 RUNTIME = sorted((TARGET / "runtime").rglob("*.py"))
 SOURCES = sorted(path for path in CODEGEN.rglob("*") if path.suffix in (".py", ".jinja"))
@@ -45,7 +47,7 @@ FILTERS = {"assigned", "docstring", "join", "literal", "quoted"}
 
 
 def named(path: Path) -> str:
-    return path.relative_to(TARGET).as_posix()
+    return path.relative_to(ROOT).as_posix()
 
 
 def parsed(template: Path) -> nodes.Template:
@@ -128,18 +130,25 @@ def test_the_runtime_is_emitted_as_it_is(spec: Path) -> None:
         assert text == runtime.read_text(encoding="utf-8"), place
 
 
+def test_what_libraries_have_in_common_is_copied_but_for_its_imports() -> None:
+    own = re.compile(r"(?m)^ *from \..*")
+    texts = {own.sub("", path.read_text(encoding="utf-8")) for path in COMMON}
+    assert {own.sub("", text) for text in copies().values()} <= texts
+    assert len(copies()) == len([path for path in COMMON if path.parent.name != "framewire"])
+
+
 def test_every_emitted_module_is_a_template_or_a_runtime_file() -> None:
     files = emitted_for(DEMO)
     emitted = {path.removeprefix("generated/greenhouse/") for path in files}
     templates = {t.relative_to(TARGET / "templates").as_posix()[:-6] for t in TEMPLATES}
-    runtime = {r.relative_to(TARGET / "runtime").as_posix() for r in RUNTIME}
+    runtime = {r.relative_to(TARGET / "runtime").as_posix() for r in RUNTIME} | {*copies()}
     runtime = {
         INSTEAD["plain"].get(name, name) for name in runtime - ONLY_WITH["poses"] - _NOT_FOR_PLAIN
     }
     templates -= _NOT_FOR_PLAIN
     assert templates & runtime == set()
     data = {"py.typed", "_explanation/model.json"}
-    assert emitted == templates | runtime | {*SHARED} | data
+    assert emitted == templates | runtime | data
 
 
 def test_the_generator_knows_no_protocol_by_name() -> None:
@@ -198,7 +207,9 @@ def test_words_of_a_protocol_are_found_wherever_code_knows_them(tmp_path: Path) 
 
 
 def test_what_is_emitted_for_every_protocol_names_none() -> None:
-    texts = {named(path): path.read_text(encoding="utf-8") for path in [*TEMPLATES, *RUNTIME]}
+    texts = {
+        named(path): path.read_text(encoding="utf-8") for path in [*TEMPLATES, *RUNTIME, *COMMON]
+    }
     words = re.compile(r"(?i)busservo|hiwonder|greenhouse|lx-?16")
     assert [path for path, text in texts.items() if words.search(text)] == []
 

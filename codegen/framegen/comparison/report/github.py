@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+
 from framegen.comparison.report import markdown
 from framegen.comparison.report.ends import ends_of
 from framegen.comparison.report.verdict import standing
 from framegen.comparison.report.words import between, hex_of
-from framegen.console import visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.comparison.accepted import places
 from framegen.comparison.report.verdict import AXES, STANDING_WORDS, standing
 from framegen.comparison.report.words import between, effect_text, hex_of
-from framegen.pluralize import pluralize
 from framegen.reading.yamltext import block, scalar
 from framegen.reading.yamltree import dotted
 from framegen.targets.docs.escape import code, markdown, verbatim

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+from framewire.frame.pluralize import pluralize
+
 from framegen.comparison.accepted import ignored_breaks
 from framegen.comparison.report.titles import group_title, shortened_list
 from framegen.comparison.report.verdict import AXES, STANDING_WORDS, standing
 from framegen.comparison.report.view import rule_of
 from framegen.comparison.report.words import between, call_of, effect_text, hex_of
-from framegen.console import visible
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

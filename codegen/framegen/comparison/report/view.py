@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+
 from framegen.checks.breaks import known_messages, named_message
 from framegen.comparison.accepted import accepted_breaks
 from framegen.comparison.changes import CHANGE_RULES
@@ -16,7 +18,6 @@ from framegen.comparison.explained import explain, is_documentation
 from framegen.comparison.report.ends import all_ends, ends_of, upgrade_order
 from framegen.comparison.report.titles import shortened_list
 from framegen.comparison.report.verdict import AXES, STANDINGS, Verdict, standing
-from framegen.console import visible
 from framegen.language.version import NoVersion
 from framegen.reading.findings import did_you_mean
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from framewire.command.console import visible
+from framewire.frame.pluralize import pluralize
+
 from framegen.comparison.report.titles import shortened_list
-from framegen.console import visible
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect, Witness

@@ -6,13 +6,14 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from framewire.explain.refusals import TOO_SHORT
+from framewire.frame.pluralize import pluralize
+
 from framegen.conformance.device.step import Malformed, data_of, excess, requests_of
 from framegen.conformance.language import fields
-from framegen.explanation.refusals import TOO_SHORT
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -5,12 +5,13 @@ from __future__ import annotations
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
+from framewire.explain.refusals import TOO_SHORT
+from framewire.recording.file import NOISE, RecordingFile
+
 from framegen.conformance.device.step import Request
 from framegen.conformance.language import fields
-from framegen.explanation.refusals import TOO_SHORT
 from framegen.model.codec import values_of
 from framegen.reading.yamltree import Unusable
-from framegen.recording_file import NOISE, RecordingFile
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

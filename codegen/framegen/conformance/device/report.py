@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.conformance.device.step import Request
 from framegen.conformance.language import fields
 from framegen.language.values import to_hex
 from framegen.model.codec import values_of
 from framegen.model.verdict import weigh
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

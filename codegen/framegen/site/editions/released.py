@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+
 from framegen.comparison.listing import edition_of, released
-from framegen.console import visible
 from framegen.language.load import read_source
 from framegen.reading.yamltree import Unusable
 

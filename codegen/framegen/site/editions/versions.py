@@ -6,11 +6,12 @@ from contextlib import contextmanager
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import pluralize
+
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 from framegen.comparison.report.view import View
-from framegen.pluralize import pluralize
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from framewire.command.console import visible
+from framewire.frame.pluralize import pluralize
+
 from framegen.comparison.explained import is_documentation
 from framegen.comparison.report.titles import fate_of
 from framegen.comparison.report.verdict import AXES, STANDING_WORDS, standing
 from framegen.comparison.report.view import rule_of
 from framegen.comparison.report.words import between, call_of, effect_text, hex_of
-from framegen.console import visible
 from framegen.language.version import Version
-from framegen.pluralize import pluralize
 from framegen.site.spec_listing import nearest_anchor
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from framegen.console import visible
+from framewire.command.console import visible
+
 from framegen.project import FOLDER as SPECS
 from framegen.reading.yamltree import Unusable
 from framegen.site.guides.links import FOLDER as GUIDES

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.explanation import refusals
-from framegen.explanation.explanation import example_in_words, facts, named
+from framewire.explain import refusals
+from framewire.explain.explanation import example_in_words, facts, named
+from framewire.frame.pluralize import describe_range
+
 from framegen.language.formula import Sizes
-from framegen.pluralize import describe_range
 from framegen.site.scripts.slot_data import exact, lowest, slot_data
 from framegen.targets.docs.address import message_page
 

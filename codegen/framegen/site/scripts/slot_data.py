@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framegen.explanation.protocol import listed
+from framewire.explain.protocol import listed
+
 from framegen.model.data import method_terms
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.explanation.protocol import listed
+from framewire.explain.protocol import listed
+
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Number
 from framegen.targets.docs.notes import NoteView, note_views

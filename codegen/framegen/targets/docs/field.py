@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.explanation.pattern import place_in_each
+from framewire.explain.pattern import place_in_each
+
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import ListField, NumberField
 from framegen.model.slots import Constant, Items, Number, Packed, Text
@@ -15,7 +16,8 @@ from framegen.targets.docs.notes import NoteView, note_views
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from framegen.explanation.protocol import Slot
+    from framewire.explain.protocol import Slot
+
     from framegen.language.number_types import NumberType
     from framegen.language.spec import NamedValue, Spec
     from framegen.language.values import Citation

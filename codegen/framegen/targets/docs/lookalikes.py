@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.explanation.lookalikes import recognise
-from framegen.explanation.protocol import listed
+from framewire.explain.lookalikes import recognise
+from framewire.explain.protocol import listed
+
 from framegen.language.values import to_hex
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Constant

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framegen.explanation.protocol import listed
+from framewire.explain.protocol import listed
+from framewire.frame.pluralize import describe_range, pluralize
+
 from framegen.model.exchanges import method_of
-from framegen.pluralize import describe_range, pluralize
 from framegen.targets.docs.address import message_page
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 from framegen.targets.docs.drawing import Drawing, drawing

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.explanation.refusals import BAD_CHECKSUM, COUNT_MISMATCH
+from framewire.explain.refusals import BAD_CHECKSUM, COUNT_MISMATCH
+
 from framegen.model.codec import Unencodable, encode
 from framegen.model.slots import Constant, Number
 from framegen.model.verdict import weigh

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.explanation.protocol import listed
+from framewire.explain.protocol import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

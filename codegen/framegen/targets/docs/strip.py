@@ -5,16 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framewire.explain.pattern import pattern
+from framewire.frame.pluralize import pluralize
+
 from framegen.explain import explain
-from framegen.explanation.pattern import pattern
 from framegen.language.values import to_hex
-from framegen.pluralize import pluralize
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framegen.explanation.explanation import Row
-    from framegen.explanation.protocol import Envelope, Message, Placed, Slot
+    from framewire.explain.explanation import Row
+    from framewire.explain.protocol import Envelope, Message, Placed, Slot
+
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
 

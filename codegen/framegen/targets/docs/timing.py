@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.pluralize import pluralize
+from framewire.frame.pluralize import pluralize
 
 if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout

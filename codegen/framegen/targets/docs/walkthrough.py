@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
-from framegen.explanation.refusals import (
+from framewire.explain.refusals import (
     BAD_CHECKSUM,
     BAD_HEADER,
     COUNT_MISMATCH,
@@ -17,10 +17,11 @@ from framegen.explanation.refusals import (
     TOO_SHORT,
     UNKNOWN_COMMAND,
 )
+from framewire.frame.pluralize import describe_range, pluralize
+
 from framegen.language.values import to_hex
 from framegen.model.slots import Number
 from framegen.model.stream import ReferenceDecoder
-from framegen.pluralize import describe_range, pluralize
 from framegen.targets.docs.checksum_steps import worked_out
 
 if TYPE_CHECKING:

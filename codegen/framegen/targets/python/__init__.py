@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.python.carried_model import carried_model
 from framegen.targets.python.client_view import ClientView
+from framegen.targets.python.copies import copies
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
 from framegen.targets.python.escape import assigned, literal, quoted
-from framegen.targets.python.files import SHARED, placed
+from framegen.targets.python.files import placed
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.python.names import bent, names_of
 from framegen.targets.python.reserved import RESERVED
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from framegen.targets.target import Snippets
 
 _HERE = Path(__file__).parent
-# What a shared file imports has another place in a library.
-_IMPORT, _IMPORT_THERE = "from ..pluralize import", "from .._frame.pluralize import"
 
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
@@ -50,12 +49,8 @@ def folders(model: Model) -> tuple[str, ...]:
 def _runtime() -> dict[str, str]:
     """Return the files that are the same for every protocol; read once."""
     root = _HERE / "runtime"
-    files = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
-    files |= {name: _HERE.parents[1] / shared for name, shared in SHARED.items()}
-    return {
-        name: file.read_text(encoding="utf-8").replace(_IMPORT, _IMPORT_THERE)
-        for name, file in files.items()
-    }
+    own = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
+    return copies() | {name: file.read_text(encoding="utf-8") for name, file in own.items()}
 
 
 def _from_templates(library: LibraryView, client: ClientView) -> dict[str, str]:

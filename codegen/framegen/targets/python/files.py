@@ -10,31 +10,6 @@ if TYPE_CHECKING:
     from framegen.targets.python.client_view import ClientView
     from framegen.targets.python.library_view import LibraryView
 
-# What framegen and a library have in common is written once: where it is copied to.
-SHARED = {
-    "_cli/colour.py": "colour.py",
-    "_cli/console.py": "console.py",
-    "_cli/shell_completion.py": "shell_completion.py",
-    "_codec/hextext.py": "hextext.py",
-    "_recording/file.py": "recording_file.py",
-    "_recording/form.py": "recording_form.py",
-    "_frame/pluralize.py": "pluralize.py",
-    "_frame/visible.py": "visible.py",
-    **{
-        f"_explanation/{name}.py": f"explanation/{name}.py"
-        for name in (
-            "__init__",
-            "checksum",
-            "closest",
-            "explanation",
-            "lookalikes",
-            "pattern",
-            "protocol",
-            "refusals",
-            "text",
-        )
-    },
-}
 # What only some protocols have a use for, by what they have; `_used` tells which these are.
 ONLY_WITH = {
     "a distribution": {"README.md", "pyproject.toml"},

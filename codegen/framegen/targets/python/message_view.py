@@ -6,10 +6,11 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framewire.frame.pluralize import describe_range
+
 from framegen.language.formula import Sizes
 from framegen.model.codec import encode
 from framegen.model.slots import Constant, Items, Number, Packed, Text
-from framegen.pluralize import describe_range
 from framegen.targets.python.escape import (
     Bracketed,
     Part,

@@ -14,7 +14,7 @@ from busservo import (
 from framegen.language.values import Citation, Direction
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.model import derive
-from framegen.pluralize import describe_range
+from framewire.frame.pluralize import describe_range
 
 from tests.cases import CASES
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of

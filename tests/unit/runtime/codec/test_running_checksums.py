@@ -1,24 +1,18 @@
 """The checksums of the libraries agree with the catalogue, also along a stream, in linear time."""
 
-import sys
-from collections.abc import Iterator
 from importlib import import_module
-from pathlib import Path
-from types import ModuleType
 from typing import Any, TypeAlias
 from unittest.mock import patch
 
-import pytest
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
-from framegen.targets.python import __file__ as target
 from framegen.targets.python.checksum_view import ChecksumView
+from framegen.targets.python.copies import copies
 from framegen.targets.python.files import ONLY_WITH
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 
-RUNTIME = Path(target).parent / "runtime" / "_frame"
 METHODS = [(name, width) for name, row in CHECKSUMS.items() for width in row.widths]
 # One of each class, and of each way through it.
 KINDS = [
@@ -51,28 +45,17 @@ KINDS = [
 ]
 
 
-@pytest.fixture(scope="module", autouse=True)
-def runtime() -> Iterator[None]:
-    """Make a package of what is copied into libraries."""
-    package = ModuleType("runtime_frame")
-    package.__path__ = [str(RUNTIME)]
-    sys.modules[package.__name__] = package
-    yield
-    for name in [name for name in sys.modules if name.split(".")[0] == package.__name__]:
-        del sys.modules[name]
-
-
 def make(method: str, width: int) -> Any:
     """Make a checksum as a library does."""
     view = ChecksumView(method, width)
-    module = import_module(f"runtime_frame.{view.module}")
+    module = import_module(f"framewire.frame.{view.module}")
     return eval(view.made, vars(module))  # noqa: S307 - it is our own
 
 
 def test_every_module_that_a_method_needs_is_in_the_runtime() -> None:
     needed = set().union(*(ChecksumView(*method).files for method in METHODS))
     assert needed == ONLY_WITH["checksums"]
-    assert {f"_frame/{file.name}" for file in RUNTIME.iterdir()} >= needed
+    assert {*copies()} >= needed
 
 
 @in_turn(

@@ -41,7 +41,7 @@ from busservo import (
 )
 from busservo._frame.element import Element
 from busservo._frame.number import U8
-from framegen.explanation import refusals
+from framewire.explain import refusals
 from hypothesis import given
 from hypothesis import strategies as st
 

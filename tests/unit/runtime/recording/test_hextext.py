@@ -3,7 +3,7 @@
 from inspect import getsource
 from itertools import pairwise
 
-import framegen.hextext
+import framewire.codec.hextext
 import pytest
 from busservo._cli import main
 from busservo._codec import hextext
@@ -22,7 +22,7 @@ WORDS = [text for text in NO_HEX if "\0" not in text]
 
 def test_the_library_has_the_text_of_framegen() -> None:
     _banner, ours = getsource(hextext).split("\n", 1)
-    assert ours == getsource(framegen.hextext)
+    assert ours == getsource(framewire.codec.hextext)
 
 
 @in_turn("text, data", lambda: HEX)

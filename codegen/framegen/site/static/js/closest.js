@@ -1,5 +1,5 @@
 // Which frame comes closest to bytes that are none: its envelope and, if it is known, its message.
-// What framegen's explanation/closest.py says.
+// What framewire/explain/closest.py says.
 "use strict";
 
 // Whole numbers in their bytes, as far as there are any.

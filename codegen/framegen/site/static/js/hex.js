@@ -1,5 +1,5 @@
 // Hex as people paste it: `0A 1B`, `0A1B`, `0x0A, 0x1B`, `\x0A\x1B`, `0Ah`, `0b00011011`, with commas,
-// colons, dashes and comments. All that framegen's hextext.py reads means the same here.
+// colons, dashes and comments. All that framewire/codec/hextext.py reads means the same here.
 "use strict";
 
 // What was given cannot be used; the message says why. `at` and `size` are its place in a text,

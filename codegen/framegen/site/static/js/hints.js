@@ -1,4 +1,4 @@
-// What bytes may be that are no frame, as framegen's explanation/explanation.py suggests it.
+// What bytes may be that are no frame, as framewire/explain/explanation.py suggests it.
 "use strict";
 
 // So many of the frames inside other bytes are shown.

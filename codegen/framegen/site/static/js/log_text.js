@@ -1,5 +1,5 @@
 // Logs of other programs: what serial monitors, Python's logging and tables of two wires say of a line.
-// What framegen's recording_form.py reads, and nothing else.
+// What framewire/recording/form.py reads, and nothing else.
 "use strict";
 
 const LOG_CLOCK = (name) => String.raw`(?<${name}>(?:[0-9]{4}-[0-9]{2}-[0-9]{2}[ T])?`

@@ -1,4 +1,4 @@
-// Frames of protocols that are easily taken for this one, as framegen's explanation/lookalikes.py
+// Frames of protocols that are easily taken for this one, as framewire/explain/lookalikes.py
 // finds them.
 "use strict";
 

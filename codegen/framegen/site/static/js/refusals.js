@@ -1,5 +1,5 @@
-// Words for what a frame should have had where bytes stop being one, as framegen's
-// explanation/refusals.py has them.
+// Words for what a frame should have had where bytes stop being one, as
+// framewire/explain/refusals.py has them.
 "use strict";
 
 const pluralized = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"}`;

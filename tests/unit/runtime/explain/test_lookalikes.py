@@ -8,11 +8,11 @@ import pytest
 from busservo import Message, strategies
 from busservo._codec import lookalikes
 from framegen.explain import explain
-from framegen.explanation.lookalikes import recognise
-from framegen.explanation.text import as_text
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.model import Model
 from framegen.targets.python.library_view import LibraryView
+from framewire.explain.lookalikes import recognise
+from framewire.explain.text import as_text
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..pluralize import describe_range, pluralize
+from ..frame.pluralize import describe_range, pluralize
 from .protocol import lay_out, listed
 
 TYPE_CHECKING = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 from textwrap import fill
 
-from ..pluralize import pluralize
+from ..frame.pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

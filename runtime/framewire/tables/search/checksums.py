@@ -12,7 +12,7 @@ from ..places import read_numbers
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..._explanation.protocol import Envelope, Slot
+    from ...explain.protocol import Envelope, Slot
     from ..events import Bytes, Numbers
 
 _BYTES = 256

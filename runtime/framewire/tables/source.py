@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
-from .._recording.form import FORMS, begun_as
+from ..recording.form import FORMS, begun_as
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -24,9 +24,9 @@ from busservo_simulator import VirtualController
 from tests.documents import ROOT
 from tests.lines.patient import board_with, diagnosis_of
 from tests.timeouts import GENEROUS, await_that
-from tests.unit.runtime.cli.checks.test_strangers import CASES, examined
-from tests.unit.runtime.cli.test_line_verbs import plugged_in
-from tests.unit.runtime.cli.test_monitor import Line
+from tests.unit.runtime.command.checks.test_strangers import CASES, examined
+from tests.unit.runtime.command.test_line_verbs import plugged_in
+from tests.unit.runtime.command.test_monitor import Line
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

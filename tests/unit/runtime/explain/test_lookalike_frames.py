@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from framegen.explanation.lookalikes import recognise
+from framewire.explain.lookalikes import recognise
 
 from tests.factories import DEMO, compiled_of, data_of, layout_of
 from tests.in_turn import in_turn

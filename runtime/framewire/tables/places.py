@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .._explanation.protocol import Slot
+    from ..explain.protocol import Slot
     from .events import Bytes, Numbers
 
 

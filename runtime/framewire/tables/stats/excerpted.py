@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._recording.excerpt import ExcerptError
+from ...recording.excerpt import ExcerptError
 from .timeline import Timeline
 
 if TYPE_CHECKING:
-    from ..._recording.excerpt import Excerpt
+    from ...recording.excerpt import Excerpt
     from ..events import Events
     from .timeline import Moments
 

@@ -14,8 +14,8 @@ from framegen.cases.invalid import invalid_frames
 from framegen.cases.valid import valid_frames
 from framegen.cli import main as framegen_main
 from framegen.explain import explain
-from framegen.explanation.text import as_json, as_text
 from framegen.model.data import model_data
+from framewire.explain.text import as_json, as_text
 from hypothesis import given
 from hypothesis import strategies as st
 

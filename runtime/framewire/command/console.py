@@ -17,7 +17,7 @@ import os
 import sys
 from contextlib import contextmanager, suppress
 
-from .visible import visible, visible_lines
+from ..frame.visible import visible, visible_lines
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
-    from .._explanation.protocol import Message, Protocol
+    from ..explain.protocol import Message, Protocol
 
 # So much alike are a word and what was meant by it; of other words, many are half alike.
 _MUCH_ALIKE = 0.75

@@ -7,21 +7,21 @@ from pathlib import Path
 import pytest
 from framegen.cli import main
 from framegen.explain import explain
-from framegen.explanation import refusals
-from framegen.explanation.explanation import Explanation, Reading, Refusal, Row
-from framegen.explanation.text import as_json, as_text
 from framegen.language.load import load, read_source
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model import codec
 from framegen.model.model import Model, derive
+from framewire.explain import refusals
+from framewire.explain.explanation import Explanation, Reading, Refusal, Row
+from framewire.explain.text import as_json, as_text
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import data_of
 from tests.in_turn import in_turn
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
 DEMO = ROOT / "tests" / "specs" / "demo.yaml"
 
