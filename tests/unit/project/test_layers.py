@@ -184,6 +184,7 @@ LIBRARY_LAYERS = [
     {"_recording"},
     {"recordings", "_serial"},
     {"_client"},
+    {"_library"},
     {"device", "strategies", "_tables"},
     {"tables"},
     {"_cli"},

@@ -397,12 +397,19 @@ class LibraryView:
     @property
     def hid_devices(self) -> str:
         """An assignment: vendor, product and report size of each HID board."""
-        boards = [
+        before = "HID_DEVICES: tuple[tuple[int, int, int], ...] = ("
+        return Bracketed(before, self._hid_boards(), ")", lone=",").fitted(0)
+
+    @property
+    def hid_argument(self) -> str:
+        """The same as an argument."""
+        return Bracketed("hid_devices=(", self._hid_boards(), ")", lone=",").fitted(4, last=",")
+
+    def _hid_boards(self) -> list[str]:
+        return [
             f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
             for board in self.link.usb_hid
         ]
-        before = "HID_DEVICES: tuple[tuple[int, int, int], ...] = ("
-        return Bracketed(before, boards, ")", lone=",").fitted(0)
 
     @property
     def byte_order(self) -> str:

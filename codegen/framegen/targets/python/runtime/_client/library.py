@@ -1,0 +1,90 @@
+"""A library of a protocol, as the runtime sees it: what its specification decides."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from logging import Logger
+    from typing import Any
+
+    from .._codec.protocol_codec import ProtocolCodec
+    from .._explanation.protocol import Protocol
+    from .._frame.message import Message
+    from .._serial.link import Link
+    from .async_client import AsyncClient
+    from .client import Client
+    from .exchange import Exchange
+    from .limits import Limits
+    from .pose import Pose
+
+
+class Library:
+    """What a generated library hands to the runtime.
+
+    `package` is its import name, and `protocol_version` the version of the specification. What
+    takes time to import is imported when it is first asked for.
+    """
+
+    def __init__(
+        self, package: str, *, protocol_version: str, link: Link, codec: ProtocolCodec
+    ) -> None:
+        self.package = package
+        self.protocol_version = protocol_version
+        self.link = link
+        self.codec = codec
+
+    def __repr__(self) -> str:
+        return f"<the library {self.package} of protocol version {self.protocol_version}>"
+
+    @cached_property
+    def exchanges(self) -> dict[type[Message], Exchange]:
+        """What answers each message that a client sends, and the method that sends it."""
+        exchanges: dict[type[Message], Exchange] = self._part("_client.exchanges").EXCHANGES
+        return exchanges
+
+    @cached_property
+    def limits(self) -> Limits:
+        """The limits of what a client sends unless it is told otherwise."""
+        limits: Limits = self._part("_client.exchanges").LIMITS
+        return limits
+
+    @cached_property
+    def pose(self) -> Pose | None:
+        """How positions are read, commanded and released; None for a protocol without positions."""
+        pose: Pose | None = self._part("_client.exchanges").POSE
+        return pose
+
+    @cached_property
+    def client(self) -> type[Client]:
+        """The client for threads."""
+        client: type[Client] = self._part("_client.controller").Controller
+        return client
+
+    @cached_property
+    def async_client(self) -> type[AsyncClient]:
+        """The client for asyncio."""
+        client: type[AsyncClient] = self._part("_client.async_controller").AsyncController
+        return client
+
+    @property
+    def version(self) -> str:
+        """The version of the installed package, or else of the specification."""
+        version: str = self._part("_version").__version__
+        return version
+
+    def protocol(self) -> Protocol:
+        """Read all that is known of the protocol, for whoever explains it."""
+        protocol: Protocol = self._part("_explanation.carried_model").protocol()
+        return protocol
+
+    def log(self) -> Logger:
+        """Return the logger of the library, which is named after its package."""
+        from logging import getLogger
+
+        return getLogger(self.package)
+
+    def _part(self, name: str) -> Any:
+        # Not importlib, which would have to be imported first.
+        return __import__(f"{self.package}.{name}", fromlist=[name])

@@ -1,0 +1,76 @@
+"""The codec of a protocol, as the runtime sees it: directions, messages, and what reads frames."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+    from .._frame.direction import Direction
+    from .._frame.message import Message
+    from .._frame.table import Table
+    from .careful_decoder import CarefulDecoder
+    from .decoder import StreamDecoder
+
+
+class ProtocolCodec:
+    """What a generated library hands to whatever reads frames.
+
+    `package` is its import name. `directions` are all there are, and `received` is that of the
+    messages that come to the end that a client is at. What takes time to import is imported when it
+    is first asked for.
+    """
+
+    def __init__(self, package: str, *, directions: type[Direction], received: Direction) -> None:
+        self.package = package
+        self.directions = directions
+        self.received = received
+
+    @cached_property
+    def messages(self) -> tuple[type[Message], ...]:
+        """All messages, in the order in which they are declared."""
+        return tuple(self._part("messages").MESSAGES)
+
+    @cached_property
+    def decode(self) -> Callable[[bytes | bytearray | memoryview, Direction | None], Message]:
+        """The function that decodes one frame."""
+        decode: Callable[[bytes | bytearray | memoryview, Direction | None], Message]
+        decode = self._part("_codec.codec").decode
+        return decode
+
+    @cached_property
+    def twins(self) -> Callable[[Message], list[type[Message]]]:
+        """The function that returns what else a frame may be, if its sender is unknown."""
+        twins: Callable[[Message], list[type[Message]]] = self._part("_codec.codec").twins
+        return twins
+
+    @cached_property
+    def table_for(self) -> Callable[[Direction | None], Table]:
+        """The function that returns the messages of one direction, of all for None."""
+        table_for: Callable[[Direction | None], Table] = self._part("_codec.codec").table_for
+        return table_for
+
+    @cached_property
+    def decoder(self) -> type[StreamDecoder]:
+        """What decodes a stream of bytes."""
+        decoder: type[StreamDecoder] = self._part("_codec.decoder").StreamDecoder
+        return decoder
+
+    @cached_property
+    def careful_decoder(self) -> type[CarefulDecoder]:
+        """What decodes a stream of bytes for those who can wait for what decides."""
+        decoder: type[CarefulDecoder] = self._part("_codec.careful_decoder").CarefulDecoder
+        return decoder
+
+    @cached_property
+    def recognise(self) -> Callable[..., str | None]:
+        """The function that recognises protocols that are easily taken for this one."""
+        recognise: Callable[..., str | None] = self._part("_codec.lookalikes").recognise
+        return recognise
+
+    def _part(self, name: str) -> Any:
+        # Not importlib, which would have to be imported first.
+        return __import__(f"{self.package}.{name}", fromlist=[name])
