@@ -104,8 +104,8 @@ format: $(TO_LINT)  ## Mend what ruff can mend
 
 fuzz: $(TO_TEST)  ## Search for new counterexamples, for long; change the specs, and cross them
 	HYPOTHESIS_PROFILE=fuzz $(IN)/python -m pytest
-	CONTRACT=all $(IN)/python -m pytest tests/world/test_contract.py
-	CROSSED=2000 CROSSED_SEED=$$(date +%s) $(IN)/python -m pytest -n $(WORKERS) tests/contract/crossed/test_crossed.py
+	$(IN)/python -m pytest tests/world/test_contract.py --sample all
+	$(IN)/python -m pytest -n $(WORKERS) tests/world/test_crossed.py --sample 2000 --seed $(or $(SEED),$$(date +%s))
 
 bench:  ## Measure the library against its peers
 	@$(MAKE) --no-print-directory $(BENCH_VENV)/.ready-bench VENV=$(BENCH_VENV)

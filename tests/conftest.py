@@ -1,8 +1,7 @@
-"""What holds for every test: how long Hypothesis searches, and which tests are slow.
+"""What holds for every test: how long Hypothesis searches, and what is drawn of the slow tests.
 
 What is slow, or needs the world outside this process, lies in tests/world. `pytest` leaves it out
 (norecursedirs); `pytest tests/world` runs it, and with `--sample N` so many of each file.
-tests/world has the rows of tables that are left out here, too: tests/rows.py.
 
 The profiles of Hypothesis are `ci`, the same examples in every run; `quick`, fewer of them; `all`,
 many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_PROFILE or
@@ -71,13 +70,19 @@ _CACHED = type(cache(print))
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add what chooses a sample."""
     group = parser.getgroup("sample")
-    group.addoption("--sample", type=int, metavar="N", help="run N tests of each file")
+    group.addoption(
+        "--sample",
+        type=lambda text: text if text == "all" else int(text),
+        metavar="N",
+        help="run N tests of each file; with `all`, every change of a spec that a test knows",
+    )
     group.addoption("--seed", type=int, help="which of them (default: others on each day)")
+    group.addoption("--only", metavar="TEXT", help="of those changes, the ones that say TEXT")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Choose the seed and what is run, once for all processes that share the work."""
-    if config.option.seed is None:
+    if config.option.seed is None and config.option.sample is not None:
         config.option.seed = datetime.now(timezone.utc).date().toordinal()
     leave_out_settings(config)
     if config.args_source is not config.ArgsSource.ARGS and something_is_missing():
@@ -114,7 +119,7 @@ def something_is_missing() -> bool:
 def pytest_report_header(config: pytest.Config) -> list[str]:
     """Print what a sample can be repeated with."""
     many = config.option.sample
-    return [] if many is None else [f"{many} tests of each file, --seed {config.option.seed}"]
+    return [] if many is None else [f"--sample {many} --seed {config.option.seed}"]
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
@@ -161,13 +166,11 @@ def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> 
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out rows that tests/world has, and all but a sample of the rest if one is asked for."""
-    many = config.option.sample
-    kept = {item for item in items if item.get_closest_marker("slow") is None}
-    if many is not None:
-        kept = sample([item for item in items if item in kept], many, config.option.seed)
-    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
-    items[:] = [item for item in items if item in kept]
+    """Leave out all but a sample, if one is asked for."""
+    if isinstance(config.option.sample, int):
+        kept = sample(items, config.option.sample, config.option.seed)
+        config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+        items[:] = [item for item in items if item in kept]
 
 
 def sample(items: Sequence[pytest.Item], many: int, seed: int) -> set[pytest.Item]:

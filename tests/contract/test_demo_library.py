@@ -36,13 +36,12 @@ from tests.factories import (
     library,
     library_files,
     vectors_of,
-    write_files,
 )
 from tests.in_turn import in_turn
 from tests.protocols.libraries import direction_of, made_of, values_in
 from tests.protocols.peer import Values
 from tests.protocols.specs import values_for
-from tests.side_by_side import library_of, linted, type_checked
+from tests.side_by_side import library_of, linted
 
 SPEC = data_of(DEMO)
 
@@ -659,13 +658,6 @@ def test_linters_find_nothing_in_the_libraries(tmp_path: Path) -> None:
     for name, made in many().items():
         library_of(name, made).write(tmp_path)
     assert linted(tmp_path) == {}
-
-
-@pytest.mark.slow
-def test_type_checkers_find_nothing_in_the_libraries(tmp_path: Path) -> None:
-    for made in many().values():
-        write_files(made, tmp_path)
-    assert type_checked(tmp_path / "generated", tmp_path / "cache") == {}
 
 
 def test_no_check_is_switched_off_in_the_generated_part() -> None:

@@ -1,16 +1,16 @@
 """The contract of `framegen check`: any change of a spec is either reported, or all of this holds.
 
 Accepted means: it generates and imports; ruff, mypy and pyright have no findings; its client is
-answered by its own device on every method; and its pages are inert. Each run takes a sample, which
-CONTRACT_SEED chooses; CONTRACT=all takes everything, as `make fuzz` does; and CONTRACT_ONLY those
+answered by its own device on every method; and its pages are inert. Each run takes some changes,
+others for each `--seed`; `--sample all` takes every change, as `make fuzz` does; and `--only` those
 whose description holds a text, as a failure shows it.
 """
 
 from __future__ import annotations
 
-import os
 import random
 import shutil
+from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -44,22 +44,44 @@ if TYPE_CHECKING:
     from tests.mutations.mutants import Mutant
     from tests.unit.site.reference import Reference
 
-SEED = int(os.environ.get("CONTRACT_SEED", "8"))
-ONLY = os.environ.get("CONTRACT_ONLY", "")
-ALL = os.environ.get("CONTRACT") == "all"
-# How many of each a sample has: specs full of odd text, and specs with one thing changed. Type
-# checkers look at so many of each batch: they take as long for one as all else for twenty.
+# How many of each are some: specs full of odd text, and specs with one thing changed. Type checkers
+# look at so many of each batch: they take as long for one as all else for twenty.
 ODD_TEXTS, STRETCHED, CHANGED = 4, 8, 30
-BATCH, TYPED = 300, (20 if ALL or ONLY else 2)
+BATCH, TYPED, TYPED_OF_ALL = 300, 2, 20
 
 
-def sample(mutants: list[Mutant], many: int) -> list[Mutant]:
-    """Return the mutants of this run."""
-    if ONLY:
-        return [mutant for mutant in mutants if ONLY in str(mutant)]
-    if ALL or many >= len(mutants):
-        return mutants
-    return random.Random(SEED).sample(mutants, many)  # noqa: S311
+@dataclass(frozen=True)
+class Taken:
+    """Which mutants a run takes: those that say a text, all of them, or some."""
+
+    only: str
+    is_all: bool
+    seed: int
+
+    @property
+    def is_whole(self) -> bool:
+        return self.is_all or bool(self.only)
+
+    def of(self, mutants: list[Mutant], many: int) -> list[Mutant]:
+        if self.is_whole or many >= len(mutants):
+            return [mutant for mutant in mutants if self.only in str(mutant)]
+        return random.Random(self.seed).sample(mutants, many)  # noqa: S311
+
+    def report(self, failures: dict[str, list[str]]) -> None:
+        """Show each failure by mutant, with the command that shows it alone."""
+        lines = [f"seed {self.seed}"]
+        for mutant, found in list(failures.items())[:20]:
+            lines += [mutant, *(f"    {each}" for each in found[:5])]
+            lines.append(f"    python -m pytest tests/world/test_contract.py --only {mutant!r}")
+        if failures:
+            pytest.fail("\n".join(lines))
+
+
+@pytest.fixture
+def taken(pytestconfig: pytest.Config) -> Taken:
+    option = pytestconfig.option
+    seed = 8 if option.seed is None else option.seed
+    return Taken(option.only or "", option.sample == "all", seed)
 
 
 def accepted(data: Data | None) -> Compiled | None:
@@ -75,27 +97,17 @@ def library(name: str, compiled: Compiled) -> Library:
     return library_of(name, python.TARGET.render(compiled, {}))
 
 
-def shown(failures: dict[str, list[str]]) -> str:
-    """Return each failure by mutant, with the command that shows it alone."""
-    lines = [f"seed {SEED}"]
-    for mutant, found in list(failures.items())[:20]:
-        lines += [mutant, *(f"    {each}" for each in found[:5])]
-        lines.append(f"    CONTRACT_ONLY={mutant!r} python -m pytest tests/world/test_contract.py")
-    return "\n".join(lines)
-
-
 @pytest.mark.parametrize("spec", specs())
-def test_odd_text_changes_neither_code_nor_markup(spec: str, tmp_path: Path) -> None:
+def test_odd_text_changes_neither_code_nor_markup(taken: Taken, spec: str, tmp_path: Path) -> None:
     plain = with_texts(spec, {})
     compiled = accepted(plain.data)
     assert compiled is not None
     code, pages = library("plain", compiled).code, pages_of(plain.data)
-    mutants = sample([with_odd_text(spec, each) for each in range(rotations())], ODD_TEXTS)
+    mutants = taken.of([with_odd_text(spec, each) for each in range(rotations())], ODD_TEXTS)
     failures = _effects_of_odd_text(mutants, code, pages, tmp_path / "all") if mutants else {}
     for mutant in [each for each in mutants if str(each) in failures][:2]:
         failures = _effects_of_odd_text(singly(mutant), code, pages, tmp_path / "singly") | failures
-    if failures:
-        pytest.fail(shown(failures))
+    taken.report(failures)
 
 
 def _effects_of_odd_text(
@@ -119,40 +131,40 @@ def _effects_of_odd_text(
 
 
 @pytest.mark.parametrize("spec", specs())
-def test_names_of_any_length_are_fitted_to_lines(spec: str, tmp_path: Path) -> None:
-    mutants = sample([stretched(spec, length) for length in range(6, 61)], STRETCHED)
+def test_names_of_any_length_are_fitted_to_lines(taken: Taken, spec: str, tmp_path: Path) -> None:
+    mutants = taken.of([stretched(spec, length) for length in range(6, 61)], STRETCHED)
     for at, mutant in enumerate(mutants):
         library(f"m{at}", compiled_of(mutant.data)).write(tmp_path)
     found = linted(tmp_path) if mutants else {}
-    if found:
-        pytest.fail(shown({str(mutants[int(name[1:])]): faults for name, faults in found.items()}))
+    taken.report({str(mutants[int(name[1:])]): faults for name, faults in found.items()})
 
 
 # Whatever the author of a spec deprecates is sent and answered all the same.
 @pytest.mark.filterwarnings("ignore:.* is deprecated:DeprecationWarning")
-def test_a_changed_spec_makes_a_good_library(tmp_path: Path) -> None:
+def test_a_changed_spec_makes_a_good_library(taken: Taken, tmp_path: Path) -> None:
     """As it is, or with lengths and examples to match; most changes are refused."""
     failures: dict[str, list[str]] = {}
     seen: set[str] = set()
-    for batch in batches(chosen([mutant for spec in specs() for mutant in structures(spec)])):
-        failures |= _changed_wrongly(batch, seen, tmp_path / "batch")
+    mutants = [mutant for spec in specs() for mutant in structures(spec)]
+    typed = TYPED_OF_ALL if taken.is_whole else TYPED
+    for batch in batches(chosen(taken, mutants)):
+        failures |= _changed_wrongly(batch, seen, typed, tmp_path / "batch")
         shutil.rmtree(tmp_path / "batch")
-    if failures:
-        pytest.fail(shown(failures))
-    assert seen or ONLY
+    taken.report(failures)
+    assert seen or taken.only
 
 
-def chosen(mutants: list[Mutant]) -> Iterator[tuple[Mutant, Compiled]]:
+def chosen(taken: Taken, mutants: list[Mutant]) -> Iterator[tuple[Mutant, Compiled]]:
     """Return the mutants that `check` accepts, and their models; as many as a run takes."""
-    mutants = sample(mutants, len(mutants))
-    if not (ALL or ONLY):
-        random.Random(SEED).shuffle(mutants)  # noqa: S311
+    mutants = taken.of(mutants, len(mutants))
+    if not taken.is_whole:
+        random.Random(taken.seed).shuffle(mutants)  # noqa: S311
     found = (
         (mutant, compiled)
         for mutant in mutants
         if (compiled := accepted(mutant.data) or accepted(healed(mutant.data))) is not None
     )
-    return found if ALL or ONLY else islice(found, CHANGED)
+    return found if taken.is_whole else islice(found, CHANGED)
 
 
 def batches(
@@ -163,7 +175,7 @@ def batches(
 
 
 def _changed_wrongly(
-    changed: list[tuple[Mutant, Compiled]], seen: set[str], folder: Path
+    changed: list[tuple[Mutant, Compiled]], seen: set[str], most: int, folder: Path
 ) -> dict[str, list[str]]:
     """Return what is wrong with the libraries of changed specs, by mutant."""
     sources, whole = folder / "sources", folder / "whole"
@@ -175,7 +187,7 @@ def _changed_wrongly(
         made.write(sources)
         failures.setdefault(str(mutant), []).extend(_conversed(made, compiled, sources))
         # To a type checker, those that differ in numbers and texts alone are one.
-        if typed < TYPED and made.code not in seen:
+        if typed < most and made.code not in seen:
             typed += 1
             seen.add(made.code)
             made.write_whole(whole)

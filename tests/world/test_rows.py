@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.contract.crossed.test_crossed import scripts
 from tests.contract.protocols.conftest import libraries
 from tests.lines.boards import no_board_refuses_anything
 from tests.rows import left_out_of
@@ -19,13 +18,10 @@ from tests.unit.runtime.tables.test_dataset import captures
 if TYPE_CHECKING:
     from tests.rows import Row
 
-__all__ = ["captures", "libraries", "no_board_refuses_anything", "scripts"]
+__all__ = ["captures", "libraries", "no_board_refuses_anything"]
 
 ROOT = Path(__file__).parents[2]
-HAS_SOME = re.compile(
-    r"\bmark\.slow\b|^from tests\.rows import each_protocol|^from tests\.\S+\.tables\.shown ",
-    re.MULTILINE,
-)
+HAS_SOME = re.compile(r"^from tests\.rows import ", re.MULTILINE)
 MODULES = [
     ".".join(file.relative_to(ROOT).with_suffix("").parts)
     for file in sorted((ROOT / "tests").rglob("test_*.py"))

@@ -10,6 +10,7 @@ from tests.contract.conformance.answerers import ANSWERERS
 from tests.factories import BUSSERVO, DEMO, compiled_file, vectors_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
+from tests.rows import Rows
 from tests.unit.conformance.harness import cases_of, differences, joined
 from tests.unit.site.reference import NODE
 
@@ -29,14 +30,13 @@ USUAL = {
     "page": ["busservo", "taken_names", "everything"],
     "module": ["busservo", "everything", "lxservo", "modbus", "roboclaw", "sbus", "ubx", "visca"],
 }
-ROWS = [
-    pytest.param(language, names, marks=marks, id=f"{language}{'' if marks else ' of the usual'}")
-    for language, usual in USUAL.items()
-    for names, marks in (
-        (usual, []),
-        ([each for each in SPECS if each not in usual], [pytest.mark.slow]),
-    )
-]
+ROWS = Rows(
+    [pytest.param(*row, id=f"{row[0]} of the usual") for row in USUAL.items()],
+    others=[
+        (language, [each for each in SPECS if each not in usual])
+        for language, usual in USUAL.items()
+    ],
+)
 
 
 @cache

@@ -5,13 +5,11 @@ generated and imported, and reference, library, JavaScript and tables are asked 
 each message must read as itself, also among others on a line. A failure shows the seed, the splices
 and the command that repeats it alone.
 
-`CROSSED=2000` takes as many specs instead, and CROSSED_SEED says with which they begin, as `make
-fuzz` does.
+These are the first few; tests/world/test_crossed.py has others.
 """
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 import pytest
@@ -24,16 +22,7 @@ from tests.unit.site.reference import NODE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-# So many are in every run, and so many more are slow tests.
-EVERY, SLOW = 6, 9
-FIRST = int(os.environ.get("CROSSED_SEED", "1"))
-NUMBER = int(os.environ.get("CROSSED", str(EVERY + SLOW)))
-SEEDS = [
-    pytest.param(
-        seed, marks=[] if seed < FIRST + EVERY or "CROSSED" in os.environ else pytest.mark.slow
-    )
-    for seed in range(FIRST, FIRST + NUMBER)
-]
+SEEDS = range(1, 7)
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
@@ -49,15 +38,18 @@ def scripts(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Scripts]:
 @pytest.mark.filterwarnings("ignore:.* is deprecated:DeprecationWarning")
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_crossed_spec_is_read_alike_by_all(scripts: Scripts, seed: int) -> None:
+    read_alike(scripts, seed)
+
+
+def read_alike(scripts: Scripts, seed: int) -> None:
+    """Assert that nothing is wrong with a spec."""
     spec = crossed(seed)
     found = faults(spec, scripts)
     if found:
-        again = (
-            f"CROSSED=1 CROSSED_SEED={seed} python -m pytest tests/contract/crossed/test_crossed.py"
-        )
+        again = f"python -m pytest tests/world/test_crossed.py --sample 1 --seed {seed}"
         pytest.fail("\n\n".join([f"seed {seed}: {spec.words}", *found, again]))
 
 
 def test_a_good_part_of_them_is_accepted() -> None:
-    made = [crossed(seed) for seed in range(FIRST, FIRST + min(EVERY, NUMBER))]
+    made = [crossed(seed) for seed in SEEDS]
     assert sum(spec.tries for spec in made) < 10 * len(made)

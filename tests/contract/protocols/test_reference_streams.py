@@ -18,9 +18,9 @@ from tests.rows import each_protocol
 if TYPE_CHECKING:
     from framegen.language.values import Direction
 
-WAYS = each_protocol(
-    [pytest.param(name, way, id=f"{name}-{way.sender}") for name, way in all_ways()]
-)
+ALL_WAYS = [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
+WAYS = each_protocol(ALL_WAYS)
+PROVEN = each_protocol([each for each in ALL_WAYS if proven(str(each.values[0]))])
 
 
 def decoder(name: str, way: Direction) -> ReferenceDecoder:
@@ -76,7 +76,7 @@ def test_3_frames_behind_each_other_are_all_found(
     assert [(event.kind, event.data) for event in events] == [("message", each) for each in sent]
 
 
-@pytest.mark.parametrize(("name", "way"), [each for each in WAYS if proven(str(each.values[0]))])
+@pytest.mark.parametrize(("name", "way"), PROVEN)
 def test_3_a_frame_that_is_cut_off_costs_the_next_nothing(name: str, way: Direction) -> None:
     reference = decoder(name, way)
     tried, lost = 0, []
@@ -102,7 +102,7 @@ def test_4_at_most_the_largest_frame_is_held(name: str, way: Direction) -> None:
             assert held <= largest
 
 
-@pytest.mark.parametrize(("name", "way"), [each for each in WAYS if proven(str(each.values[0]))])
+@pytest.mark.parametrize(("name", "way"), PROVEN)
 def test_a_changed_bit_is_noticed(name: str, way: Direction) -> None:
     reference = decoder(name, way)
     for frame in published(name, way):

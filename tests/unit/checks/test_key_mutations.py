@@ -74,5 +74,5 @@ def test_every_kind_of_key_is_changed() -> None:
     assert "seed" in changed
     # A part of an id may be called like anything.
     assert {*OTHER_FACTS} - keys_of_the_language() == {"class"}
-    # Those of ids of other specs, and a list that is counted, are among the slow tests.
+    # Those of ids of other specs, and a list that is counted, are in tests/world.
     assert {*OTHER_FACTS} - changed == {"class", "kind", "version", "counted_by"}

@@ -24,12 +24,13 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from tests.documents import ROOT
 from tests.in_turn import in_turn
+from tests.rows import Rows
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
-    from _pytest.mark import ParameterSet
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -63,16 +64,14 @@ COMMANDS = [
 SIMULATOR = Command(["-m", "busservo_simulator", "--tcp"])
 
 
-def some(*typical: int) -> list[ParameterSet]:
-    """Return all commands, of which those that go the same ways as these are slow."""
-    return [
-        pytest.param(command, marks=[] if at in typical else pytest.mark.slow)
-        for at, command in enumerate(COMMANDS)
-    ]
+def commands(*typical: int, also: Sequence[Command] = ()) -> Rows:
+    """Return commands; tests/world has those that go the same ways."""
+    others = [command for at, command in enumerate(COMMANDS) if at not in typical]
+    return Rows([*(COMMANDS[at] for at in typical), *also], others)
 
 
 # One of each program, and of each way to read and write.
-EACH, TWO = some(1, 3, 4), some(1, 4)
+EACH, TWO = (1, 3, 4), (1, 4)
 EXAMPLE = Command([str(ROOT / "examples" / "virtual_arm.py")])
 
 
@@ -128,13 +127,13 @@ def shown(command: Command) -> str:
     return " ".join(command.words)
 
 
-@pytest.mark.parametrize("command", [*EACH, EXAMPLE], ids=shown)
+@pytest.mark.parametrize("command", commands(*EACH, also=[EXAMPLE]), ids=shown)
 def test_each_command_succeeds_with_open_streams(command: Command) -> None:
     assert run(command, is_written=False) == (0, command.errors)
 
 
 @not_windows
-@pytest.mark.parametrize("command", [*TWO, SIMULATOR], ids=shown)
+@pytest.mark.parametrize("command", commands(*TWO, also=[SIMULATOR]), ids=shown)
 def test_the_reader_has_gone(command: Command) -> None:
     ours, theirs = os.pipe()
     os.close(ours)
@@ -145,7 +144,7 @@ def test_the_reader_has_gone(command: Command) -> None:
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")  # noqa: PTH110
-@pytest.mark.parametrize("command", [*TWO, SIMULATOR], ids=shown)
+@pytest.mark.parametrize("command", commands(*TWO, also=[SIMULATOR]), ids=shown)
 def test_the_disk_is_full(command: Command) -> None:
     full = os.open("/dev/full", os.O_WRONLY)
     try:
@@ -158,20 +157,20 @@ def test_the_disk_is_full(command: Command) -> None:
 
 
 @not_windows
-@pytest.mark.parametrize("command", [*TWO, SIMULATOR], ids=shown)
+@pytest.mark.parametrize("command", commands(*TWO, also=[SIMULATOR]), ids=shown)
 def test_the_output_is_closed(command: Command) -> None:
     errors = f"{command.program}: error: the output cannot be written: it is closed\n"
     assert run(command, closed=(1,)) == (2, errors)
 
 
 @not_windows
-@pytest.mark.parametrize("command", TWO, ids=shown)
+@pytest.mark.parametrize("command", commands(*TWO), ids=shown)
 def test_the_error_stream_is_closed(command: Command) -> None:
     assert run(command, closed=(2,), is_written=False) == (0, "")
 
 
 @not_windows
-@pytest.mark.parametrize("command", EACH, ids=shown)
+@pytest.mark.parametrize("command", commands(*EACH), ids=shown)
 def test_the_input_is_closed(command: Command) -> None:
     if command.stdin:
         expected = (2, "busservo: error: standard input cannot be read: it is closed\n")

@@ -90,7 +90,7 @@ def test_the_example_of_a_rule_is_what_it_tells_of(rule: ChangeRule) -> None:
 
 # ------------------------------------------------------------------ nothing is passed over
 
-# So many leaves are one that is changed in every run; all of them are, among the slow tests.
+# So many leaves are one that is changed in every run; all of them are in tests/world.
 _EACH = 24
 
 

@@ -10,7 +10,7 @@ from framegen.comparison.changes import CHANGE_RULES
 from tests.unit.comparison.rules_page import PAGE, contents, section, verdicts
 
 TEXT = PAGE.read_text(encoding="utf-8")
-# What these break is tried out in every run; that of all rules, among the slow tests.
+# What these break is tried out in every run; that of all rules in tests/world.
 SOME = ("field-type", "field-unit", "maybe-renamed", "reserved-removed")
 
 

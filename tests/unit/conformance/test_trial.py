@@ -24,6 +24,7 @@ from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, first_model, layout_of
 from tests.in_turn import in_turn
+from tests.rows import Rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -79,9 +80,7 @@ ENCODE = read("encode ServoMove time_ms=700 targets=1:500,2:600,3:700")
 # -- What agrees ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "spec", [*SPECS, *(pytest.param(each, marks=pytest.mark.slow) for each in OTHERS)]
-)
+@pytest.mark.parametrize("spec", Rows(SPECS, OTHERS))
 def test_the_reference_conforms_over_the_line_language(spec: Path) -> None:
     model = layout_of(data_of(spec))
     cases = [*questions(model), *islice(further(model, seed=5), 200)]

@@ -24,7 +24,7 @@ from tests.factories import BUSSERVO, compiled_file
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
-from tests.rows import each_protocol
+from tests.rows import ALIKE, some
 from tests.unit.guess.traffic import traffic
 from tests.unit.guess.truth import wrong
 
@@ -33,9 +33,6 @@ SPECS = {**FILES, "busservo": BUSSERVO}
 MIXED = "everything"
 # Where a single byte is a frame, too, many readings are tried.
 TAKES_LONG = {"roboclaw"}
-EACH = [
-    pytest.param(name, marks=[pytest.mark.slow] * (name in TAKES_LONG), id=name) for name in SPECS
-]
 # Nor have those of one end, or what is in common is in no frame: no one kind explains them all.
 IN_PART = {MIXED, "gauges", "roboclaw", "visca"}
 # Nothing is found that says how long a frame is, and with a zero behind it its CRC is right again:
@@ -66,7 +63,7 @@ def compiled(found: Guess) -> Compiled:
     return compile_spec(Source("guess.yaml", spec_text(found, "line.bin")))
 
 
-@pytest.mark.parametrize("protocol", each_protocol(EACH))
+@pytest.mark.parametrize("protocol", some(SPECS, lambda name: name not in ALIKE | TAKES_LONG))
 def test_what_200_frames_decide_is_right_and_makes_a_spec_that_explains_them(protocol: str) -> None:
     found, capture = guessed(protocol)
     assert wrong(found, model_of(protocol)) == []

@@ -20,7 +20,7 @@ from framegen.targets.docs.walkthrough import walkthrough
 from tests.factories import compiled_file, data_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
-from tests.rows import each_protocol
+from tests.rows import each_protocol, some
 from tests.unit.site.peers import joined, noisy_lines, reference_events
 from tests.unit.site.reference import NODE, SPECS, Reference, broken_links, reference
 from tests.unit.site.scripts import run_script
@@ -30,11 +30,7 @@ ALL = {**SPECS, **FILES}
 QUICK = {*SPECS, "everything", "lxservo", "modbus", "roboclaw", "ubx"}
 
 needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed")
-of_each = pytest.mark.parametrize(
-    "name",
-    [pytest.param(each, marks=[] if each in QUICK else pytest.mark.slow) for each in ALL],
-    scope="module",
-)
+of_each = pytest.mark.parametrize("name", some(ALL, lambda name: name in QUICK), scope="module")
 
 
 # A site is large, so that all tests of one follow each other, and no more than it is kept.

@@ -20,6 +20,7 @@ from tests.factories import compiled_file, library, library_files
 from tests.in_turn import in_turn
 from tests.lines.timed_line import ScriptedLine
 from tests.protocols.specs import FILES
+from tests.rows import some
 from tests.unit.site.reference import SPECS, reference
 
 if TYPE_CHECKING:
@@ -96,14 +97,8 @@ def _replied(exchange: Exchange, reply: MessageLayout, asked: dict[str, Any]) ->
     return values
 
 
-@pytest.mark.parametrize(
-    "name",
-    # A library is made for each, which takes a while.
-    [
-        pytest.param(each, marks=[] if each in QUICK else pytest.mark.slow, id=each)
-        for each in OTHERS
-    ],
-)
+# A library is made for each, which takes a while.
+@pytest.mark.parametrize("name", some(OTHERS, lambda name: name in QUICK))
 def test_every_snippet_of_a_protocol_runs(name: str) -> None:
     compiled = compiled_file(OTHERS[name])
     model = compiled.model

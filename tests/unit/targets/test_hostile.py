@@ -51,6 +51,7 @@ from tests.factories import (
 )
 from tests.in_turn import in_turn
 from tests.names_at_work import at_work
+from tests.rows import some
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 HARMLESS = "Plain words."
@@ -271,13 +272,7 @@ ALL_AT_ONCE = "\n\n".join(INERT)
 TURNS = [*range(0, len(INERT), 7), len(INERT)]
 
 
-@pytest.mark.parametrize(
-    "turn",
-    [
-        pytest.param(turn, marks=[] if turn in TURNS else pytest.mark.slow)
-        for turn in range(len(INERT) + 1)
-    ],
-)
+@pytest.mark.parametrize("turn", some(range(len(INERT) + 1), lambda turn: turn in TURNS))
 def test_text_of_every_kind_is_inert_wherever_it_stands(turn: int) -> None:
     assert traits(hostile("greenhouse", turn)) == harmless("greenhouse")
 

@@ -46,7 +46,7 @@ from tests.factories import (
 from tests.in_turn import in_turn
 from tests.lines.timed_line import DeviceLine
 from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
-from tests.side_by_side import library_of, linted, type_checked
+from tests.side_by_side import library_of, linted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -323,13 +323,6 @@ def test_linters_have_nothing_to_say(tmp_path: Path) -> None:
     for name in CROWDS:
         library_of(name, files_of_crowd(name)).write(tmp_path)
     assert linted(tmp_path) == {}
-
-
-@pytest.mark.slow
-def test_type_checkers_have_nothing_to_say(tmp_path: Path) -> None:
-    for name in CROWDS:
-        write_files(files_of_crowd(name), tmp_path)
-    assert type_checked(tmp_path / "generated", tmp_path / "cache") == {}
 
 
 # ------------------------------------------------------------------ the command of such a library

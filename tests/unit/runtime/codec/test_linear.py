@@ -17,6 +17,7 @@ from framegen.render import render
 
 from tests.factories import yaml_of
 from tests.in_turn import in_turn
+from tests.rows import Rows
 
 # What is listed to an end, such as the first few of something, is so in all of these.
 MANY = (20, 30, 40)
@@ -154,7 +155,7 @@ def generated(number: int, *, bus: bool) -> None:
 
 @nobody_traces
 # What is on no bus goes other ways in few places.
-@pytest.mark.parametrize("bus", [True, pytest.param(False, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("bus", Rows([True], others=[False]))
 def test_work_grows_no_faster_than_the_messages(bus: bool) -> None:
     generated(MANY[0], bus=bus)  # templates are compiled and read once for all
     few, more, most = (lines_run(partial(generated, number, bus=bus), framegen) for number in MANY)

@@ -19,6 +19,7 @@ from busservo._tables.stats.quantities import quantities
 from busservo._tables.stats.trace import Trace
 
 from tests.in_turn import in_turn
+from tests.rows import Rows
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -158,8 +159,7 @@ def test_the_same_capture_gives_the_same_drawing(capsys: Capture, tmp_path: Path
 
 
 @pytest.mark.parametrize(
-    ("suffix", "begins"),
-    [(".PNG", b"\x89PNG"), pytest.param(".pdf", b"%PDF", marks=pytest.mark.slow)],
+    ("suffix", "begins"), Rows([(".PNG", b"\x89PNG")], others=[(".pdf", b"%PDF")])
 )
 def test_other_forms_of_pictures(tmp_path: Path, suffix: str, begins: bytes) -> None:
     file, pictures = positions(tmp_path, 3), [tmp_path / f"{name}{suffix}" for name in "ab"]

@@ -22,6 +22,7 @@ from busservo._tables.archive.manifest import Manifest
 from busservo._tables.files.parquet import ParquetFiles
 from busservo.tables import Piece, Report, archive, read, scan
 
+from tests.rows import Rows
 from tests.unit.runtime.tables.conversations import conversation, recorded
 
 if TYPE_CHECKING:
@@ -337,7 +338,7 @@ def killed_at(number: int) -> Iterator[None]:
         yield
 
 
-@pytest.mark.parametrize("step", [8, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("step", Rows([8], others=[1]))
 @pytest.mark.parametrize("is_second", [False, True])
 def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
     captures: Path, tmp_path: Path, step: int, *, is_second: bool

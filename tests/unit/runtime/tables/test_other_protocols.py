@@ -15,9 +15,10 @@ from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
+from tests.rows import some
 from tests.unit.runtime.tables.hostile import hostile_lines, sealing
 from tests.unit.runtime.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
-from tests.unit.runtime.tables.shown import shown
+from tests.unit.runtime.tables.shown import is_shown
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -92,9 +93,14 @@ def sender(way: Direction | None) -> str:
     return "any" if way is None else way.sender
 
 
-CASES = [
-    shown(name, way, called=f"{name}-{sender(way)}") for name in FILES for way in ways_of(name)
-]
+CASES = some(
+    [
+        pytest.param(name, way, id=f"{name}-{sender(way)}")
+        for name in FILES
+        for way in ways_of(name)
+    ],
+    is_shown,
+)
 each_way = pytest.mark.parametrize(("name", "way"), CASES)
 
 
@@ -121,7 +127,7 @@ def is_vectorised(made: ModuleType, direction: Any) -> bool:
     return bool(searchable.is_searchable(layout.messages_on(direction)))
 
 
-@pytest.mark.parametrize("name", [shown(name) for name in FILES])
+@pytest.mark.parametrize("name", some(FILES, is_shown))
 def test_what_is_vectorised_stays_so(libraries: Libraries, name: str) -> None:
     made = libraries[name]
     found = {

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES
+from tests.rows import some
 from tests.unit.runtime.tables.rows import joined, rows_of_decoder
 from tests.unit.runtime.tables.test_other_protocols import lines_of, ways_of
 
@@ -25,11 +26,10 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
 
 QUICK = {"lxservo", "everything"}
-CASES = [
-    pytest.param(name, way, marks=() if name in QUICK and way is None else (pytest.mark.slow,))
-    for name in FILES
-    for way in ways_of(name)
-]
+CASES = some(
+    [pytest.param(name, way) for name in FILES for way in ways_of(name)],
+    lambda name, way: name in QUICK and way is None,
+)
 
 
 def part(made: ModuleType, name: str) -> Any:

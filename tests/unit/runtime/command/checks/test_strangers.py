@@ -20,6 +20,7 @@ from tests.contract.independent.ports import StrangersPort, VirtualPort
 from tests.contract.independent.strangers import BANNER, GPS, MODEM, SKETCH, Print, Stranger
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
+from tests.rows import some
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -325,9 +326,7 @@ OF_NONE: dict[str, Callable[[float], Stranger]] = {
 TEXTUAL = {"a GPS receiver", "an Arduino", "a banner"}
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name != "lxservo")) for name in FILES]
-)
+@pytest.mark.parametrize("name", some(FILES, lambda name: name == "lxservo"))
 def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
     libraries: Libraries, name: str
 ) -> None:
