@@ -24,7 +24,7 @@ from tests.factories import BUSSERVO, compiled_file
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
-from tests.rows import ALIKE, some
+from tests.rows import ALIKE, Rows, some
 from tests.unit.guess.traffic import traffic
 from tests.unit.guess.truth import wrong
 
@@ -188,7 +188,7 @@ def test_no_recording_is_too_strange(data: bytes, times: int, other: bytes) -> N
         assert compiled(found).findings == []
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", Rows([0], others=[1, 2]))
 def test_noise_decides_nothing(seed: int) -> None:
     found = guess(capture_of(Random(seed).randbytes(2500)))  # noqa: S311
     assert found is None or not any(each.is_decided for each in found.conclusions)
@@ -211,7 +211,8 @@ def test_checksums_of_all_beginnings_are_those_of_the_catalogue(
 
 def test_the_command_prints_a_spec_to_go_on_with(tmp_path: Path, capsys: Capsys) -> None:
     line = tmp_path / "line.bin"
-    line.write_bytes(b"".join(traffic(model_of("lxservo"), Random(7))))  # noqa: S311
+    frames = [*traffic(model_of("lxservo"), Random(7))]  # noqa: S311
+    line.write_bytes(b"".join(frames[:60]))
     assert main(["guess", str(line)]) == 0
     printed = capsys.readouterr()
     assert printed.err == ""
@@ -225,7 +226,7 @@ def test_the_command_prints_a_spec_to_go_on_with(tmp_path: Path, capsys: Capsys)
 
 def test_the_command_reads_standard_input(capsys: Capsys, monkeypatch: pytest.MonkeyPatch) -> None:
     frames = traffic(model_of("busservo"), Random(7))  # noqa: S311
-    text = "\n".join(frame.hex(" ") for frame in frames).encode()
+    text = "\n".join(frame.hex(" ") for frame in [*frames][:60]).encode()
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
     assert main(["guess", "-"]) == 0
     assert "guessed from standard input. It explains all of" in capsys.readouterr().out
