@@ -7,7 +7,7 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
-from tests.factories import BUSSERVO, DEMO, compiled_file, library_files
+from tests.factories import BUSSERVO, DEMO, library_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -22,7 +22,7 @@ def _modules() -> dict[str, list[ast.Module]]:
     found: dict[str, dict[str, ast.Module]] = {}
     # One of plain frames, with poses, and one with all that there is besides.
     for file in (BUSSERVO, DEMO.with_name("everything.yaml")):
-        for path, text in library_files(compiled_file(file)).items():
+        for path, text in library_of(file).items():
             # Below the banner, which names the spec.
             code, known = text.partition("\n")[2], found.setdefault(path.split("/", 2)[2], {})
             if path.endswith(".py") and code not in known:

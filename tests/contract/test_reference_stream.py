@@ -5,15 +5,15 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_file
 from tests.in_turn import in_turn
 
-SERVO = layout_of(data_of(BUSSERVO))
+SERVO = compiled_file(BUSSERVO).model
 HOST = ReferenceDecoder(SERVO, [Direction("host", "controller")])
 SMALL = ReferenceDecoder(SERVO, [Direction("host", "controller")], max_frame=64)
 BOTH = ReferenceDecoder(SERVO, SERVO.directions)
 
-HOUSE = ReferenceDecoder(layout_of(data_of(DEMO)), [Direction("gateway", "station")])
+HOUSE = ReferenceDecoder(compiled_file(DEMO).model, [Direction("gateway", "station")])
 TIGHT = ReferenceDecoder(HOUSE.model, HOUSE.directions, max_frame=8)
 
 STOP = "55550207"

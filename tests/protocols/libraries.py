@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.model.slots import Items
 
-from tests.factories import compiled_file, library, library_files
+from tests.factories import library, library_of
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ class Libraries:
 
 @contextmanager
 def _imported(name: str) -> Iterator[ModuleType]:
-    with library(library_files(compiled_file(FILES[name]))) as made:
+    with library(library_of(FILES[name])) as made:
         package = made.__name__
         sys.modules.update(_KEPT.get(name, {}))
         yield sys.modules[package]

@@ -19,11 +19,11 @@ from hypothesis import strategies as st
 
 from tests import oracle
 from tests.contract.conformance.strategies import lines_of, parts_of
-from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.factories import BUSSERVO, DEMO, compiled_file, data_of, files_of, layout_of, library
 from tests.few_each import few_each
 from tests.strategies import directions, lines, oracles
 
-SERVO = layout_of(data_of(BUSSERVO))
+SERVO = compiled_file(BUSSERVO).model
 
 # --- The reference and the oracle ----------------------------------------------------------------
 

@@ -13,7 +13,7 @@ from framegen.compile import compile_spec
 from framegen.model.stream import ReferenceDecoder
 from framewire.explain import refusals
 
-from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_file, compiled_of, data_of, layout_of
 from tests.unit.runtime.codec.test_linear import many
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ each_spec = pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.stem)
 
 @cache
 def model_of(spec: Path) -> Model:
-    return layout_of(data_of(spec))
+    return compiled_file(spec).model
 
 
 @cache

@@ -22,7 +22,7 @@ from framegen.language.values import Direction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, data_of, first_model, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_file, first_model
 from tests.in_turn import in_turn
 from tests.rows import Rows
 
@@ -82,7 +82,7 @@ ENCODE = read("encode ServoMove time_ms=700 targets=1:500,2:600,3:700")
 
 @pytest.mark.parametrize("spec", Rows(SPECS, OTHERS))
 def test_the_reference_conforms_over_the_line_language(spec: Path) -> None:
-    model = layout_of(data_of(spec))
+    model = compiled_file(spec).model
     cases = [*questions(model), *islice(further(model, seed=5), 200)]
     assert len(cases) > 200
     for title, question in cases:

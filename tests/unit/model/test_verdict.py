@@ -10,11 +10,11 @@ from framegen.model.verdict import weigh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_file, data_of
 from tests.in_turn import in_turn
 
-SERVO = layout_of(data_of(BUSSERVO))
-HOUSE = layout_of(data_of(DEMO))
+SERVO = compiled_file(BUSSERVO).model
+HOUSE = compiled_file(DEMO).model
 HOST = Direction("host", "controller")
 CONTROLLER = Direction("controller", "host")
 GATEWAY = Direction("gateway", "station")

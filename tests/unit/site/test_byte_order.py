@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.factories import DEMO, compiled_file, library, library_files
+from tests.factories import DEMO, compiled_file, library, library_of
 from tests.in_turn import in_turn
 from tests.unit.site.reference import SPECS, Reference
 
@@ -61,7 +61,7 @@ ORDER = re.compile(r"(?:low|high) (?:byte and \w+ bits|byte|bits) first")
 @pytest.fixture(scope="module")
 def references() -> Iterator[dict[Path, tuple[Reference, Callable[[list[str]], int]]]]:
     """Yield the reference of each spec, and the command of its library."""
-    with library(library_files(compiled_file(EVERYTHING))) as everything:
+    with library(library_of(EVERYTHING)) as everything:
         packages = {SPECS["busservo"]: "busservo", EVERYTHING: everything.__name__}
         yield {
             spec: (Reference(compiled_file(spec)), import_module(f"{name}._cli").main)

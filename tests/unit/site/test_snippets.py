@@ -16,7 +16,7 @@ from framegen.model.codec import encode, values_of
 from framegen.model.verdict import weigh_whole
 from framegen.render import snippets
 
-from tests.factories import compiled_file, library, library_files
+from tests.factories import compiled_file, library, library_of
 from tests.in_turn import in_turn
 from tests.lines.timed_line import ScriptedLine
 from tests.protocols.specs import FILES
@@ -103,7 +103,7 @@ def test_every_snippet_of_a_protocol_runs(name: str) -> None:
     compiled = compiled_file(OTHERS[name])
     model = compiled.model
     silent = {each.request.name for each in model.exchanges if not each.answers}
-    with library(library_files(compiled)) as made:
+    with library(library_of(OTHERS[name])) as made:
         for message in model.messages:
             found = shown(model, message)
             assert not found or "Codec" in found

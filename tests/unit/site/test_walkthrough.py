@@ -6,7 +6,7 @@ from framegen.targets.docs.drawing import interruption
 from framegen.targets.docs.stream_examples import stream_examples
 from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
-from tests.factories import DEMO, compiled_of, data_of, layout_of
+from tests.factories import DEMO, compiled_file, compiled_of, data_of, layout_of
 from tests.unit.site.peers import Event
 from tests.unit.site.reference import reference
 
@@ -97,7 +97,7 @@ def test_an_empty_list_in_an_example_removes_no_stream_example() -> None:
     assert spec is not None
     examples = stream_examples(derive(spec))
     assert [each.id for each in examples] == [
-        each.id for each in stream_examples(layout_of(data_of(DEMO)))
+        each.id for each in stream_examples(compiled_file(DEMO).model)
     ]
     assert examples[0].walkthrough.data.hex() == "c35aa5100003000000"
 

@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 import tokenize
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -24,10 +24,9 @@ from tests.factories import (
     Data,
     compiled_file,
     data_of,
-    files_of,
     leaves,
     library,
-    library_files,
+    library_of,
 )
 
 Call: TypeAlias = "Callable[..., tuple[int, str]]"
@@ -96,7 +95,7 @@ CODE = re.compile(
 )
 
 
-def mentions(files: dict[str, str], words: re.Pattern[str]) -> list[str]:
+def mentions(files: Mapping[str, str], words: re.Pattern[str]) -> list[str]:
     """Return where one of the words stands."""
     return [
         f"{path}: {line.strip()}"
@@ -118,13 +117,13 @@ def lines_of(path: str, text: str) -> Sequence[str]:
 @pytest.mark.parametrize("name", OTHERS)
 def test_no_library_mentions_another_protocol(name: str) -> None:
     compiled = compiled_file(OTHERS[name])
-    files = {**library_files(compiled), **render_target(VECTORS, compiled)}
+    files = {**library_of(OTHERS[name]), **render_target(VECTORS, compiled)}
     assert mentions(files, forbidden(data_of(OTHERS[name]))) == []
 
 
 def test_the_words_of_a_protocol_are_found_in_its_own_library() -> None:
     """Else the test above would hold for want of words, or of eyes."""
-    found = mentions(files_of(data_of(BUSSERVO)), forbidden(data_of(DEMO)))
+    found = mentions(library_of(BUSSERVO), forbidden(data_of(DEMO)))
     for word in ("ServoMove", "servo_ids", "servo", "battery", "CMD_SERVO_MOVE", "controller"):
         assert any(word in line for line in found), word
 
@@ -138,7 +137,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     made = tmp_path_factory.mktemp("others")
     with contextlib.ExitStack() as stack:
         for file in OTHERS.values():
-            stack.enter_context(library(library_files(compiled_file(file)), made))
+            stack.enter_context(library(library_of(file), made))
         yield made / "generated"
 
 

@@ -2,7 +2,6 @@
 
 import ast
 import re
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -15,7 +14,7 @@ from framegen.targets.python.library_view import LibraryView
 from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
 
-from tests.factories import BUSSERVO, DEMO, ROOT, data_of, files_of, layout_of
+from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, library_of
 from tests.in_turn import in_turn
 
 CODEGEN = ROOT / "codegen" / "framegen"
@@ -110,14 +109,9 @@ _NOT_FOR_PLAIN = set[str]().union(
 ) - {"_frame/shape.py"}
 
 
-@cache
-def emitted_for(spec: Path) -> dict[str, str]:
-    return files_of(data_of(spec))
-
-
 @pytest.mark.parametrize("spec", [BUSSERVO, DEMO], ids=["busservo", "greenhouse"])
 def test_the_runtime_is_emitted_as_it_is(spec: Path) -> None:
-    files = emitted_for(spec)
+    files = library_of(spec)
     [package] = {path.split("/")[1] for path in files}
     for runtime in RUNTIME:
         name = runtime.relative_to(TARGET / "runtime").as_posix()
@@ -138,7 +132,7 @@ def test_what_libraries_have_in_common_is_copied_but_for_its_imports() -> None:
 
 
 def test_every_emitted_module_is_a_template_or_a_runtime_file() -> None:
-    files = emitted_for(DEMO)
+    files = library_of(DEMO)
     emitted = {path.removeprefix("generated/greenhouse/") for path in files}
     templates = {t.relative_to(TARGET / "templates").as_posix()[:-6] for t in TEMPLATES}
     runtime = {r.relative_to(TARGET / "runtime").as_posix() for r in RUNTIME} | {*copies()}
@@ -274,7 +268,7 @@ def test_the_library_view_has_every_name_that_templates_use() -> None:
         for node in parsed(template).find_all(nodes.Getattr)
         if isinstance(node.node, nodes.Name) and node.node.name == "library"
     }
-    view = LibraryView(layout_of(data_of(DEMO)))
+    view = LibraryView(compiled_file(DEMO).model)
     assert len(used) > 10
     for name in used:
         getattr(view, name)

@@ -23,7 +23,7 @@ from framegen.cases.valid import range_ends
 
 from tests import oracle
 from tests.cases import CASES
-from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.strategies import joined, said
 
@@ -187,7 +187,7 @@ def messages_of(events: Sequence[object]) -> list[object]:
 def test_the_vectors_cover_every_message() -> None:
     assert {vector["message"] for vector in VALID} == set(CLASSES)
     assert {vector["title"].split(":")[0] for vector in INVALID} == set(CLASSES)
-    model = layout_of(data_of(BUSSERVO))
+    model = compiled_file(BUSSERVO).model
     shown = {
         name
         for way in model.directions

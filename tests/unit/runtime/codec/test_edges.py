@@ -17,7 +17,7 @@ from framegen.model.model import derive
 from framewire.frame.pluralize import describe_range
 
 from tests.cases import CASES
-from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, layout_of
+from tests.factories import BUSSERVO, DEMO, compiled_file, compiled_of, data_of, layout_of
 from tests.in_turn import in_turn
 
 COMMANDS = ", ".join(map(str, sorted({kind.COMMAND for kind in busservo.MESSAGES})))
@@ -80,7 +80,7 @@ def test_each_field_of_an_element_stands_behind_the_one_before() -> None:
 
 
 def test_a_bare_number_in_a_list_has_the_name_of_the_list() -> None:
-    items = layout_of(data_of(BUSSERVO)).messages["ServoUnload"].items
+    items = compiled_file(BUSSERVO).model.messages["ServoUnload"].items
     assert items is not None
     assert [field.name for field in items.fields] == ["servo_ids"]
     assert items.field is items.fields[0].field
@@ -95,7 +95,7 @@ def test_a_list_without_declared_counts_may_be_empty() -> None:
 
 
 def test_a_length_above_127_is_no_negative_number() -> None:
-    layout = layout_of(data_of(BUSSERVO))
+    layout = compiled_file(BUSSERVO).model
     values = {"servo_ids": [*range(252)]}
     frame = encode(layout.messages["ServoUnload"], values)
     assert frame[2] == 255
@@ -117,7 +117,7 @@ def test_a_length_above_127_is_no_negative_number() -> None:
     ],
 )
 def test_a_refused_frame_is_described_in_full(text: str, expected: str) -> None:
-    layout = layout_of(data_of(DEMO))
+    layout = compiled_file(DEMO).model
     with pytest.raises(NotAFrame) as refused:
         decode(layout, Direction("gateway", "station"), bytes.fromhex(text))
     assert refused.value.expected == expected

@@ -23,10 +23,12 @@ from tests.factories import (
     BUSSERVO,
     DEMO,
     Data,
+    compiled_file,
     data_of,
     files_of,
     layout_of,
     library,
+    library_of,
 )
 from tests.in_turn import in_turn
 
@@ -41,7 +43,7 @@ if TYPE_CHECKING:
     Explain = Callable[[bytes], tuple[str, dict[str, Any]]]
 
 Capture = pytest.CaptureFixture[str]
-SERVO, HOUSE = (layout_of(data_of(spec)) for spec in (BUSSERVO, DEMO))
+SERVO, HOUSE = (compiled_file(spec).model for spec in (BUSSERVO, DEMO))
 
 
 def carried_by(package: str) -> Explain:
@@ -85,7 +87,7 @@ def other(request: pytest.FixtureRequest) -> Iterator[tuple[Data, ModuleType]]:
 
 @pytest.fixture(scope="module")
 def house() -> Iterator[Explain]:
-    with library(files_of(data_of(DEMO))) as made:
+    with library(library_of(DEMO)) as made:
         yield carried_by(made.__name__)
 
 
@@ -169,7 +171,7 @@ def test_both_commands_print_the_same(words: str, capsys: Capture) -> None:
 @pytest.mark.parametrize(("spec", "model"), [(BUSSERVO, SERVO), (DEMO, HOUSE)])
 def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model: Model) -> None:
     (carried,) = (
-        json.loads(text) for path, text in files_of(data_of(spec)).items() if "model.json" in path
+        json.loads(text) for path, text in library_of(spec).items() if "model.json" in path
     )
     usage = ("client", "python", "shell", "method", "class")
     carried["messages"] = {

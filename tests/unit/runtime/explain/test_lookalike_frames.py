@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from framewire.explain.lookalikes import recognise
 
-from tests.factories import DEMO, compiled_of, data_of, layout_of
+from tests.factories import DEMO, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
 
 
@@ -28,7 +28,7 @@ from tests.in_turn import in_turn
 def test_a_lookalike_is_recognised(
     hex_: str, name: str | None, command: int | None, meaning: str | None
 ) -> None:
-    found = recognise(layout_of(data_of(DEMO)).plain, bytes.fromhex(hex_))
+    found = recognise(compiled_file(DEMO).model.plain, bytes.fromhex(hex_))
     row = (None, None, None) if found is None else (found.name, found.command, found.meaning)
     assert row == (name, command, meaning)
 

@@ -16,11 +16,20 @@ from framewire.explain.text import as_text
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.factories import (
+    BUSSERVO,
+    DEMO,
+    compiled_file,
+    data_of,
+    files_of,
+    layout_of,
+    library,
+    library_of,
+)
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
-LAYOUT = layout_of(data_of(BUSSERVO))
+LAYOUT = compiled_file(BUSSERVO).model
 SERVO_BUS = "LX-16A bus servo protocol"
 DIALECT = "The dialect of LeArm and uHand boards"
 
@@ -85,8 +94,8 @@ def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
 
 
 def test_another_protocol_has_look_alikes_of_its_own() -> None:
-    layout = layout_of(data_of(DEMO))
-    with library(files_of(data_of(DEMO))) as made:
+    layout = compiled_file(DEMO).model
+    with library(library_of(DEMO)) as made:
         found = __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
         for data, title in examples(layout):
             assert found.recognise(data) == title

@@ -16,7 +16,7 @@ from framegen.targets.python.message_view import MessageView
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import compiled_file, library, library_files
+from tests.factories import compiled_file, library, library_of
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of
@@ -33,7 +33,7 @@ POINT, READING = (1, 5), ("VBAT", 12.5, 99, -300)
 @pytest.fixture(scope="module")
 def everything() -> Iterator[Any]:
     """Return the library, imported."""
-    with library(library_files(compiled_file(FILES["everything"]))) as made:
+    with library(library_of(FILES["everything"])) as made:
         yield made
 
 
