@@ -85,15 +85,24 @@ def _again(ours: Field, theirs: Field, value: Any) -> Any:
         case Items(), Items() if ours.element is not None and theirs.element is not None:
             items = [_again_element(ours, theirs, item) for item in value]
             return None if None in items else items
-        case Items(), Items() if _only(ours) is not None and _only(theirs) is not None:
-            return _with_names(theirs, _numbers_of(ours, value))
         case Packed() | Items(), Packed() | Items() if _is_bare(ours) and _is_bare(theirs):
-            numbers = [
-                _same_quantity(_bare_field(ours), _bare_field(theirs), each) for each in value
-            ]
-            return None if None in numbers else numbers
+            return _numbers_again(_bare_field(ours), _bare_field(theirs), value)
+        case Items(), Items():
+            one, other = _only(ours), _only(theirs)
+            if isinstance(value, str) or one is None or other is None:
+                return value
+            numbers = _numbers_again(one.field, other.field, _numbers_of(ours, value))
+            return None if numbers is None else _with_names(theirs, numbers)
         case _:
             return value
+
+
+def _numbers_again(
+    ours: NumberField, theirs: NumberField, numbers: list[Any]
+) -> list[float] | None:
+    again = [_same_quantity(ours, theirs, each) for each in numbers]
+    said = [each for each in again if each is not None]
+    return said if len(said) == len(again) else None
 
 
 def _with_names(items: Items, numbers: list[Any]) -> list[Any]:

@@ -142,3 +142,22 @@ def test_a_list_of_numbers_is_that_of_elements_with_one_number_each(
     there, back = broken(bare, other), broken(other, bare)
     assert there | back <= outcomes
     assert bool(there) == bool(outcomes)
+
+
+@pytest.mark.parametrize("named", [False, True], ids=["numbers", "elements"])
+@pytest.mark.parametrize(("sent", "said"), [([2000, 3000], [2, 3]), ([2000, 1], None)])
+def test_numbers_of_a_list_are_said_again_in_the_units_of_the_other(
+    sent: list[int], said: list[int] | None, *, named: bool
+) -> None:
+    gaps = with_(NAMED, "fields", "gap", "unit", "m") if named else {**NUMBERS, "unit": "m"}
+    message = {**DOOR, "length": "2 * door + 1"}
+    pair = pair_of(
+        *(
+            house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": each}}})
+            for each in ({**NUMBERS, "unit": "mm"}, gaps)
+        )
+    )
+    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    again = translated(pair.fields(old, new), old, new, {"gaps": sent})
+    elements = [{"gap": each} if named else each for each in said or []]
+    assert again == (None if said is None else {"gaps": elements})
