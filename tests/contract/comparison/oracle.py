@@ -108,7 +108,9 @@ class Oracle:
         events = self.heard(way, data)
         said = [event for event in events if isinstance(event, self.theirs.Message)]
         if not said:
-            reason = events[0].reason.value if events else ""
+            reason = "no message goes this way"
+            if self._has_any(way):
+                reason = events[0].reason.value if events else ""
             return Judgement("refused", self._lost(layout, values), reason=reason)
         name = type(said[0]).__name__
         if len(events) > 1 or name != self.messages.to_new.get(layout.name):
@@ -120,6 +122,11 @@ class Oracle:
             outcomes.append(("uncertain", True))
         worst = max((each for each, _ in outcomes), key=ORDER.index, default="same")
         return Judgement(worst, any(breaks for _, breaks in outcomes), name, read)
+
+    def _has_any(self, way: Direction) -> bool:
+        """Tell whether the receiver has any message that goes this way."""
+        name = f"{way.sender}_to_{way.receiver}".upper()
+        return any(each.DIRECTION.name == name for each in self.theirs.MESSAGES)
 
     def heard(self, way: Direction, data: bytes) -> list[Any]:
         """Return what the receiver hears of a frame, and then nothing."""
@@ -151,11 +158,25 @@ class Oracle:
         if name is None:
             return False
         client = next(iter(self.editions.old.spec.endpoints))
-        if layout.direction.sender != client:
-            return True
-        again = self._said_again(layout.name, name, values)
+        chosen = layout.direction.sender == client
+        # What a client says, a program has chosen; a device says anything to who has asked it.
+        said = self._said_again if chosen else self._with_address
+        again = said(layout.name, name, values)
         other = self.editions.new.model.messages[name]
         return again is not None and self.encoded(self.theirs, other, again) is not None
+
+    def _with_address(self, ours: str, theirs: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return any values of the other edition, with the address that is in these."""
+        before, after = self._descriptions(ours, theirs)
+        said = {name: _anything(each) for name, each in arguments_of(after).items()}
+        addresses = (
+            next((name for name, each in fields.items() if each.get("is") == "address"), None)
+            for fields in (before, after)
+        )
+        match [*addresses]:
+            case [str(one), str(other)]:
+                said[other] = values[one]
+        return said
 
     def _said_again(
         self, ours: str, theirs: str, values: Mapping[str, Any]
@@ -168,6 +189,9 @@ class Oracle:
         for name, field in arguments_of(before).items():
             other = match.to_new.get(name)
             if other not in there:
+                always = after.get(str(other), {}).get("always")
+                if always is not None and values[name] != int(str(always), 0):
+                    return None
                 if values[name] is not None and field.get("optional"):
                     return None
                 continue
@@ -232,14 +256,23 @@ class Oracle:
         elif not isinstance(sent, list):
             yield judge_numbers(ours, theirs, sent, read)
             yield from self._named(ours, theirs, sent, read)
-        elif len(sent) != len(read) or ("element" in ours) != ("element" in theirs):
+        else:
+            yield from self._lists(ours, theirs, sent, read)
+
+    def _lists(self, ours: Data, theirs: Data, sent: list[Any], read: list[Any]) -> Iterator[Any]:
+        """Judge lists: elements that are one number each are the numbers."""
+        several = zip(sent, read, strict=False)
+        one, other = _number_of(ours), _number_of(theirs)
+        if len(sent) != len(read):
+            yield "misread"
+        elif "element" in ours and "element" in theirs:
+            for said, heard in several:
+                yield from self._fields(ours["fields"], theirs["fields"], said, heard)
+        elif one is None or other is None:
             yield "misread"
         else:
-            for one, other in zip(sent, read, strict=True):
-                if "element" in ours:
-                    yield from self._fields(ours["fields"], theirs["fields"], one, other)
-                else:
-                    yield from self._values(ours, theirs, one, other)
+            for said, heard in several:
+                yield from self._values(one, other, _bare(said), _bare(heard))
 
     def _named(self, ours: Data, theirs: Data, sent: float, read: float) -> Iterator[str]:
         """Judge a number by the names that it has, and its bits by theirs."""
@@ -273,6 +306,19 @@ def _described(spec: Data, name: str) -> Data:
     return dict([*around["address"], *message["fields"].items(), *around["counter"]])
 
 
+def _number_of(items: Data) -> Data | None:
+    """Return what a spec says of the number that each element is; None for other elements."""
+    if "element" not in items:
+        return None if "text" in items else items
+    fields = [*items["fields"].values()]
+    return fields[0] if len(fields) == len(arguments_of(items["fields"])) == 1 else None
+
+
+def _bare(value: Any) -> Any:
+    """Return the number that an element holds."""
+    return next(iter(value.values())) if isinstance(value, dict) else value
+
+
 def _letters(value: Any) -> Any:
     """Return bytes of text without its padding."""
     if isinstance(value, str):
@@ -294,16 +340,20 @@ def _again(ours: Data, theirs: Data, value: Any) -> Any:
     if value is None:
         return None
     if isinstance(value, list):
-        if ("element" in ours) != ("element" in theirs):
+        one, other = _number_of(ours), _number_of(theirs)
+        if "element" in ours and "element" in theirs:
+            made = [_again_element(ours, theirs, each) for each in value]
+        elif one is None or other is None:
             return None
-        made = [_again_element(ours, theirs, each) for each in value]
+        else:
+            made = [said_again(one, other, _bare(each)) for each in value]
+            if "element" in theirs and None not in made:
+                made = [dict.fromkeys(theirs["fields"], each) for each in made]
         return None if None in made else made
     return value if isinstance(value, str) else said_again(ours, theirs, value)
 
 
 def _again_element(ours: Data, theirs: Data, value: Any) -> Any:
-    if "element" not in ours:
-        return said_again(ours, theirs, value)
     match = match_fields(ours["fields"], theirs["fields"])
     there = arguments_of(theirs["fields"])
     said = {name: _anything(each) for name, each in there.items()}
