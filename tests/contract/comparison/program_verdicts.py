@@ -81,18 +81,32 @@ def verdict_on(pair: Pair) -> Verdict | None:
         differing = [
             each for each, result in _results(pair.old).items() if run(each, names) != result
         ]
-    if not _echoes_alike(pair):
-        # Which reply a client takes for its own is a matter of the conversation.
+    # Which reply a client takes for its own is a matter of the conversation, and so is how many
+    # items a device replies with.
+    if not _replies_alike(pair):
         differing = [each for each in differing if "asked(" not in each]
+    for name in _counted_otherwise(pair):
+        handler = f"handled('on_{snake_case(names_of(pair.old.model).of('message', name))}'"
+        differing = [each for each in differing if not each.startswith(handler)]
     return Verdict([*program_effects(pair)], differing)
 
 
-def _echoes_alike(pair: Pair) -> bool:
+def _replies_alike(pair: Pair) -> bool:
     old, new = (
         {each.request.name: (each.echoed, each.reply and each.reply.name) for each in found}
         for found in (pair.old.model.exchanges, pair.new.model.exchanges)
     )
-    return all(new.get(name, echoed) == echoed for name, echoed in old.items())
+    alike = all(new.get(name, echoed) == echoed for name, echoed in old.items())
+    return alike and not _counted_otherwise(pair)
+
+
+def _counted_otherwise(pair: Pair) -> list[str]:
+    """Return the requests that ask for so many items in one edition alone, or by other fields."""
+    old, new = (
+        {each.request.name: each.asks_for for each in found}
+        for found in (pair.old.model.exchanges, pair.new.model.exchanges)
+    )
+    return [name for name, asks_for in old.items() if new.get(name, asks_for) != asks_for]
 
 
 def names_about(effect: Effect, pair: Pair) -> set[str]:
