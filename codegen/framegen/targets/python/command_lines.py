@@ -73,8 +73,10 @@ def verbs(model: Model) -> list[VerbView]:
     program = model.spec.protocol.name
     about = _ABOUT | (_OF_QUESTIONS if _questions(model) else {})
     examples = _examples(model)
-    own = {name: about[name] for name in VERBS if name in examples}
     said = {exchange.verb: exchange.request.message.summary for exchange in messages_by_verb(model)}
+    # Where nothing has a pose, what a message is called is the message.
+    meant = {*said} if model.spec.pose is None else {*said} - {STOP}
+    own = {name: about[name] for name in VERBS if name in examples and name not in meant}
     if STOP in own and STOP in said:
         own[STOP] = f"{said[STOP].rstrip('.')}, then hold everything where it is."
     named = {each.verb for each in messages_by_verb(model) if each.request.message.verb}
@@ -82,7 +84,7 @@ def verbs(model: Model) -> list[VerbView]:
         *(name for name in own if VERBS.index(name) < VERBS.index(_AFTER_MESSAGES)),
         *(name for name in said if name in named and name not in own),
         *(name for name in own if VERBS.index(name) >= VERBS.index(_AFTER_MESSAGES)),
-        *(name for name in said if name not in named),
+        *(name for name in said if name not in named and name not in own),
     ]
     found: list[VerbView] = []
     for verb in order:

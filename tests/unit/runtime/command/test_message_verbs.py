@@ -19,9 +19,12 @@ from busservo._cli.examples import LONG, METHODS, POSE_METHODS, STOP_MESSAGE
 from busservo._cli.verbs import verb_named
 from busservo._client.exchanges import EXCHANGES
 from busservo_simulator import VirtualController
-from framegen.language.command_verbs import VERBS
+from framegen.language.command_verbs import OF_POSES, VERBS
 from framegen.targets.python import command_lines
 
+from tests.crowd import Crowd
+from tests.factories import BUSSERVO, compiled_of, data_of
+from tests.mutations.places import GONE, with_
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
@@ -173,3 +176,22 @@ def test_a_method_has_its_long_verb_as_well(board: VirtualController, capsys: Ca
 
 def test_every_own_verb_says_what_it_is_for() -> None:
     assert {*command_lines._ABOUT} == {*VERBS}
+
+
+def test_where_nothing_has_a_pose_a_word_for_one_is_a_message_like_any() -> None:
+    crowd = Crowd("fan", "host", "device")
+    for word in sorted(OF_POSES):
+        crowd.command(word.capitalize(), [], method=f"{word}()")
+    told = [(each.name, each.about) for each in command_lines.verbs(compiled_of(crowd.data).model)]
+    found = [each for each in told if each[0] in OF_POSES]
+    assert found == [(word, "Say something.") for word in sorted(OF_POSES)]
+
+
+@pytest.mark.parametrize("verb", ["stop", GONE], ids=["declared", "of the method"])
+def test_a_pose_has_one_stop_that_says_what_it_sends_first(verb: object) -> None:
+    stop = ("messages", "ActionGroupStop")
+    data = with_(with_(data_of(BUSSERVO), *stop, "method", "stop()"), *stop, "verb", verb)
+    told = [(each.name, each.about) for each in command_lines.verbs(compiled_of(data).model)]
+    found = [about for name, about in told if name == "stop"]
+    summary = "Stop the action group that is running, then hold everything where it is."
+    assert found == [summary]
