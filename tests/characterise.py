@@ -1,0 +1,119 @@
+"""What libraries do, written down while their runtime moves; removed when that move is whole.
+
+    python -m tests.characterise                    compare with what is written down
+    python -m tests.characterise --write            write it down anew
+    python -m tests.characterise --texts build/new  write what the rows are digests of
+
+tests/characterised has a file for each protocol, and in it a line for each row: its name, and the
+digest of a text. Where one differs, write the texts here and in a checkout of the commit that last
+wrote the file, and compare the two folders. All is asked for as users ask for it, so that where a
+module lies makes no difference.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import logging
+import sys
+import warnings
+from itertools import chain
+from logging.handlers import BufferingHandler
+from pathlib import Path
+
+from framegen.targets.python.names import names_of
+
+from tests.characterised.shell import HAS_TABLES, alone, command_rows, line_rows, recording_rows
+from tests.characterised.surface import surface_rows
+from tests.characterised.talks import client_rows, device_rows, session_rows
+from tests.characterised.texts import lines, normalised
+from tests.characterised.values import error_rows, event_rows, message_rows
+from tests.factories import BUSSERVO, compiled_file, library, library_of, vectors_of
+from tests.protocols.specs import FILES
+
+FOLDER = Path(__file__).parent / "characterised"
+# What somebody speaks, and what has names and features that nobody has.
+SPECS = {
+    "busservo": BUSSERVO,
+    **FILES,
+    **{each.stem: each for each in sorted((Path(__file__).parent / "specs").glob("*.yaml"))},
+}
+
+
+def texts_of(name: str) -> dict[str, str]:
+    """Return the texts of all rows of a protocol."""
+    compiled = compiled_file(SPECS[name])
+    logging.getLogger().addHandler(_LOGGED)
+    vectors, files = vectors_of(compiled), library_of(SPECS[name])
+    model = names_of(compiled.model).library
+    with library(files) as made, alone(made, model), warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("ignore")
+        warnings.filterwarnings("always", r"\w+ is deprecated", DeprecationWarning)
+        rows = chain(
+            event_rows(made, vectors),
+            error_rows(made, vectors),
+            message_rows(made, vectors),
+            client_rows(made, model),
+            session_rows(made, model, vectors),
+            device_rows(made, vectors),
+            command_rows(made, vectors),
+            line_rows(made),
+            recording_rows(made, vectors),
+            surface_rows(made, files),
+        )
+        return {row: normalised(made, lines([text, *_aside(warned)])) for row, text in rows}
+
+
+# What is logged anywhere, from warnings on.
+_LOGGED = BufferingHandler(10**6)
+_LOGGED.setLevel(logging.WARNING)
+
+
+def _aside(warned: list[warnings.WarningMessage]) -> list[str]:
+    """Return what has been logged and warned of since this was asked for last, and forget it."""
+    said = [f"{each.name} {each.levelname}: {each.getMessage()}" for each in _LOGGED.buffer]
+    said += sorted({f"{each.category.__name__}: {each.message}" for each in warned})
+    _LOGGED.buffer.clear()
+    warned.clear()
+    return said
+
+
+def digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "backslashreplace")).hexdigest()[:10]
+
+
+def differing(name: str) -> list[str]:
+    """Return the rows of a protocol that are not as they are written down."""
+    found = {row: digest(text) for row, text in texts_of(name).items()}
+    written = (FOLDER / f"{name}.txt").read_text("utf-8").splitlines()
+    expected = dict(each.split() for each in written)
+    if not HAS_TABLES:
+        expected = {row: it for row, it in expected.items() if not row.startswith("tables/")}
+    return sorted({row for row, _ in found.items() ^ expected.items()})
+
+
+def main(words: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.characterise")
+    parser.add_argument("names", nargs="*", default=[*SPECS], help="protocols (default: all)")
+    parser.add_argument("--write", action="store_true", help="write down what they do")
+    parser.add_argument("--texts", type=Path, metavar="DIR", help="write the texts into a folder")
+    given = parser.parse_args(words)
+    status = 0
+    for name in given.names:
+        if given.texts is not None:
+            for row, text in texts_of(name).items():
+                file = given.texts / name / f"{row}.txt"
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(f"{text}\n", "utf-8", errors="backslashreplace", newline="\n")
+        elif given.write:
+            rows = sorted(f"{row} {digest(text)}\n" for row, text in texts_of(name).items())
+            (FOLDER / f"{name}.txt").write_text("".join(rows), "utf-8", newline="\n")
+        else:
+            for row in differing(name):
+                print(f"{name}: {row} differs")
+                status = 1
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
