@@ -43,10 +43,10 @@ SPECS = {
 def texts_of(name: str) -> dict[str, str]:
     """Return the texts of all rows of a protocol."""
     compiled = compiled_file(SPECS[name])
-    logging.getLogger().addHandler(_LOGGED)
     vectors, files = vectors_of(compiled), library_of(SPECS[name])
     model = names_of(compiled.model).library
     with library(files) as made, alone(made, model), warnings.catch_warnings(record=True) as warned:
+        logging.getLogger().addHandler(_LOGGED)
         warnings.simplefilter("ignore")
         warnings.filterwarnings("always", r"\w+ is deprecated", DeprecationWarning)
         rows = chain(
@@ -61,7 +61,10 @@ def texts_of(name: str) -> dict[str, str]:
             recording_rows(made, vectors),
             surface_rows(made, files),
         )
-        return {row: normalised(made, lines([text, *_aside(warned)])) for row, text in rows}
+        try:
+            return {row: normalised(made, lines([text, *_aside(warned)])) for row, text in rows}
+        finally:
+            logging.getLogger().removeHandler(_LOGGED)
 
 
 # What is logged anywhere, from warnings on.
