@@ -7,17 +7,15 @@ import sys
 import pytest
 
 from tests.characterise import SPECS, differing
+from tests.rows import some
 
-# One that ships, with positions; one of many devices; every kind of field; a bare checksum.
-SHOWN = {"busservo", "lxservo", "everything", "roboclaw"}
+# Those that ship: one with positions, and one of many devices with a checksum.
+SHOWN = {"busservo", "lxservo"}
 # What is written down names ports as Linux does.
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ports have other names there")
 
 
-@pytest.mark.parametrize(
-    "name",
-    [each if each in SHOWN else pytest.param(each, marks=pytest.mark.slow) for each in SPECS],
-)
+@pytest.mark.parametrize("name", some(SPECS, lambda name: name in SHOWN))
 def test_it_does_what_is_written_down(name: str) -> None:
     rows = differing(name)
     assert rows == [], (
