@@ -164,7 +164,10 @@ class NoiseLane:
         until, weighed = until + base, weighed + base
         horizon = _NEVER if final else len(data) + base
         for number, (first, last, reason, claim) in enumerate(self._refused):
-            at = max(first, self.emitted)
+            at = first
+            if first < self.emitted:
+                # A frame of unknown command has taken what is in front of `emitted`.
+                at = min(self.emitted, last + 1)
             while at <= last:
                 end = at + claim
                 if claim and end > horizon:

@@ -149,7 +149,7 @@ class StreamDecoder:
                     self._hold(data, at, at, at)
                     return events
             # What else may be wrong with a frame that is not whole yet is seen by the search.
-            if entry is not None and not quiet and is_certain(entry[4]):
+            if entry is not None and not quiet and (entry[5] is None or is_certain(entry[4])):
                 self._hold(data, at, at, at + entry[0])
                 return events
             noise.summed = base + summed

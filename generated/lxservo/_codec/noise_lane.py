@@ -8,8 +8,8 @@ own bytes prove that no message begins in it: any message is worth more than suc
 from __future__ import annotations
 
 from .._frame.errors import Reason
-from .._frame.heads import HEAD, next_begun
-from .._frame.table import found_entry
+from .._frame.heads import HEAD, LEAST, next_begun
+from .._frame.table import found_entry, whole
 from .noise import Noise, UnknownFrame
 from .proof import Proof
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _TOO_SHORT = Reason.TOO_SHORT
 
+# How much of a run is read at once.
+_STRETCH = 256
 # A place behind the end of any stream.
 _NEVER = 1 << 62
 
@@ -88,22 +90,25 @@ class NoiseLane:
         None if none came, and `emitted`, `at` and `wake` say what is held.
         """
         table, refused = self._table, self._refused
-        known = table.verdicts
-        since = self._since if base + at == self.at else 0
+        known, header = table.verdicts, table.header
         self._proof.base = base
         while True:
-            at = next_begun(data, at)
-            verdict = known.get(data[at : at + HEAD])
+            begun = data.find(header, at) if header else -1
+            at = begun if begun >= 0 else table.next_begun(data, at)
+            head = data[at : at + HEAD]
+            verdict = known.get(head)
             if verdict is None:
-                verdict = table.weigh(data, at, self._proof.wrong, since, quiet=quiet)
-                since = 0
-                if verdict.kind is not None or (verdict.proven and not verdict.is_open):
-                    if refused:
-                        self._cut(events, data, base, at, at, final=True)
-                    self._emit_noise(events, data, base, base + at)
-                    if verdict.kind is not None:
-                        self.at, self._since = base + at, 0
-                        return found_entry(verdict)
+                entry = table.get(head)
+                entry = entry and whole(entry, data, at)
+                if entry is None:
+                    since = self._since if base + at == self.at else 0
+                    verdict = table.weigh(data, at, self._proof.wrong, since, quiet=quiet)
+                    entry = found_entry(verdict)
+                if verdict is None or entry is not None:
+                    self._end(events, data, base, at)
+                    return entry
+                if verdict.proven and not verdict.is_open:
+                    self._end(events, data, base, at)
                     at += verdict.size
                     self._emit_unknown(events, data, base, base + at)
                     continue
@@ -114,9 +119,23 @@ class NoiseLane:
                 if after != at:
                     at = after
                     continue
-            if table.begins(data, at):
-                refused.append((base + at, base + at, verdict.reason, verdict.claim))
-            at += 1
+            claim = verdict.claim
+            last = self._run_end(data, at) if claim and claim == table.run_claim else at
+            if header or table.begins(data, at):
+                refused.append((base + at, base + last, verdict.reason, claim))
+            at = last + 1
+
+    def _end(self, events: list[Event], data: bytes, base: int, at: int) -> None:
+        """Emit the noise in front of data[at], where a frame begins."""
+        if self._refused:
+            self._cut(events, data, base, at, at, final=True)
+        self.at = base + at
+        self._emit_noise(events, data, base, self.at)
+
+    def _run_end(self, data: bytes, at: int) -> int:
+        """Return where the last head begins of the run of a header's byte at data[at]."""
+        run = self._table.run
+        return at + _run_length(data, at, run) - HEAD if data.startswith(run, at) else at
 
     def _wait(
         self,
@@ -142,6 +161,9 @@ class NoiseLane:
             return at if self._table.begins(data, at) else at + 1
         self.at, self._since = base + at, len(data) - at
         self.wake = self.at + verdict.size
+        if self._refused and at == len(data):
+            # Nothing has begun, so only a whole frame or the end of a claim decides.
+            self.wake = self.at + max(LEAST, verdict.size)
         if self._refused:
             first, _, _, claim = self._refused[0]
             self.wake = min(self.wake, max(first, self.emitted) + claim)
@@ -166,7 +188,10 @@ class NoiseLane:
         until, weighed = until + base, weighed + base
         horizon = _NEVER if final else len(data) + base
         for number, (first, last, reason, claim) in enumerate(self._refused):
-            at = max(first, self.emitted)
+            at = first
+            if first < self.emitted:
+                # A frame of unknown command has taken what is in front of `emitted`.
+                at = min(self.emitted, last + 1)
             while at <= last:
                 end = at + claim
                 if claim and end > horizon:
@@ -183,6 +208,13 @@ class NoiseLane:
                 if reason is not self._reason or at != self._last + 1:
                     self._emit_noise(events, data, base, at)
                     self._reason = reason
+                # In a run, this holds for all that end in the same run, or behind data[weighed].
+                if claim and at < last:
+                    run = self._table.run
+                    alike = _run_length(data, end - base - 1, run) if own else horizon - end + 1
+                    at = min(last, at + max(alike, 1) - 1)
+                else:
+                    at = last
                 self._last = at
                 at += 1
         self._refused.clear()
@@ -214,3 +246,9 @@ class NoiseLane:
         events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
         self.unknown_frames += 1
         self.begin_anew(end)
+
+
+def _run_length(data: bytes, at: int, run: bytes) -> int:
+    """Return how often the byte of a run is repeated at data[at]."""
+    stretch = data[at : at + _STRETCH]
+    return len(stretch) - len(stretch.lstrip(run))

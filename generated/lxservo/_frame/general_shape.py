@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 # So many sizes are remembered at once.
 _REMEMBERED = 1024
+_FEW = 3
 
 
 class Shape:
@@ -47,6 +48,7 @@ class Shape:
 
     __slots__ = (
         "_counters",
+        "_judges_each",
         "_kind",
         "_known",
         "_varying",
@@ -98,7 +100,9 @@ class Shape:
         first = min((number for number, _ in self._counters), key=_at, default=None)
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
         self.sizes = _Sizes(self)
-        # The places in frames of each count, where this is that of fields that may be absent.
+        # Whether something can be wrong in each element of it; where not, the places in frames of
+        # each count, of which there are few.
+        self._judges_each = any(True for each in varying for _ in _elements(each, 1, 0))
         self._known: dict[int, list[Judged]] = {}
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
@@ -137,12 +141,17 @@ class Shape:
 
         What ends at `since` or before it is left out.
         """
-        if self._varying is not None:
+        if self._judges_each:
             return self._places_at(count, since)
         known = self._known.get(count)
         if known is None:
+            if len(self._known) >= _REMEMBERED:
+                self._known.clear()
             known = self._known[count] = [*self._places_at(count, 0)]
-        return [place for place in known if place[1] > since] if since else known
+        # A few are judged again sooner than they are sorted out.
+        if not since or len(known) <= _FEW:
+            return known
+        return [place for place in known if place[1] > since]
 
     def _places_at(self, count: int, since: int) -> Iterator[Judged]:
         until = self._end(count)

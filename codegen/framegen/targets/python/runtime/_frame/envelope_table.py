@@ -12,7 +12,7 @@ from .envelope import Constant
 from .envelopes import ENVELOPES, PROVEN_IN_PLACE
 from .errors import DecodeError, Reason
 from .head_walk import HeadWalk
-from .heads import FIRST_BYTES, HEAD, size_of
+from .heads import FIRST_BYTES, HEAD, next_begun, size_of
 from .quick_tests import together
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
@@ -52,16 +52,22 @@ class Table(dict[bytes, "Entry"]):
     """A map from the head of a frame to what must follow for it to be legal.
 
     It learns heads as they come; `weigh` judges all that are not in it. No frame is larger than
-    `largest`.
+    `largest`. `header` is that of all its frames, b"" where they do not have the same. If that is
+    one byte, or repeats one, `run` is a head of this byte alone, and `run_claim` what it claims as
+    a frame of unknown command, -1 if it does not: each byte of a longer run begins another.
     """
 
     __slots__ = (
+        "_begun",
         "_proofs",
         "_trials",
         "frames",
+        "header",
         "largest",
         "messages",
         "reach",
+        "run",
+        "run_claim",
         "verdicts",
         "waits",
     )
@@ -73,6 +79,8 @@ class Table(dict[bytes, "Entry"]):
         # The envelopes that there may be, each with its messages.
         every = [(frame, [each for each in messages if each.FRAME is frame]) for frame in ENVELOPES]
         self.frames = [(frame, kinds) for frame, kinds in every if kinds and frame.least <= largest]
+        headers = {frame.header for frame, _ in self.frames}
+        self.header = headers.pop() if len(headers) == 1 else b""
         # How many bytes of an illegal frame may look legal, where no checksum proves it.
         self.reach = max((_reach(kind, largest) for kind in messages), default=0)
         # What the heads seen so far may belong to; the verdicts on those that decide alone.
@@ -82,6 +90,9 @@ class Table(dict[bytes, "Entry"]):
         self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
+        self._begun = tuple(self.header[:size] for size in range(len(self.header) - 1, 0, -1))
+        self.run = b"" if self.header.strip(self.header[:1]) else self.header[:1] * HEAD
+        self.run_claim = self._claim_of_run()
 
     def weigh(
         self,
@@ -112,6 +123,19 @@ class Table(dict[bytes, "Entry"]):
     def begins(self, data: bytes, at: int) -> bool:
         """Return whether a frame may begin at data[at], as far as its header goes."""
         return any(frame.begins(data, at) for frame, _ in self.frames)
+
+    def next_begun(self, data: bytes, at: int) -> int:
+        """Return where from data[at] on a frame may begin, of whose header not all is there.
+
+        That is the end if nowhere. If the frames do not all have the same header, it may be there.
+        """
+        if not self.header:
+            return next_begun(data, at)
+        if data.endswith(self._begun, at):
+            for begun in self._begun:
+                if data.endswith(begun, at):
+                    return len(data) - len(begun)
+        return len(data)
 
     def wait(self, beginning: bytes, size: int) -> None:
         """Remember at which size the beginning of a frame can be judged further."""
@@ -186,6 +210,12 @@ class Table(dict[bytes, "Entry"]):
                 _remember(self, head, entry)
         return trials
 
+    def _claim_of_run(self) -> int:
+        """Return what a head that is a run of the header's byte claims, if that alone decides."""
+        trials = self._walked(self.run) if self.run else []
+        claims = [each.verdict.claim for each in trials if isinstance(each, Refused)]
+        return claims[0] or -1 if len(claims) == len(trials) == 1 else -1
+
     def _walked(self, head: bytes) -> list[Trial]:
         """Return what a head may belong to, of any envelope."""
         found: list[Trial] = []
@@ -230,6 +260,25 @@ def found_entry(verdict: Verdict) -> Entry | None:
     """Return the entry of a message that is found."""
     kind = verdict.kind
     return None if kind is None else (verdict.size, 0, 0, b"", kind, None, None)
+
+
+def whole(entry: Entry, data: bytes, at: int) -> Entry | None:
+    """Return the one of some entries whose message is whole at data[at]; None if none is.
+
+    What a checksum proves is left to `weigh`, and so is a frame whose count says its size.
+    """
+    found: Entry | None = entry
+    while found is not None:
+        size, start, end, count, kind, holds, other = found
+        if not size or kind.FRAME.checksums:
+            return None
+        if at + size <= len(data) and (not count or data[at + start : at + end] == count):
+            if holds is None:
+                return found
+            if holds(data[at : at + size]):
+                return size, 0, 0, b"", kind, None, None
+        found = other
+    return None
 
 
 def is_certain(kind: type[Message]) -> bool:

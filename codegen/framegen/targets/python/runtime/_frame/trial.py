@@ -76,7 +76,8 @@ class Known:
                 return measured
             count, size = measured
         wrong = _misfit(shape.places(count, since), data, at)
-        wrong = wrong or _wrong_end(self.kind.FRAME, size, data, at)
+        if wrong is None and self.kind.FRAME.judged:
+            wrong = _wrong_end(self.kind.FRAME, size, data, at)
         if wrong is not None:
             return wrong
         if have < size:
