@@ -343,7 +343,6 @@ BAD_VALUES = (
     BadValue(*_unload(1), "servo_ids", 1, "1 is not a list of whole numbers"),
     BadValue(*_unload(None), "servo_ids", None, "None is not a list of whole numbers"),
     BadValue(*_unload("12"), "servo_ids", "12", "'12' is not a list of whole numbers"),
-    BadValue(*_unload(b"A"), "servo_ids", b"A", "b'A' is not a list of whole numbers"),
     BadValue(*_unload({1}), "servo_ids", {1}, "{1} is not a list of whole numbers"),
     BadValue(*_unload({1: 2}), "servo_ids", {1: 2}, "{1: 2} is not a list of whole numbers"),
     BadValue(

@@ -10,7 +10,6 @@ from ._frame.element import Element
 from ._frame.items import Items
 from ._frame.message import Message
 from ._frame.number import U8, U16
-from ._frame.protocol import HEADER
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -114,9 +113,9 @@ class ServoMove(Message):
     ) -> typing.Self:
         flat = cls.targets.flat(targets)
         servo_count = len(flat) // 2
-        return cls._packed(
+        return cls._packed_at_once(
             "<2sBBBH" + servo_count * "BH",
-            (HEADER, 3 * servo_count + 5, 3),
+            (b"\x55\x55", 3 * servo_count + 5, 3),
             (servo_count, time_ms),
             flat,
         )
@@ -167,7 +166,7 @@ class ActionGroupRun(Message):
     """How many times to run it."""
 
     def __new__(cls, group: int, times: int) -> typing.Self:
-        return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
+        return cls._packed_at_once("<2sBBBH", (b"\x55\x55", 5, 6), (group, times))
 
 
 class ActionGroupStop(Message):
@@ -192,7 +191,7 @@ class ActionGroupStop(Message):
     LENGTHS = range(2, 3)
 
     def __new__(cls) -> typing.Self:
-        return cls._packed("<2sBB", (HEADER, 2, 7), ())
+        return cls._packed_at_once("<2sBB", (b"\x55\x55", 2, 7), ())
 
 
 class ActionGroupSpeed(Message):
@@ -226,7 +225,7 @@ class ActionGroupSpeed(Message):
     """The speed, where 100 is the original speed of the group."""
 
     def __new__(cls, group: int, percent: int) -> typing.Self:
-        return cls._packed("<2sBBBH", (HEADER, 5, 11), (group, percent))
+        return cls._packed_at_once("<2sBBBH", (b"\x55\x55", 5, 11), (group, percent))
 
 
 class BatteryVoltageRead(Message):
@@ -253,7 +252,7 @@ class BatteryVoltageRead(Message):
     LENGTHS = range(2, 3)
 
     def __new__(cls) -> typing.Self:
-        return cls._packed("<2sBB", (HEADER, 2, 15), ())
+        return cls._packed_at_once("<2sBB", (b"\x55\x55", 2, 15), ())
 
 
 class ServoUnload(Message):
@@ -286,9 +285,9 @@ class ServoUnload(Message):
     def __new__(cls, servo_ids: Iterable[int]) -> typing.Self:
         flat = cls.servo_ids.flat(servo_ids)
         servo_count = len(flat)
-        return cls._packed(
+        return cls._packed_at_once(
             "<2sBBB" + servo_count * "B",
-            (HEADER, servo_count + 3, 20),
+            (b"\x55\x55", servo_count + 3, 20),
             (servo_count,),
             flat,
         )
@@ -323,9 +322,9 @@ class ServoPositionsRead(Message):
     def __new__(cls, servo_ids: Iterable[int]) -> typing.Self:
         flat = cls.servo_ids.flat(servo_ids)
         servo_count = len(flat)
-        return cls._packed(
+        return cls._packed_at_once(
             "<2sBBB" + servo_count * "B",
-            (HEADER, servo_count + 3, 21),
+            (b"\x55\x55", servo_count + 3, 21),
             (servo_count,),
             flat,
         )
@@ -363,7 +362,7 @@ class ActionGroupStarted(Message):
     """How many times it will run."""
 
     def __new__(cls, group: int, times: int) -> typing.Self:
-        return cls._packed("<2sBBBH", (HEADER, 5, 6), (group, times))
+        return cls._packed_at_once("<2sBBBH", (b"\x55\x55", 5, 6), (group, times))
 
 
 class ActionGroupStopped(Message):
@@ -388,7 +387,7 @@ class ActionGroupStopped(Message):
     LENGTHS = range(2, 3)
 
     def __new__(cls) -> typing.Self:
-        return cls._packed("<2sBB", (HEADER, 2, 7), ())
+        return cls._packed_at_once("<2sBB", (b"\x55\x55", 2, 7), ())
 
 
 class ActionGroupCompleted(Message):
@@ -418,7 +417,7 @@ class ActionGroupCompleted(Message):
     """How many times it was run."""
 
     def __new__(cls, group: int, times: int) -> typing.Self:
-        return cls._packed("<2sBBBH", (HEADER, 5, 8), (group, times))
+        return cls._packed_at_once("<2sBBBH", (b"\x55\x55", 5, 8), (group, times))
 
 
 class BatteryVoltage(Message):
@@ -443,7 +442,7 @@ class BatteryVoltage(Message):
     """The voltage of the controller board. A step is 0.001 V."""
 
     def __new__(cls, voltage_mv: int) -> typing.Self:
-        return cls._packed("<2sBBH", (HEADER, 4, 15), (voltage_mv,))
+        return cls._packed_at_once("<2sBBH", (b"\x55\x55", 4, 15), (voltage_mv,))
 
 
 class ServoPositions(Message):
@@ -478,9 +477,9 @@ class ServoPositions(Message):
     def __new__(cls, positions: Mapping[int, int] | Iterable[tuple[int, int]]) -> typing.Self:
         flat = cls.positions.flat(positions)
         servo_count = len(flat) // 2
-        return cls._packed(
+        return cls._packed_at_once(
             "<2sBBB" + servo_count * "BH",
-            (HEADER, 3 * servo_count + 3, 21),
+            (b"\x55\x55", 3 * servo_count + 3, 21),
             (servo_count,),
             flat,
         )

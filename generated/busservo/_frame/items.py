@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from itertools import repeat
 from struct import Struct, calcsize
 
+from .bytes_like import as_bytes
 from .errors import EncodeError
 from .field import Field
 from .number import Number, shown
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     Item = TypeVar("Item")
 
 _LISTS = (list, tuple)
+_BYTES = (bytes, bytearray, memoryview)
 # Iterable values that are no list of numbers all the same: text, bytes, and what has no order.
 _NO_LISTS = (str, bytes, bytearray, memoryview, dict, set, frozenset)
 
@@ -109,7 +111,8 @@ class Items(Field["tuple[Item, ...]"]):
     def flat(self, values: Any) -> Sequence[int]:
         """Return all numbers of all elements, in order. Raises EncodeError if it is no such list.
 
-        Whole numbers in plain lists are not checked closely: packing them will show.
+        Whole numbers in plain lists are not checked closely: packing them will show. Those of one
+        byte may be given as bytes.
         """
         if type(values) in _LISTS and self.least <= len(values) <= self.most:
             flat: Sequence[int] | None
@@ -121,6 +124,8 @@ class Items(Field["tuple[Item, ...]"]):
                 flat = _plain_rows(values, self._plain, self.width)
             if flat is not None:
                 return flat
+        if isinstance(values, _BYTES) and self.element is None and self.layout == "B":
+            return self.flat(tuple(as_bytes(values)))
         return self.checked(values)
 
     def checked(self, values: Any) -> list[int]:

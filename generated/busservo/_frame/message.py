@@ -60,7 +60,7 @@ class Message:
         cls._table = Table([cls], ANY_SIZE)
 
     @classmethod
-    def _packed(
+    def _packed_at_once(
         cls,
         layout: str,
         head: tuple[typing.Any, ...],
@@ -69,9 +69,9 @@ class Message:
     ) -> typing.Self:
         """Return the message with this frame, packed as `struct` does it. Raises EncodeError.
 
-        `fields` are the numbers behind the head, and `flat` those of the list. Good ones are packed
-        at once; any others are checked one by one, and are either converted, as those of NumPy are,
-        or explained.
+        `fields` are the numbers behind the head, and `flat` those of the list; there is no
+        checksum. Good ones are packed at once; any others are checked one by one, and are either
+        converted, as those of NumPy are, or explained.
         """
         pack, good = _packers[layout], not cls.SHAPE.narrowed
         for number in fields:

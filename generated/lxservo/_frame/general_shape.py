@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import count as upwards
 from struct import error
 
 from .bytes_like import format_hex
@@ -254,6 +255,25 @@ class Shape:
         return end
 
     # What is given.
+
+    def checked(self, numbers: Sequence[Any]) -> list[int]:
+        """Return the numbers of a frame as ints. Raises EncodeError for the first wrong one.
+
+        All its fields are numbers, save that the last one may be a list of them.
+        """
+        return [
+            field.checked(number, path)
+            for number, (path, field) in zip(numbers, self._numbers(), strict=False)
+        ]
+
+    def _numbers(self) -> Iterator[tuple[str, Number]]:
+        """Yield each number of such a frame with its path; those of a list without end."""
+        for part in self.parts:
+            if isinstance(part, List):
+                for position in upwards():
+                    yield from part.one(position)
+            else:
+                yield part.name, part
 
     def tail(self, *values: Any) -> bytes:
         """Return the bytes of the fields that may be absent. Raises EncodeError for bad ones."""

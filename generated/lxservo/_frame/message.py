@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from struct import Struct
+from struct import Struct, error
 
 from .direction import Direction
 from .envelope import Envelope
@@ -67,6 +67,34 @@ class Message:
 
     def __init_subclass__(cls) -> None:
         cls.SHAPE = Shape(cls, cls.LENGTHS)
+
+    @classmethod
+    def _packed_at_once(
+        cls,
+        layout: str,
+        head: tuple[typing.Any, ...],
+        fields: tuple[typing.Any, ...],
+        flat: Sequence[int] = (),
+    ) -> typing.Self:
+        """Return the message with this frame, packed as `struct` does it. Raises EncodeError.
+
+        `fields` are the numbers behind the head, and `flat` those of the list; there is no
+        checksum. Good ones are packed at once; any others are checked one by one, and are either
+        converted, as those of NumPy are, or explained.
+        """
+        pack, good = _packers[layout], True
+        for number in fields:
+            if type(number) is not int:
+                good = False
+        message = _new(cls)
+        if good:
+            try:
+                message._frame = pack(*head, *fields, *flat)
+            except error:
+                good = False
+        if not good:
+            message._frame = pack(*head, *cls.SHAPE.checked((*fields, *flat)))
+        return message
 
     @classmethod
     def _packed(cls, layout: str, *values: typing.Any) -> typing.Self:

@@ -228,9 +228,7 @@ class LibraryView:
         homes = {"Direction": "direction", "Message": "message", **self._field_classes}
         homes |= {"warn_deprecated": "deprecation"} if self.deprecates else {}
         homes |= {each.base: _snake(each.base) for each in self.elements}
-        if self.plain:
-            homes["HEADER"] = "protocol"
-        else:
+        if not self.plain:
             homes |= {message.envelope: "envelopes" for message in self.messages}
         return [
             relative_import(f"_frame.{home}", [name for name in homes if homes[name] == home])

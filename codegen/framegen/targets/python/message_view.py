@@ -11,6 +11,7 @@ from framewire.frame.pluralize import describe_range
 from framegen.language.formula import Sizes
 from framegen.model.codec import encode
 from framegen.model.slots import Constant, Items, Number, Packed, Text
+from framegen.targets.python.at_once import is_packed_at_once
 from framegen.targets.python.escape import (
     Bracketed,
     Part,
@@ -207,7 +208,7 @@ class MessageView:
             found.append(each.argument)
         return Bracketed("def __new__(", found, ") -> typing.Self:").fitted(4)
 
-    # How a general frame is packed.
+    # How its frame is packed.
 
     @property
     def checked(self) -> str:
@@ -225,8 +226,8 @@ class MessageView:
         return "" if items is None else f"flat = cls.{items.name}.packed({items.name})"
 
     @property
-    def general_packing(self) -> str:
-        """The arguments of the call that packs its frame: format and values."""
+    def sealed_packing(self) -> str:
+        """The arguments of the call that packs its frame and seals it: format and values."""
         layout, values = self._packed_values()
         text = f"f{literal(layout)}" if "{" in layout else literal(layout)
         call = "return cls._packed("
@@ -296,8 +297,13 @@ class MessageView:
         return f"{slot.size}s", f'{brackets}.to_bytes({slot.size}, "{slot.order}"{signed})'
 
     @property
+    def at_once(self) -> bool:
+        """Whether `struct` packs what is given at once."""
+        return is_packed_at_once(self.layout, self.model.spec.byte_order)
+
+    @property
     def packing(self) -> str:
-        """The arguments of the call that packs its frame: format, head and fields."""
+        """The arguments of the call that packs its frame at once: format, head and fields."""
         head = [self._in_front(slot) for slot in self.layout.frame.head]
         fields = [slot.name for slot in self.layout.fields if isinstance(slot, Number)]
         items: list[Part] = [
@@ -306,7 +312,7 @@ class MessageView:
             Bracketed("(", fields, ")", lone=","),
             *([] if self.layout.items is None else ["flat"]),
         ]
-        call = "return cls._packed("
+        call = "return cls._packed_at_once("
         return Bracketed(call, items, ")").fitted(8).removeprefix(call).removesuffix(")")
 
     @property
@@ -327,8 +333,8 @@ class MessageView:
     def _in_front(self, slot: Constant | Number) -> str:
         """Return the packed expression for a slot of the envelope."""
         if isinstance(slot, Constant):
-            return "HEADER" if slot.data == self.layout.frame.header else byte_literal(slot.data)
-        return str(self.layout.formula) if slot.role == "length" else str(self.layout.id)
+            return byte_literal(slot.data)
+        return str(self.layout.formula if slot.role == "length" else self.layout.id_of(slot))
 
     @property
     def example(self) -> Example:

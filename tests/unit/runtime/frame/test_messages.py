@@ -149,7 +149,7 @@ def test_a_list_of_pairs_is_anything_in_order(listed: Callable[[Any], Any]) -> N
     assert ServoPositions(listed(pairs)) == ServoPositions(pairs)
 
 
-@pytest.mark.parametrize("listed", [list, tuple, iter, np.array])
+@pytest.mark.parametrize("listed", [list, tuple, iter, np.array, bytes, bytearray])
 def test_a_list_of_numbers_is_anything_in_order(listed: Callable[[Any], Any]) -> None:
     assert ServoUnload(servo_ids=listed([1, 2, 250])).servo_ids == (1, 2, 250)
     assert ServoPositionsRead(servo_ids=listed([1, 2, 250])).servo_ids == (1, 2, 250)

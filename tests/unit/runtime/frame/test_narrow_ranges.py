@@ -46,7 +46,7 @@ class DialsTurn(Message):
     def __new__(cls, force: int, turns: list[tuple[int, int]]) -> Self:
         flat = cls.turns.flat(turns)
         dial_count = len(flat) // 2
-        return cls._packed(
+        return cls._packed_at_once(
             "<2sBBBB" + dial_count * "BH",
             (HEADER, 3 * dial_count + 4, 0x30),
             (force, dial_count, *flat),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import repeat
-from struct import Struct, error, pack, unpack
+from struct import Struct, error, pack
 
 from .bytes_like import as_bytes
 from .fixed import Always
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     Place: TypeAlias = tuple[int, int, "bytes | Callable[[bytes], int | None]"]
 
 _BYTES = (bytes, bytearray, memoryview)
+# What unpacks a list is made once for so many sizes, and for so many elements.
+_REMEMBERED = 256
 
 
 class List(Items["Item"]):
@@ -127,24 +129,34 @@ class List(Items["Item"]):
             if self.layout == "B":
                 return lambda message: tuple(message._frame[at:end])
             return lambda message: self.numbers(message._frame)
+        # Equivalent to calling the class, and several times as fast.
         make: Any = tuple.__new__
         kinds = repeat(self.element)
-        return lambda message: tuple(map(make, kinds, self._rows(message._frame[at:end])))
+        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack
+        if self.is_read:
+            return lambda message: tuple(map(make, kinds, rows(message._frame[at:end])))
+        read = self._read
+        return lambda message: tuple(map(make, kinds, map(read, rows(message._frame[at:end]))))
 
     def numbers(self, frame: bytes) -> Any:
         """Return all values of all elements of a legal frame, in order."""
-        data = frame[self.at : self.end]
         if self.is_read:
-            count = len(data) // self.unit_size
-            if len(self.layout) == 1:
-                return unpack(f"{STRUCT_ORDER}{count}{self.layout}", data)
-            return unpack(STRUCT_ORDER + count * self.layout, data)
-        return tuple(value for row in self._rows(data) for value in row)
+            unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
+            return unpack(frame)
+        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(frame[self.at : self.end])
+        return tuple(value for row in map(self._read, rows) for value in row)
 
-    def _rows(self, data: bytes) -> Iterator[tuple[Any, ...]]:
-        """Return the values of each element."""
-        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(data)
-        return rows if self.is_read else map(self._read, rows)
+    def _unpacker(self, size: int) -> Callable[[bytes], tuple[Any, ...]]:
+        """Return a function that unpacks the list of a frame of a size."""
+        listed = len(range(size)[self.at : self.end])
+        count, behind = listed // self.unit_size, size - self.at - listed
+        layout = f"{count}{self.layout}" if len(self.layout) == 1 else count * self.layout
+        unpack = Struct(f"{STRUCT_ORDER}{self.at}x{layout}{behind}x").unpack
+        if count <= _REMEMBERED:
+            if len(self._unpackers) >= _REMEMBERED:
+                self._unpackers.clear()
+            self._unpackers[size] = unpack
+        return unpack
 
     def _read(self, row: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the values of an element of which `struct` knows only the bytes of some."""
