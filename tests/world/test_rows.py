@@ -14,11 +14,12 @@ from tests.contract.protocols.conftest import libraries
 from tests.lines.boards import no_board_refuses_anything
 from tests.rows import left_out_of
 from tests.unit.runtime.tables.test_dataset import captures
+from tests.unit.writing.test_generate import project
 
 if TYPE_CHECKING:
     from tests.rows import Row
 
-__all__ = ["captures", "libraries", "no_board_refuses_anything"]
+__all__ = ["captures", "libraries", "no_board_refuses_anything", "project"]
 
 ROOT = Path(__file__).parents[2]
 HAS_SOME = re.compile(r"^from tests\.rows import ", re.MULTILINE)

@@ -22,6 +22,7 @@ from framegen.writing import Change, write
 
 from tests.documents import ROOT
 from tests.in_turn import in_turn
+from tests.rows import Rows
 from tests.unit.writing.made_once import compiled_once, make_once, the_same_is_made_once
 from tests.unit.writing.trees import Snapshot, put, snapshot, times
 
@@ -516,7 +517,7 @@ def test_a_diff_says_what_would_change_line_by_line(change: Change, diff: str) -
 
 
 @pytest.mark.skipif(GIT is None, reason="git is not installed")
-@pytest.mark.parametrize("attributes", [True, False])
+@pytest.mark.parametrize("attributes", Rows([True], others=[False]))
 def test_after_a_merge_with_conflicts_one_run_is_enough(project: Path, attributes: bool) -> None:
     """Whichever side of the spec is taken: conflicts and joined files are nobody's work."""
 
