@@ -288,8 +288,8 @@ def errata() -> Iterator[Mutation]:
 def rest() -> Iterator[Mutation]:
     for name in ("host", "controller"):
         yield ("endpoints", name), GONE
-    yield ("protocol", "version"), "1.0.1"
-    yield ("history", 0, "version"), "1.0.1"
+    yield ("protocol", "version"), "99.0.0"
+    yield ("history", 0, "version"), "99.0.0"
     for index, reserved in enumerate(TREE["reserved"]):
         if any(message["id"] == reserved["id"] for message in MESSAGES.values()):
             yield ("reserved", index, "direction"), other_way(reserved["direction"])
