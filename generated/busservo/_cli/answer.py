@@ -11,9 +11,10 @@ from .._codec.codec import decode
 from .._codec.decoder import StreamDecoder
 from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise, UnknownFrame
-from .._explanation.carried_model import classes, protocol
+from .._explanation.carried_model import classes
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError, EncodeError
+from .._library import LIBRARY
 from .console import visible
 from .encode import message_named
 from .exit_codes import DONE, UNUSABLE
@@ -131,7 +132,7 @@ def _event(event: Message | Noise) -> str:
 @cache
 def _classes() -> dict[str, str]:
     """Return the class of each message by its name in the specification, which others use."""
-    return classes(protocol())
+    return classes(LIBRARY.protocol())
 
 
 @cache

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import sys
 
-from .._explanation.carried_model import protocol
+from .._library import LIBRARY
 from .examples import PROGRAM
 from .exit_codes import DONE
 from .reference_page import message_list, message_page
@@ -40,7 +40,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the page of a message, or a list of messages."""
-    model, words = protocol(), " ".join(arguments.words)
+    model, words = LIBRARY.protocol(), " ".join(arguments.words)
     topic = next((name for name in TOPICS if folded(words) == name), "")
     found = [] if topic else find(model, words)
     if not topic and not found:

@@ -77,8 +77,7 @@ class Library:
 
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""
-        protocol: Protocol = self._part("_explanation.carried_model").protocol()
-        return protocol
+        return self.codec.protocol()
 
     def log(self) -> Logger:
         """Return the logger of the library, which is named after its package."""

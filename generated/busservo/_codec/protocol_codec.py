@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
+    from .._explanation.protocol import Protocol
     from .._frame.direction import Direction
     from .._frame.message import Message
     from .._frame.table import Table
@@ -71,6 +72,12 @@ class ProtocolCodec:
         """The function that recognises protocols that are easily taken for this one."""
         recognise: Callable[..., str | None] = self._part("_codec.lookalikes").recognise
         return recognise
+
+    def protocol(self) -> Protocol:
+        """Read all that is known of the protocol, for whoever explains it."""
+        from .._explanation.carried_model import protocol
+
+        return protocol(self.package)
 
     def _part(self, name: str) -> Any:
         # Not importlib, which would have to be imported first.

@@ -110,7 +110,7 @@ def messages_on(direction: Direction | None) -> list[Layout]:
 @cache
 def described() -> Protocol:
     """Return the model of the protocol; read once."""
-    return protocol()
+    return protocol(__name__.partition("._recording")[0])
 
 
 @cache

@@ -194,7 +194,7 @@ class _Messages:
         yield from self._in_a_notebook(message)
         frame = message.encode()
         explained = import_module(f"{self.made.__name__}._cli.explain").explained
-        carried = import_module(f"{self.made.__name__}._explanation.carried_model").protocol()
+        carried = import_module(f"{self.made.__name__}._library").CODEC.protocol()
         here, there = explain(self.model, frame, self.model.directions), explained(carried, frame)
         if repr(here) != repr(there):
             yield f"is explained as {there}, not {here}"

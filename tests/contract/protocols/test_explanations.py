@@ -113,7 +113,7 @@ def rows_begin(rows: tuple[Row, ...], data: bytes) -> bool:
 def test_a_library_explains_as_the_reference_does(libraries: Libraries, name: str) -> None:
     made, model = libraries[name], model_of(name)
     explained = import_module(f"{made.__name__}._cli.explain").explained
-    carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
+    carried = import_module(f"{made.__name__}._library").CODEC.protocol()
     examples = (each.message.examples for each in messages_of(name).values())
     for data in [*(example.hex for each in examples for example in each), *damaged(name)]:
         here, there = explain(model, data, model.directions), explained(carried, data)
@@ -312,5 +312,5 @@ def test_what_nothing_tells_apart_is_explained_as_each_of_them(
     assert [(each.reason, each.expected) for each in here.refusals] == [(reason, due)]
     with library(library_files(compiled)) as made:
         explained = import_module(f"{made.__name__}._cli.explain").explained
-        carried = import_module(f"{made.__name__}._explanation.carried_model").protocol()
+        carried = import_module(f"{made.__name__}._library").CODEC.protocol()
         assert repr(explained(carried, frame)) == repr(here)

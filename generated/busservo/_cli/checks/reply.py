@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from ..._explanation.carried_model import classes, protocol
+from ..._explanation.carried_model import classes
 from ..._explanation.explanation import rows_of
+from ..._library import LIBRARY
 from .check import Check
 from .rate import EXTRA_TIME
 from .result import failed, passed, unknown
@@ -81,7 +82,7 @@ def _trouble(trip: Trip, longest: float) -> str:
 
 def _open_questions(reply: Message) -> str:
     """Return the values of a reply that no source tells how to judge, and what is not known."""
-    model, data = protocol(), reply.encode()
+    model, data = LIBRARY.protocol(), reply.encode()
     names = {called: name for name, called in classes(model).items()}
     message = model.messages[names[type(reply).__name__]]
     unknown = {

@@ -49,8 +49,8 @@ SERVO, HOUSE = (compiled_file(spec).model for spec in (BUSSERVO, DEMO))
 def carried_by(package: str) -> Explain:
     """Return what explains bytes by the library of that name, and by nothing of framegen."""
     verb = import_module(f"{package}._cli.explain")
-    data = import_module(f"{package}._explanation.carried_model")
-    text, model = import_module(f"{package}._explanation.text"), data.protocol()
+    library = import_module(f"{package}._library").LIBRARY
+    text, model = import_module(f"{package}._explanation.text"), library.protocol()
 
     def explained(frame: bytes) -> tuple[str, dict[str, Any]]:
         found = verb.explained(model, frame)

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 def sealing(made: ModuleType) -> Callable[[bytes], bytes]:
     """Return what gives a frame of a library the checksums that it should have."""
-    model: Any = import_module(f"{made.__name__}._explanation.carried_model")
-    envelopes = [each for each in model.protocol().envelopes.values() if each.header]
+    codec: Any = import_module(f"{made.__name__}._library").CODEC
+    envelopes = [each for each in codec.protocol().envelopes.values() if each.header]
 
     def sealed(frame: bytes) -> bytes:
         for envelope in envelopes:
@@ -28,8 +28,8 @@ def sealing(made: ModuleType) -> Callable[[bytes], bytes]:
 
 def heads_at(made: ModuleType) -> list[int]:
     """Return where the ids, addresses and lengths of frames stand."""
-    model: Any = import_module(f"{made.__name__}._explanation.carried_model")
-    slots = [slot for each in model.protocol().envelopes.values() for slot in each.slots]
+    codec: Any = import_module(f"{made.__name__}._library").CODEC
+    slots = [slot for each in codec.protocol().envelopes.values() for slot in each.slots]
     return sorted({slot.at for slot in slots if slot.role in ("id", "address", "length")})
 
 

@@ -113,8 +113,8 @@ def noise_row(made: ModuleType, event: Any, offset: int, direction: str | None) 
 
 def _ids(made: ModuleType) -> list[str]:
     """Return the names of all addresses and ids in frames."""
-    model: Any = import_module(f"{made.__name__}._explanation.carried_model")
-    slots = [slot for each in model.protocol().envelopes.values() for slot in each.slots]
+    codec: Any = import_module(f"{made.__name__}._library").CODEC
+    slots = [slot for each in codec.protocol().envelopes.values() for slot in each.slots]
     return [slot.name for slot in slots if slot.role in ("address", "id")]
 
 

@@ -77,8 +77,8 @@ def test_fields_of_the_servo_controller(sent: list[Any]) -> None:
 
 def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:
     made = libraries["everything"]
-    model: Any = import_module(f"{made.__name__}._explanation.carried_model")
-    envelope = model.protocol().envelopes["ask"]
+    codec: Any = import_module(f"{made.__name__}._library").CODEC
+    envelope = codec.protocol().envelopes["ask"]
     (example,) = messages_of("everything")["Numbers"].message.examples
     plain, begin = example.hex, 11
     for filling in (b"\0", b"\xff", b"\x80", b"\x7f", bytes.fromhex("7FF8000000000001")):

@@ -6,11 +6,12 @@ import json
 
 from .._codec.codec import decode
 from .._codec.hextext import HexError, read_hex
-from .._explanation.carried_model import classes, protocol
+from .._explanation.carried_model import classes
 from .._explanation.explanation import Judgement, explain
 from .._explanation.text import as_json, as_text
 from .._frame.direction import Direction
 from .._frame.errors import DecodeError
+from .._library import LIBRARY
 from .._recording.form import LogError, without_log
 from .exit_codes import DONE, NOT_ALL
 from .usage_error import UsageError
@@ -46,7 +47,7 @@ def run(arguments: Namespace) -> int:
         raise UsageError(str(error)) from None
     if not data:
         raise UsageError("there are no bytes to explain: give them in hex")
-    explanation = explained(protocol(), data, arguments.direction)
+    explanation = explained(LIBRARY.protocol(), data, arguments.direction)
     print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
     return DONE if explanation.readings else NOT_ALL
 

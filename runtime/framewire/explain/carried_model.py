@@ -1,4 +1,4 @@
-"""The model of the protocol, which the package carries as data."""
+"""The model of a protocol, which its library carries as data."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from pkgutil import get_data
 from .protocol import Protocol
 
 
-def protocol() -> Protocol:
-    """Read the model."""
-    return Protocol(json.loads(get_data(Protocol.__module__, "model.json") or b""))
+def protocol(package: str) -> Protocol:
+    """Read the model that a library of this name carries."""
+    return Protocol(json.loads(get_data(f"{package}._explanation", "model.json") or b""))
 
 
 def classes(model: Protocol) -> dict[str, str]:
