@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from functools import cached_property
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -72,8 +73,12 @@ class Library:
     @property
     def version(self) -> str:
         """The version of the installed package, or else of the specification."""
-        version: str = self._part("_version").__version__
-        return version
+        from pathlib import Path
+
+        from .version import version_of
+
+        file = str(sys.modules[self.package].__file__)
+        return version_of(Path(file).absolute().parent, self.protocol_version)
 
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""

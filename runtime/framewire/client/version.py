@@ -1,4 +1,4 @@
-"""The version of this library: of the installed package, or else of the specification."""
+"""The version of a library: of the installed package, or else of its specification."""
 
 from __future__ import annotations
 
@@ -6,20 +6,18 @@ import json
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-from ._frame.protocol import PROTOCOL_VERSION
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from importlib.metadata import Distribution
 
 
-def version_of(folder: Path) -> str:
+def version_of(folder: Path, otherwise: str) -> str:
     """Return the version of the package in `folder`; a copy of an installed package has none."""
     try:
         installed = distribution(folder.name)
     except PackageNotFoundError:
-        return PROTOCOL_VERSION
-    return installed.version if _is_of(installed, folder) else PROTOCOL_VERSION
+        return otherwise
+    return installed.version if _is_of(installed, folder) else otherwise
 
 
 def _is_of(installed: Distribution, folder: Path) -> bool:
@@ -30,6 +28,3 @@ def _is_of(installed: Distribution, folder: Path) -> bool:
     editable = origin.get("dir_info", {}).get("editable", False)
     above = [*folder.parents, *folder.resolve().parents]
     return editable and origin.get("url") in {each.as_uri() for each in above}
-
-
-__version__ = version_of(Path(__file__).absolute().parent)
