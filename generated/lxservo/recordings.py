@@ -13,42 +13,16 @@ Python's logging, or a table with columns `tx` and `rx`; TX is what this end sen
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Iterable, Iterator
-from itertools import chain
-from pathlib import Path
+from collections.abc import Iterator
 
-from ._codec.decoder import Event, StreamDecoder
-from ._codec.event_bytes import bytes_of
-from ._codec.hextext import HexError, HexReader
 from ._frame.direction import Direction
+from ._library import CODEC
+from ._recording import reader
 from ._recording.entry import Entry, RecordingError
-from ._recording.file import QUIET
-from ._recording.form import FORMS, TIMED_LINE, begun_as, blocks, log_lines
-from ._recording.lines import logged, recorded, sender_of
-
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
-if TYPE_CHECKING:
-    from typing import Protocol
-
-else:
-    Protocol = object  # it is for type checkers alone
-
+from ._recording.form import FORMS
+from ._recording.reader import Readable
 
 __all__ = ["FORMS", "Entry", "RecordingError", "read"]
-
-
-class Readable(Protocol):
-    """A stream of bytes."""
-
-    def read(self, size: int, /) -> bytes:
-        """Return at most so many bytes; none at the end."""
-        raise NotImplementedError
-
-
-_CHUNK = 65536
-_QUIET_LINE = re.compile(rf"^[ \t]{{0,80}}{QUIET}[ \t\r]{{0,80}}$", re.MULTILINE)
-_TIME = re.compile(r"#+ *[0-9]{1,9}(?:\.[0-9]{1,9})? s, [^:\n]*: ")
 
 
 def read(
@@ -63,95 +37,4 @@ def read(
     sender of bytes for which the recording names none. While it is read, raises RecordingError for
     content that makes no sense, and OSError for a file that cannot be read.
     """
-    if form not in FORMS:
-        raise ValueError(f"{form!r} is none of the forms {', '.join(FORMS)}")
-    return _read(source, form, direction)
-
-
-def _read(
-    source: str | os.PathLike[str] | Readable, form: str, direction: Direction | None
-) -> Iterator[Entry]:
-    if isinstance(source, (str, os.PathLike)):
-        with Path(source).open("rb") as stream:
-            yield from _read(stream, form, direction)
-        return
-    chunks = _chunks(source)
-    begun, text = begun_as(lambda: next(chunks, b""), form)
-    whole = chain([begun], chunks)
-    if text:
-        yield from _text(blocks(whole), direction)
-    else:
-        yield from _streamed(_raw(whole, StreamDecoder(direction)), direction)
-
-
-def _chunks(stream: Readable) -> Iterator[bytes]:
-    # read1 returns what there is: on a live line nobody waits for a full buffer.
-    read_some = getattr(stream, "read1", stream.read)
-    while chunk := read_some(_CHUNK):
-        yield chunk
-
-
-def _streamed(decoded: Iterable[list[Event]], direction: Direction | None) -> Iterator[Entry]:
-    """Yield the entries of a stream, which says neither when its bytes came nor from whom."""
-    offset = 0
-    for events in decoded:
-        for event in events:
-            who = sender_of(event) if direction is None else direction.sender
-            yield Entry(event, who, offset, direction=direction)
-            offset += len(bytes_of(event))
-
-
-def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Event]]:
-    for chunk in chunks:
-        yield decoder.feed(chunk)
-    yield decoder.flush()
-
-
-def _text(text: Iterator[str], direction: Direction | None) -> Iterator[Entry]:
-    """Yield the entries of text: it is a recording if its first line with bytes has a time."""
-    before: list[str] = []
-    for block in text:
-        before.append(block)
-        lines = (line for line in block.split("\n") if line.partition("#")[0].strip())
-        first = next(lines, None)
-        if first is not None:
-            whole = chain(before, text)
-            log = log_lines(first)
-            if TIMED_LINE.match(first):
-                yield from recorded(whole, direction)
-            elif log is not None:
-                yield from logged(whole, log, direction)
-            else:
-                yield from _streamed(_hex(whole, StreamDecoder(direction)), direction)
-            return
-
-
-def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Event]]:
-    reader = HexReader()
-    line = 1
-    for block in text:
-        timed = _TIME.search(block)
-        end = len(block) if timed is None else block.rfind("\n", 0, timed.start()) + 1
-        for is_after_quiet, part in enumerate(_QUIET_LINE.split(block[:end])):
-            if is_after_quiet:
-                yield decoder.flush()
-            try:
-                data = reader.feed(part)
-            except HexError as error:
-                raise _slip(error, line + part.count("\n", 0, error.at)) from None
-            yield decoder.feed(data)
-            line += part.count("\n")
-        if timed is not None:
-            problem = "it has a time and a sender, and the lines before it have none"
-            raise RecordingError(f"line {line}: {problem}")
-    try:
-        data = reader.end()
-    except HexError as error:
-        raise _slip(error, line) from None
-    yield decoder.feed(data) + decoder.flush()
-
-
-def _slip(error: HexError, line: int) -> RecordingError:
-    return RecordingError(
-        f"line {line}: {error}; raw bytes need --format raw, in Python form='raw'"
-    )
+    return reader.read(CODEC, source, form, direction)

@@ -7,7 +7,8 @@ import time
 
 from .._codec.event_bytes import bytes_of
 from .._frame.bytes_like import format_hex
-from .._recording.entry import SENDERS
+from .._library import CODEC
+from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from .colour import painted, takes_colour
 from .console import visible, write_as_it_is
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 TIMES = ("absolute", "delta", "zero")
 _COLOURS = {
-    **dict(zip(SENDERS, ("cyan", "green"), strict=False)),
+    **dict(zip(ends_of(CODEC).senders, ("cyan", "green"), strict=False)),
     EITHER: "yellow",
     UNKNOWN: "magenta",
     NOISE: "red",

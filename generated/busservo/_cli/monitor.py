@@ -12,7 +12,8 @@ from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._recording.entry import NAMED, SENDERS
+from .._library import CODEC
+from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from ..messages import MESSAGES
 from . import link
@@ -52,11 +53,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_port(parser, client=False)
     # If nothing is sent to a client in this protocol, a monitor looks at what a client sends.
     comes = any(kind.DIRECTION is RECEIVED for kind in MESSAGES)
-    received = next(name for name, way in NAMED.items() if way is RECEIVED)
+    received = next(name for name, way in ends_of(CODEC).named.items() if way is RECEIVED)
     usual = received if comes else "any"
     parser.add_argument(
         "--direction",
-        choices=[*NAMED, "any"],
+        choices=[*ends_of(CODEC).named, "any"],
         default=usual,
         help=f"who sends on this line; any: both ends do, and what both may have sent is shown as "
         f"`either` (default: {usual})",
@@ -132,7 +133,7 @@ class Monitor:
         self._left: int | None = arguments.n
         self._only = {_filter(name) for name in arguments.only}
         self._hidden = {_filter(name) for name in arguments.hide}
-        self._direction = NAMED.get(arguments.direction)
+        self._direction = ends_of(CODEC).named.get(arguments.direction)
         self._decoder = StreamDecoder(self._direction)
         self._progress = Progress(sys.stderr)
         self._lines = Lines(screen, arguments.time, as_json=arguments.json)
@@ -179,7 +180,7 @@ class Monitor:
         who = sender_of(event, self._direction)
         names = {who, *names_of(event, self._direction)}
         # An unknown frame counts as noise, too, and an event of either end as one of both.
-        wider = names | {UNKNOWN: {NOISE}, EITHER: {*SENDERS}}.get(who, set())
+        wider = names | {UNKNOWN: {NOISE}, EITHER: {*ends_of(CODEC).senders}}.get(who, set())
         return (not self._only or bool(wider & self._only)) and not names & self._hidden
 
     def _so_far(self, waited: float) -> str:

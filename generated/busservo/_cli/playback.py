@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
     from .._codec.noise import Noise
     from .._frame.message import Message
+    from .._recording.entry import Entry
     from .._serial.transport import Transport
-    from ..recordings import Entry
 
 # How long the last reply may take.
 _QUIET = 0.25

@@ -7,7 +7,9 @@ import sys
 import time
 from contextlib import contextmanager
 
-from ..recordings import RecordingError, read
+from .._library import CODEC
+from .._recording.entry import RecordingError
+from .._recording.reader import read
 from .progress import PROGRESS_INTERVAL, Progress
 from .progress_bar import progress_bar
 from .usage_error import UsageError
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
     from typing import BinaryIO
 
     from .._frame.direction import Direction
-    from ..recordings import Entry
+    from .._recording.entry import Entry
 
 
 class Recording:
@@ -44,7 +46,7 @@ class Recording:
     def entries(self, form: str, direction: Direction | None) -> Iterator[Entry]:
         """Yield the entries, from the beginning on. Raises UsageError."""
         with self.from_the_beginning():
-            yield from read(self, form=form, direction=direction)
+            yield from read(CODEC, self, form, direction)
 
     @contextmanager
     def from_the_beginning(self) -> Iterator[None]:

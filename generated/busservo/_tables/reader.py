@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
+from .._library import CODEC
 from .._recording.layout import NOISE, layouts
-from ..recordings import read
+from .._recording.reader import read
 from .by_entry import events_by_entry
 from .columns import batch_of
 from .noise_rows import NoiseRows
@@ -59,7 +60,7 @@ def events(capture: Capture, direction: Direction | None, block: int) -> Iterato
     if legal is not None:
         return search(capture.blocks(block), direction, legal)
     form = "hex" if capture.is_text else "raw"
-    return events_by_entry(read(capture, form=form, direction=direction), _ENTRIES)
+    return events_by_entry(read(CODEC, capture, form, direction), _ENTRIES)
 
 
 def _messages(frames: Frames) -> Batches:

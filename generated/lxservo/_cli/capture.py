@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from .._codec.hextext import HexError, is_hex, read_hex
-from .._recording.entry import NAMED
-from .._recording.form import log_lines
-from ..recordings import FORMS
+from .._library import CODEC
+from .._recording.ends import ends_of
+from .._recording.form import FORMS, log_lines
 from .recording import Recording, opened
 from .usage_error import UsageError
 
@@ -33,7 +33,7 @@ def add_capture(parser: ArgumentParser) -> None:
     parser.add_argument("--file", type=Path, metavar="FILE", help="a file, even if its name is hex")
     parser.add_argument(
         "--direction",
-        choices=[*NAMED, "any"],
+        choices=[*ends_of(CODEC).named, "any"],
         default="any",
         help="who sent the bytes, where they do not say so themselves (default: any)",
     )
@@ -47,7 +47,7 @@ def add_capture(parser: ArgumentParser) -> None:
 
 def direction_in(arguments: Namespace) -> Direction | None:
     """Return who sent the bytes, None for either."""
-    return NAMED.get(arguments.direction)
+    return ends_of(CODEC).named.get(arguments.direction)
 
 
 @contextmanager

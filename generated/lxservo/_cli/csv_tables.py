@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._frame.message import Message
+    from .._recording.entry import Entry
     from .._recording.layout import Column, Layout
-    from ..recordings import Entry
 
 # So many rows are held before they are written.
 _HELD = 20_000

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .._frame.direction import Direction
     from .._frame.message import Message
-    from ..recordings import Entry
+    from .._recording.entry import Entry
 
     _Said = TypeVar("_Said")
 

@@ -11,7 +11,8 @@ from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
 from .._frame.free_name import freely_named
 from .._frame.pluralize import pluralize
-from .._recording.entry import SENDERS
+from .._library import CODEC
+from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from .values import fields_as_text, fields_in_json
 
@@ -23,11 +24,11 @@ if TYPE_CHECKING:
     from .._codec.counters import Counters
     from .._frame.direction import Direction
     from .._frame.message import Message
-    from ..recordings import Entry
+    from .._recording.entry import Entry
 
 # Noise that has the shape of a frame.
 UNKNOWN = "unknown"
-KINDS = [*SENDERS, EITHER, NOISE, UNKNOWN]
+KINDS = [*ends_of(CODEC).senders, EITHER, NOISE, UNKNOWN]
 # What is said of an unknown frame beside its numbers: behind them, and all of it as JSON.
 _PARAMETERS = "parameters"
 _NOISE_KEYS = ["offset", "time", "from", "noise", "reason", _PARAMETERS]

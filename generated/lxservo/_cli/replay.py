@@ -13,9 +13,10 @@ from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._recording.entry import NAMED
+from .._library import CODEC
+from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
-from ..recordings import FORMS
+from .._recording.form import FORMS
 from . import link
 from .events import in_words
 from .exit_codes import DONE, INTERRUPTED
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterable, Iterator
 
-    from ..recordings import Entry
+    from .._recording.entry import Entry
 
 ENDS = link.ENDS
 ABOUT = """\
@@ -60,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dry-run", action="store_true", help="print what would be sent, and when")
     parser.add_argument(
         "--direction",
-        choices=[*NAMED, "any"],
+        choices=[*ends_of(CODEC).named, "any"],
         default="any",
         help="who sent the bytes, where the file does not say (default: any)",
     )
@@ -85,7 +86,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Send the chosen entries, or only print them."""
     port = "" if arguments.dry_run else port_of(arguments)
-    direction = NAMED.get(arguments.direction)
+    direction = ends_of(CODEC).named.get(arguments.direction)
     with opened(arguments.file) as given, rereadable(given) as recording:
         # All of it is checked before any of it is sent.
         count = _survey(recording.entries(arguments.format, direction), recording.name, arguments)
@@ -148,7 +149,7 @@ def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
             )
         return False
     if entry.sender is None and arguments.either is None:
-        names = [name for name, way in NAMED.items() if way.sender in own]
+        names = [name for name, way in ends_of(CODEC).named.items() if way.sender in own]
         raise UsageError(
             f"{name}, {entry.place}: it is {what}, and nothing shows who sent it; --either send "
             "sends such frames, --either skip leaves them out, and of a file that names no senders "

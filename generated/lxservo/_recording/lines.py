@@ -6,14 +6,12 @@ from __future__ import annotations
 import re
 from datetime import datetime
 
-from .._codec.codec import table_for, twins
-from .._codec.decoder import Event, StreamDecoder
 from .._codec.event_bytes import bytes_of
 from .._codec.hextext import HexError, read_hex
 from .._codec.noise import Noise
-from .._frame.direction import RECEIVED
 from .._frame.errors import Reason
-from .entry import SENDERS, WAYS, Entry, RecordingError
+from .ends import ends_of
+from .entry import Entry, RecordingError
 from .file import EITHER, NOISE
 from .form import LONGEST_LINE, TIMED_LINE, LogError
 
@@ -22,7 +20,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
     from typing import Any
 
+    from .._codec.decoder import Event, StreamDecoder
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
+    from .ends import Ends
     from .form import LogLines
 
 _BEGAN = re.compile(
@@ -31,8 +32,11 @@ _BEGAN = re.compile(
 _REASONS = {reason.value: reason for reason in Reason}
 
 
-def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Entry]:
+def recorded(
+    codec: ProtocolCodec, blocks: Iterable[str], direction: Direction | None
+) -> Iterator[Entry]:
     """Yield the entries of a recording; `direction` is of lines that name either end as sender."""
+    ends = ends_of(codec)
     began: float | None = None
     number = offset = 0
     for block in blocks:
@@ -50,18 +54,23 @@ def recorded(blocks: Iterable[str], direction: Direction | None) -> Iterator[Ent
                 data = read_hex(text)
             except HexError as error:
                 raise RecordingError(f"line {number}: {error}") from None
-            sender, is_noise = _sender(who, number, direction)
-            time = float(at)
-            for event in _events(data, sender, what.strip(), is_noise=is_noise):
-                yield Entry(event, sender, offset, line=number, time=time, began=began)
+            sender, is_noise = _sender(ends, who, number, direction)
+            way, time = ends.only[sender], float(at)
+            for event in _events(ends, data, sender, what.strip(), is_noise=is_noise):
+                yield Entry(
+                    event, sender, offset, line=number, time=time, began=began, direction=way
+                )
                 offset += len(bytes_of(event))
 
 
-def logged(blocks: Iterable[str], lines: LogLines, direction: Direction | None) -> Iterator[Entry]:
+def logged(
+    codec: ProtocolCodec, blocks: Iterable[str], lines: LogLines, direction: Direction | None
+) -> Iterator[Entry]:
     """Yield the entries of a log, in which what each end sends is one stream.
 
     TX is what this end sends, and RX what comes to it; `direction` is of lines that name neither.
     """
+    ends = ends_of(codec)
     streams: dict[str, tuple[StreamDecoder, str | None]] = {}
     offset = 0
     number = 0
@@ -75,15 +84,23 @@ def logged(blocks: Iterable[str], lines: LogLines, direction: Direction | None) 
                 except HexError as error:
                     raise RecordingError(f"line {number}: {error}") from None
                 if way not in streams:
-                    streams[way] = _stream_of(way, direction)
+                    streams[way] = _stream_of(ends, way, direction)
                 stream, who = streams[way]
                 for event in stream.feed(data):
-                    yield Entry(event, who or sender_of(event), offset, line=number, time=at)
+                    yield _of_stream(ends, event, who, offset, number, at)
                     offset += len(bytes_of(event))
     for stream, who in streams.values():
         for event in stream.flush():
-            yield Entry(event, who or sender_of(event), offset, line=number, time=at)
+            yield _of_stream(ends, event, who, offset, number, at)
             offset += len(bytes_of(event))
+
+
+def _of_stream(
+    ends: Ends, event: Event, who: str | None, offset: int, line: int, at: float | None
+) -> Entry:
+    """Return an entry of a stream of which `who` alone is known to send it, None for either."""
+    sender = who or sender_of(ends.codec, event)
+    return Entry(event, sender, offset, line=line, time=at, direction=ends.only[sender])
 
 
 def _logged_line(lines: LogLines, line: str, number: int) -> list[tuple[str, float | None, str]]:
@@ -93,18 +110,20 @@ def _logged_line(lines: LogLines, line: str, number: int) -> list[tuple[str, flo
         raise RecordingError(f"line {number}: {error}") from None
 
 
-def _stream_of(way: str, direction: Direction | None) -> tuple[StreamDecoder, str | None]:
+def _stream_of(
+    ends: Ends, way: str, direction: Direction | None
+) -> tuple[StreamDecoder, str | None]:
     """Return a decoder of what goes one way, and who sends it, None for either."""
-    who = {"tx": RECEIVED.receiver, "rx": RECEIVED.sender}.get(way)
+    codec = ends.codec
+    who = {"tx": codec.received.receiver, "rx": codec.received.sender}.get(way)
     if who is None:
-        return StreamDecoder(direction), None if direction is None else direction.sender
-    ways = WAYS[who]
-    return StreamDecoder(ways[0] if len(ways) == 1 else None), who
+        return codec.decoder(direction), None if direction is None else direction.sender
+    return codec.decoder(ends.only[who]), who
 
 
-def sender_of(event: Event) -> str | None:
+def sender_of(codec: ProtocolCodec, event: Event) -> str | None:
     """Return who alone sends such an event; None for noise, and for what either end may send."""
-    return None if isinstance(event, Noise) or twins(event) else event.DIRECTION.sender
+    return None if isinstance(event, Noise) or codec.twins(event) else event.DIRECTION.sender
 
 
 def _beginning(line: str, number: int, began: float | None) -> float | None:
@@ -130,33 +149,38 @@ def _beginning(line: str, number: int, began: float | None) -> float | None:
         return began
 
 
-def _sender(who: str, number: int, direction: Direction | None) -> tuple[str | None, bool]:
+def _sender(
+    ends: Ends, who: str, number: int, direction: Direction | None
+) -> tuple[str | None, bool]:
     """Return who sent a line, None for either, and whether it was noise. Raises RecordingError."""
     whose, _, last = who.rpartition(" ")
     if is_noise := last == NOISE:
         # A line without a sender came to this end: what a client sends is never noise.
-        who = whose or RECEIVED.sender
-    if who in SENDERS:
+        who = whose or ends.codec.received.sender
+    if who in ends.senders:
         return who, is_noise
     if who == EITHER:
         return (None if direction is None else direction.sender), is_noise
-    known = ", ".join([*SENDERS, EITHER, NOISE])
+    known = ", ".join([*ends.senders, EITHER, NOISE])
     raise RecordingError(f"line {number}: {who!r} is none of those who send: {known}")
 
 
-def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> list[Event]:
+def _events(
+    ends: Ends, data: bytes, sender: str | None, what: str, *, is_noise: bool
+) -> list[Event]:
     """Return the events of a line's bytes, as its sender's: one, or more if lines were joined.
 
     Bytes recorded as noise stay noise, even if they would be a message by themselves; save for a
     frame whose command was not known then.
     """
-    ways: Sequence[Direction | None] = [None] if sender is None else WAYS[sender]
+    ways: Sequence[Direction | None] = [None] if sender is None else ends.ways[sender]
+    codec = ends.codec
     for way in () if is_noise else ways:
-        message: Any = table_for(way).find(data)
+        message: Any = codec.table_for(way).find(data)
         if message is not None:
             return [message]
     # Of several ends that it may have been sent to, to the one that understands most of it.
-    events = min((_streamed(data, way) for way in ways), key=_noise_in)
+    events = min((_streamed(codec, data, way) for way in ways), key=_noise_in)
     if not is_noise:
         return events
     reason = _REASONS.get(what)
@@ -166,8 +190,8 @@ def _events(data: bytes, sender: str | None, what: str, *, is_noise: bool) -> li
     return [Noise(data, reason or (reasons or [Reason.BAD_HEADER])[0])] if data else []
 
 
-def _streamed(data: bytes, direction: Direction | None) -> list[Event]:
-    decoder = StreamDecoder(direction)
+def _streamed(codec: ProtocolCodec, data: bytes, direction: Direction | None) -> list[Event]:
+    decoder = codec.decoder(direction)
     return [*decoder.feed(data), *decoder.flush()]
 
 

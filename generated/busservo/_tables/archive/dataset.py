@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import pyarrow as pa
 
 from ..._frame.visible import visible
-from ...recordings import RecordingError
+from ..._recording.entry import RecordingError
 from ..files.parquet import ParquetFiles
 from .manifest import Manifest, ManifestError
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..._frame.visible import visible
-from ...recordings import RecordingError
+from ..._recording.entry import RecordingError
 from ..files.part import part_of
 from ..reader import BLOCK, batches
 from ..source import opened

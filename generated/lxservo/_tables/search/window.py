@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..._library import CODEC
 from ..._recording.layout import DIRECTIONS, REASON_NUMBERS, layouts
-from ...recordings import read
+from ..._recording.reader import read
 from ..by_entry import events_by_entry
 from ..events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
 from ..places import find_all
@@ -89,7 +90,7 @@ class _Window:
         headers = find_all(data, self._header)
         rest = int(headers[0]) if len(headers) else len(data)
         yield self._events(no_chain(), _NOTHING, _NOTHING, rest)
-        entries = read(io.BytesIO(self._data.tobytes()), form="raw", direction=self._direction)
+        entries = read(CODEC, io.BytesIO(self._data.tobytes()), "raw", self._direction)
         for events in events_by_entry(entries, _ALL):
             yield events.moved(self._offset)
 

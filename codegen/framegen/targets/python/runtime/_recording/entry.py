@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from .._codec.decoder import Event
 from .._codec.noise import Noise
 from .._frame.direction import Direction
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import typing_extensions as typing
+
+    from .._codec.decoder import Event
 else:
     from .._frame.typing_later import typing
-
-SENDERS = list(dict.fromkeys(way.sender for way in Direction))
-WAYS = {who: [way for way in Direction if way.sender == who] for who in SENDERS}
-"""The directions in which each end sends: several where it talks to several others."""
-NAMED = {way.sender if len(WAYS[way.sender]) == 1 else way.value: way for way in Direction}
-"""The directions as they are asked for: by the sender alone where that is enough."""
 
 
 class RecordingError(ValueError):
@@ -46,22 +41,16 @@ class Entry:
         began: float | None = None,
         direction: Direction | None = None,
     ) -> None:
+        if direction is None and sender is not None and not isinstance(event, Noise):
+            # Of noise, nothing says where it went.
+            direction = event.DIRECTION
         self.event: Event = event
         self.sender = sender
         self.offset = offset
         self.line = line
         self.time = time
         self.began = began
-        self.direction: Direction | None = direction or self._only_way()
-
-    def _only_way(self) -> Direction | None:
-        """Return the way that the sender sends such an event; None where there are several."""
-        if self.sender is None:
-            return None
-        if not isinstance(self.event, Noise):
-            return self.event.DIRECTION
-        ways = WAYS[self.sender]
-        return ways[0] if len(ways) == 1 else None
+        self.direction: Direction | None = direction
 
     @property
     def place(self) -> str:
