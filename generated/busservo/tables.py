@@ -10,20 +10,21 @@ It needs NumPy and PyArrow, which the extra `tables` of this package brings.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+
+import pyarrow as pa
 
 from ._frame.direction import Direction
+from ._library import CODEC
 from ._recording.layout import NOISE
-from ._tables.archive.cuts import safe_cuts
+from ._tables import captures
+from ._tables.archive import cuts, pieces
 from ._tables.archive.dataset import Report, archive
-from ._tables.archive.pieces import PIECE, Piece, scan
-from ._tables.files.arrow_file import arrow_written, names_in, refuse_target
-from ._tables.files.parquet import parquet_written
-from ._tables.files.rereading import rereadable
-from ._tables.reader import BLOCK, Batches, batches
-from ._tables.schema import schemas
+from ._tables.archive.pieces import PIECE
+from ._tables.reader import BLOCK, Batches
+from ._tables.schema import schemas_of
 from ._tables.source import Source
-from ._tables.tables import Tables, gathered
+from ._tables.tables import Tables
 
 __all__ = [
     "BLOCK",
@@ -45,6 +46,19 @@ __all__ = [
 ]
 
 
+class Piece(pieces.Piece):
+    """A stretch of a capture, from its byte `start` to `end`, which holds whole events.
+
+    `path` is absolute; `capture` is the name below the folder that was scanned. `form` is "raw" or
+    "hex", "auto" if the file could not be read. `stamp` is the size of the file and the time, in
+    nanoseconds, at which it was written last: a file that has another when it is read has changed.
+    """
+
+    __slots__ = ()
+
+    codec = CODEC
+
+
 def read(source: Source, *, form: str = "auto", direction: Direction | None = None) -> Tables:
     """Read a capture into memory, as one table a message, and one of noise.
 
@@ -56,7 +70,7 @@ def read(source: Source, *, form: str = "auto", direction: Direction | None = No
     RecordingError for text that makes no sense, OSError for a file that cannot be read, and
     TypeError for a source that is no bytes.
     """
-    return gathered(batches(source, form, direction))
+    return captures.read(CODEC, source, form, direction)
 
 
 def read_batches(
@@ -72,9 +86,7 @@ def read_batches(
     empty. The batches of a table, one after the other, are the table that `read` returns.
     Raises as `read` does, and ValueError for a block of less than a byte.
     """
-    if block < 1:
-        raise ValueError(f"block: {block} is below 1, the least there can be")
-    return batches(source, form, direction, block)
+    return captures.read_batches(CODEC, source, form, direction, block)
 
 
 def write_parquet(
@@ -90,7 +102,7 @@ def write_parquet(
     Raises FileExistsError if it holds anything else, RecordingError and OSError as `read`, and
     leaves no file half-written.
     """
-    return parquet_written(batches(source, form, direction), folder)
+    return captures.write_parquet(CODEC, source, folder, form, direction)
 
 
 def write_arrow(
@@ -108,7 +120,48 @@ def write_arrow(
     is there and no Arrow file, RecordingError and OSError as `read`, and leaves no file
     half-written.
     """
-    refuse_target(file)
-    with rereadable(source) as again:
-        names = names_in(again(), form, direction)
-        return arrow_written(batches(again(), form, direction), file, names)
+    return captures.write_arrow(CODEC, source, file, form, direction)
+
+
+def schemas() -> dict[str, pa.Schema]:
+    """Return the schema of each table, by name: one a message, and `noise`."""
+    return schemas_of(CODEC).every()
+
+
+def safe_cuts(
+    file: str | os.PathLike[str] | bytes | bytearray | memoryview,
+    size: int,
+    *,
+    direction: Direction | None = None,
+) -> list[int]:
+    """Return places of a raw capture, about `size` bytes apart, where any decoder holds nothing.
+
+    `file` is its name, or its bytes, as a memory map. A decoder that began at the beginning of the
+    capture, or at an earlier one of these places, has emitted all that is in front of each. They
+    are found by a few frames around them. Where noise leaves no such place, the next is further
+    away. Raises OSError for a file that cannot be read, and ValueError for a size below 1.
+    """
+    return cuts.safe_cuts(CODEC, file, size, direction)
+
+
+def scan(
+    paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+    *,
+    size: int = PIECE,
+    form: str = "auto",
+    direction: Direction | None = None,
+) -> list[Piece]:
+    """Return the pieces of captures: independent work for any number of processes or machines.
+
+    `paths` are files, patterns such as "captures/*.bin", and folders, or one of these. Of a folder
+    all files are taken, and of those in it, but hidden ones and datasets. Raw captures are cut
+    about every `size` bytes, where any decoder holds nothing; text recordings are one piece each.
+    `form` and `direction` are as in `read`. A file that cannot be read, or is not there, is a piece
+    whose work says so.
+
+    Links are followed to files of the folder alone, and not to folders: a link that leads out of
+    what is scanned is no capture of it, unless it is named itself.
+
+    Captures are named below the folder that is scanned, or that holds all that is scanned.
+    """
+    return pieces.scan(Piece, paths, size, form, direction)

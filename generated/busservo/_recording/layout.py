@@ -7,22 +7,20 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
-from .._codec.codec import table_for
-from .._explanation.carried_model import classes, protocol
-from .._frame.direction import Direction
+from .._explanation.carried_model import classes
 from .._frame.errors import Reason
 from .._frame.free_name import free_name
-from ..messages import MESSAGES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._explanation.protocol import Message as Described
     from .._explanation.protocol import Protocol, Slot
+    from .._frame.direction import Direction
     from .._frame.message import Message
 
-# Arrays hold directions and reasons as indices into these.
-DIRECTIONS = tuple(Direction)
+# Arrays hold reasons as indices into these.
 REASONS = tuple(Reason)
 # By name: a protocol has only the reasons that it needs.
 REASON_NUMBERS = {reason.name: number for number, reason in enumerate(REASONS)}
@@ -39,21 +37,20 @@ _GIVEN = ("field", "text", "packed", "list", "address", "counter")
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """One message: its class, which is so many in MESSAGES, and its slots as the model has them."""
+    """One message: its class, and its slots as the model has them.
+
+    `number` is its place among all messages, and `direction` that of its own among all directions.
+    """
 
     number: int
     kind: type[Message]
+    direction: int
     described: Described
 
     @property
     def name(self) -> str:
         """The name of its class, and of its table."""
         return self.kind.__name__
-
-    @property
-    def direction(self) -> int:
-        """Its direction, an index into DIRECTIONS."""
-        return DIRECTIONS.index(self.kind.DIRECTION)
 
     @property
     def tail_size(self) -> int:
@@ -101,41 +98,55 @@ def _attribute(name: str, given: Sequence[str]) -> str:
     return name if name in given else f"{name}_"
 
 
-def messages_on(direction: Direction | None) -> list[Layout]:
-    """Return the messages of one direction, or of both; in the order in which decoders try them."""
-    by_kind = {each.kind: each for each in layouts()}
-    return [by_kind[kind] for kind in table_for(direction).messages]
+class Layouts:
+    """All messages of a protocol, as tables need them.
+
+    Arrays hold messages and directions as indices: into `every`, and into `directions`.
+    """
+
+    def __init__(self, codec: ProtocolCodec) -> None:
+        self._codec = codec
+        self.directions: tuple[Direction, ...] = tuple(codec.directions)
+
+    @cached_property
+    def described(self) -> Protocol:
+        """The model of the protocol; read once."""
+        return self._codec.protocol()
+
+    @cached_property
+    def every(self) -> tuple[Layout, ...]:
+        """All messages, in the order in which they are declared."""
+        model = self.described
+        names = {there: name for name, there in classes(model).items()}
+        ways = {way: at for at, way in enumerate(self.directions)}
+        return tuple(
+            Layout(number, kind, ways[kind.DIRECTION], model.messages[names[kind.__name__]])
+            for number, kind in enumerate(self._codec.messages)
+        )
+
+    def on(self, direction: Direction | None) -> list[Layout]:
+        """Return the messages of one direction, or of both, in the order in which all try them."""
+        by_kind = {each.kind: each for each in self.every}
+        return [by_kind[kind] for kind in self._codec.table_for(direction).messages]
+
+    @property
+    def names(self) -> list[str]:
+        """The names of all tables: one a message, and that of noise."""
+        return [*(each.name for each in self.every), NOISE]
+
+    @cached_property
+    def unknown_columns(self) -> dict[str, tuple[str, int]]:
+        """Columns and sizes of the numbers that tell unknown frames apart, by their names."""
+        sizes: dict[str, int] = {}
+        for envelope in self.described.envelopes.values():
+            for slot in envelope.slots:
+                if slot.role in ("address", "id"):
+                    sizes[slot.name] = max(slot.size, sizes.get(slot.name, 0))
+        taken = (*EVENT_COLUMNS, REASON_COLUMN, UNKNOWN_COLUMN, PARAMETERS)
+        return {name: (free_name(name, taken), size) for name, size in sizes.items()}
 
 
 @cache
-def described() -> Protocol:
-    """Return the model of the protocol; read once."""
-    return protocol(__name__.partition("._recording")[0])
-
-
-@cache
-def layouts() -> tuple[Layout, ...]:
-    """Return all messages, in the order of MESSAGES."""
-    model = described()
-    names = {there: name for name, there in classes(model).items()}
-    return tuple(
-        Layout(number, kind, model.messages[names[kind.__name__]])
-        for number, kind in enumerate(MESSAGES)
-    )
-
-
-def table_names() -> list[str]:
-    """Return the names of all tables: one a message, and that of noise."""
-    return [*(each.name for each in layouts()), NOISE]
-
-
-@cache
-def unknown_columns() -> dict[str, tuple[str, int]]:
-    """Return columns and sizes of the numbers that tell unknown frames apart, by their names."""
-    sizes: dict[str, int] = {}
-    for envelope in described().envelopes.values():
-        for slot in envelope.slots:
-            if slot.role in ("address", "id"):
-                sizes[slot.name] = max(slot.size, sizes.get(slot.name, 0))
-    taken = (*EVENT_COLUMNS, REASON_COLUMN, UNKNOWN_COLUMN, PARAMETERS)
-    return {name: (free_name(name, taken), size) for name, size in sizes.items()}
+def layouts_of(codec: ProtocolCodec) -> Layouts:
+    """Return the messages of a protocol; made once."""
+    return Layouts(codec)

@@ -7,10 +7,8 @@ import errno
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from .layout import table_names
-
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
 UNFINISHED = ".part"
@@ -18,9 +16,10 @@ UNFINISHED = ".part"
 
 
 class TableFolder:
-    """The files FOLDER/<Table> and a suffix, such as `.csv`."""
+    """The files FOLDER/<Table> and a suffix, such as `.csv`, of the tables of these names."""
 
-    def __init__(self, folder: Path, suffix: str) -> None:
+    def __init__(self, names: Sequence[str], folder: Path, suffix: str) -> None:
+        self._names = names
         self._folder = folder
         self._suffix = suffix
 
@@ -43,14 +42,14 @@ class TableFolder:
         try:
             yield written
         except BaseException:
-            for name in table_names():
+            for name in self._names:
                 with suppress(OSError):
                     self.unfinished(name).unlink(missing_ok=True)
             if is_new:
                 with suppress(OSError):
                     self._folder.rmdir()
             raise
-        for name in table_names():
+        for name in self._names:
             path = self._folder / f"{name}{self._suffix}"
             if name in written:
                 self.unfinished(name).replace(path)
@@ -62,7 +61,7 @@ class TableFolder:
         """Raise FileExistsError if the folder holds what was not written here."""
         if not self._folder.exists():
             return
-        ours = {f"{name}{self._suffix}{end}" for name in table_names() for end in ("", UNFINISHED)}
+        ours = {f"{name}{self._suffix}{end}" for name in self._names for end in ("", UNFINISHED)}
         others = sorted({each.name for each in self._folder.iterdir()} - ours)
         if others:
             problem = f"it holds {others[0]!r}, which is no table of a capture: name another folder"

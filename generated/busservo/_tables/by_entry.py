@@ -10,30 +10,28 @@ import numpy as np
 
 from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
-from .._recording.layout import DIRECTIONS, REASON_NUMBERS
-from ..messages import MESSAGES
+from .._recording.layout import REASON_NUMBERS
 from .events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
-    from .._frame.message import Message
     from .._recording.entry import Entry
     from .events import Seconds
 
-_KINDS: dict[type[object], int] = {kind: number for number, kind in enumerate(MESSAGES)}
-_DIRECTIONS: dict[Direction | None, int] = {way: at for at, way in enumerate(DIRECTIONS)}
-_DIRECTIONS[None] = UNKNOWN_SENDER
 
-
-def events_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Events]:
+def events_by_entry(codec: ProtocolCodec, entries: Iterator[Entry], many: int) -> Iterator[Events]:
     """Yield what the entries of a recording hold, so many entries at once.
 
     Noise at the end of one stretch may go on in the next.
     """
+    kinds: dict[type[object], int] = {kind: at for at, kind in enumerate(codec.messages)}
+    ways: dict[Direction | None, int] = {way: at for at, way in enumerate(codec.directions)}
+    ways[None] = UNKNOWN_SENDER
     while True:
-        frames, runs = _Rows(), _Rows()
+        frames, runs = _Rows(ways), _Rows(ways)
         is_unknown: list[bool] = []
         for entry in islice(entries, many):
             event = entry.event
@@ -41,7 +39,7 @@ def events_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Events]:
                 runs.add(entry, REASON_NUMBERS[event.reason.name])
                 is_unknown.append(isinstance(event, UnknownFrame))
             else:
-                frames.add(entry, _kind_of(event))
+                frames.add(entry, kinds[type(event)])
         if not frames.data and not runs.data:
             return
         yield Events(_frames(frames), _runs(runs, is_unknown), max(frames.end, runs.end))
@@ -50,7 +48,8 @@ def events_by_entry(entries: Iterator[Entry], many: int) -> Iterator[Events]:
 class _Rows:
     """Columns that grow: objects that are not kept need not be collected either."""
 
-    def __init__(self) -> None:
+    def __init__(self, ways: dict[Direction | None, int]) -> None:
+        self._ways = ways
         self.data: list[bytes] = []
         self.offset: list[int] = []
         self.what: list[int] = []
@@ -64,7 +63,7 @@ class _Rows:
         self.data.append(bytes_of(entry.event))
         self.offset.append(entry.offset)
         self.what.append(what)
-        self.direction.append(_DIRECTIONS[entry.direction])
+        self.direction.append(self._ways[entry.direction])
         self.time.append(np.nan if time is None else time)
         self.clock.append(np.nan if time is None or began is None else began + time)
 
@@ -72,10 +71,6 @@ class _Rows:
     def end(self) -> int:
         """Where the last one ends."""
         return self.offset[-1] + len(self.data[-1]) if self.data else 0
-
-
-def _kind_of(message: Message) -> int:
-    return _KINDS[type(message)]
 
 
 def _frames(rows: _Rows) -> Frames:

@@ -12,16 +12,18 @@ import pyarrow as pa
 from .._codec.noise import UnknownFrame
 from .._frame.errors import Reason
 from .columns import event_columns
-from .schema import REASON, noise_schema, unknown_numbers
+from .schema import REASON_NAMES
 
 if TYPE_CHECKING:
     from .events import NoiseRuns
+    from .schema import Schemas
 
 
 class NoiseRows:
     """The rows of the table of noise, of one capture; noise that may go on is held back."""
 
-    def __init__(self) -> None:
+    def __init__(self, schemas: Schemas) -> None:
+        self._schemas = schemas
         self._held: NoiseRuns | None = None
 
     def add(self, runs: NoiseRuns, end: int) -> pa.RecordBatch | None:
@@ -32,12 +34,33 @@ class NoiseRows:
         if count and joined.offset[-1] + joined.size[-1] == end:
             certain -= 1
         self._held = joined.chosen(np.arange(certain, count)) if certain < count else None
-        return _batch(joined.chosen(np.arange(certain))) if certain else None
+        return self._batch(joined.chosen(np.arange(certain))) if certain else None
 
     def end(self) -> pa.RecordBatch | None:
         """Return the last row."""
         held, self._held = self._held, None
-        return None if held is None else _batch(held)
+        return None if held is None else self._batch(held)
+
+    def _batch(self, runs: NoiseRuns) -> pa.RecordBatch:
+        frames = [
+            None if frame is None else UnknownFrame(frame, Reason.UNKNOWN_COMMAND)
+            for frame in runs.frame
+        ]
+        numbers = [None if frame is None else frame.numbers for frame in frames]
+        reasons = pa.DictionaryArray.from_arrays(
+            pa.array(runs.reason.astype(np.int8)), REASON_NAMES
+        )
+        columns: list[pa.Array] = [
+            *event_columns(self._schemas, runs),
+            reasons,
+            pa.array([frame is not None for frame in frames]),
+        ]
+        for name, (_, kind) in self._schemas.unknown_numbers.items():
+            values = [None if each is None else each.get(name) for each in numbers]
+            columns.append(pa.array(values, kind))
+        parameters = [None if frame is None else frame.parameters for frame in frames]
+        columns.append(pa.array(parameters, pa.binary()))
+        return pa.RecordBatch.from_arrays(columns, schema=self._schemas.noise)
 
 
 def _joined(runs: NoiseRuns) -> NoiseRuns:
@@ -46,23 +69,3 @@ def _joined(runs: NoiseRuns) -> NoiseRuns:
         return runs
     first = np.flatnonzero(~runs.goes_on)
     return replace(runs.chosen(first), size=np.add.reduceat(runs.size, first))
-
-
-def _batch(runs: NoiseRuns) -> pa.RecordBatch:
-    frames = [
-        None if frame is None else UnknownFrame(frame, Reason.UNKNOWN_COMMAND)
-        for frame in runs.frame
-    ]
-    numbers = [None if frame is None else frame.numbers for frame in frames]
-    reasons = pa.DictionaryArray.from_arrays(pa.array(runs.reason.astype(np.int8)), REASON.names)
-    columns: list[pa.Array] = [
-        *event_columns(runs),
-        reasons,
-        pa.array([frame is not None for frame in frames]),
-    ]
-    for name, (_, kind) in unknown_numbers().items():
-        values = [None if each is None else each.get(name) for each in numbers]
-        columns.append(pa.array(values, kind))
-    parameters = [None if frame is None else frame.parameters for frame in frames]
-    columns.append(pa.array(parameters, pa.binary()))
-    return pa.RecordBatch.from_arrays(columns, schema=noise_schema())

@@ -8,6 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .._library import CODEC
+from .._recording.layout import layouts_of
 from .._tables.stats.plot import drawing
 from .usage_error import UsageError
 
@@ -19,8 +21,9 @@ if TYPE_CHECKING:
 
 def drawn(traces: Traces, file: Path, name: str, baud: float) -> Iterator[str]:
     """Draw into a file, and yield what was left out, in words. Raises UsageError."""
+    title = f"{Path(name).name}: {layouts_of(CODEC).described.title}"
     try:
-        data, left_out = drawing(traces, file.suffix.lower(), Path(name).name, baud)
+        data, left_out = drawing(traces, file.suffix.lower(), title, baud)
     except ValueError as error:
         raise UsageError(f"{file} is not drawn: {error}") from None
     _write(file, data)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._library import CODEC, LINK
 from .._recording.excerpt import ExcerptError
 from .._tables.stats.statistics import Statistics, statistics
 from .._tables.stats.traces import Traces
@@ -25,9 +26,12 @@ def measured(
 
     Raises UsageError.
     """
-    traces = None if arguments.plot is None else Traces(arguments.baud)
+    traces = None
+    if arguments.plot is not None:
+        traces = Traces(LINK.bits_per_byte / arguments.baud, CODEC.received)
     try:
         found = statistics(
+            CODEC,
             recording,
             form=form,
             direction=direction_in(arguments),

@@ -11,7 +11,7 @@ import pyarrow as pa
 
 from .events import UNKNOWN_SENDER
 from .places import read_blocks, read_numbers, steps
-from .schema import CLOCK, DIRECTION, arrow_type, schema_of
+from .schema import CLOCK, arrow_type
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,13 +19,14 @@ if TYPE_CHECKING:
     from .._explanation.protocol import Slot
     from .._recording.layout import Column, Layout
     from .events import Frames, NoiseRuns, Numbers, Seconds
+    from .schema import Schemas
 
 
-def batch_of(layout: Layout, frames: Frames) -> pa.RecordBatch:
+def batch_of(schemas: Schemas, layout: Layout, frames: Frames) -> pa.RecordBatch:
     """Return the frames of one message as a record batch."""
     fields = [field_array(layout, frames, column) for column in layout.columns]
-    columns = [*event_columns(frames), *fields]
-    return pa.RecordBatch.from_arrays(columns, schema=schema_of(layout))
+    columns = [*event_columns(schemas, frames), *fields]
+    return pa.RecordBatch.from_arrays(columns, schema=schemas.of(layout))
 
 
 def field_array(layout: Layout, frames: Frames, column: Column) -> pa.Array:
@@ -33,21 +34,21 @@ def field_array(layout: Layout, frames: Frames, column: Column) -> pa.Array:
     return _Column(layout, frames, column).array
 
 
-def event_columns(events: Frames | NoiseRuns) -> list[pa.Array]:
+def event_columns(schemas: Schemas, events: Frames | NoiseRuns) -> list[pa.Array]:
     """Return what is known of each event, whatever it is."""
     return [
         pa.array(events.offset),
         pa.array(events.size.astype(np.uint32, copy=False)),
-        _directions(events.direction),
+        _directions(schemas, events.direction),
         _time(events.time, len(events.offset)),
         _clock(events.clock, len(events.offset)),
     ]
 
 
-def _directions(numbers: NDArray[np.int8]) -> pa.Array:
+def _directions(schemas: Schemas, numbers: NDArray[np.int8]) -> pa.Array:
     is_unknown = numbers == UNKNOWN_SENDER
     known = pa.array(numbers, mask=is_unknown if is_unknown.any() else None)
-    return pa.DictionaryArray.from_arrays(known, DIRECTION.names)
+    return pa.DictionaryArray.from_arrays(known, schemas.direction_names)
 
 
 def _time(seconds: Seconds | None, count: int) -> pa.Array:

@@ -4,39 +4,30 @@
 from __future__ import annotations
 
 import json
-from functools import cache
-from typing import TYPE_CHECKING, Any, Final
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
 
 from .._recording.layout import (
-    DIRECTIONS,
     NOISE,
     PARAMETERS,
     REASON_COLUMN,
     REASONS,
     UNKNOWN_COLUMN,
-    described,
-    layouts,
-    unknown_columns,
+    layouts_of,
 )
 from .places import dtype_of
 
 if TYPE_CHECKING:
+    from .._codec.protocol_codec import ProtocolCodec
     from .._explanation.protocol import Slot
-    from .._recording.layout import Column, Layout
+    from .._recording.layout import Column, Layout, Layouts
 
 
-class _Names:
-    """A column of few names, each held once."""
-
-    def __init__(self, names: list[str]) -> None:
-        self.names: Final = pa.array(names, pa.string())
-        self.type: Final = pa.dictionary(pa.int8(), pa.string())
-
-
-DIRECTION = _Names([each.value for each in DIRECTIONS])
-REASON = _Names([each.value for each in REASONS])
+# Of a column of few names, each is held once.
+_NAMES = pa.dictionary(pa.int8(), pa.string())
+REASON_NAMES = pa.array([each.value for each in REASONS], pa.string())
 CLOCK = pa.timestamp("us", tz="UTC")
 
 _EVENT: tuple[tuple[str, pa.DataType, dict[str, str]], ...] = (
@@ -46,62 +37,82 @@ _EVENT: tuple[tuple[str, pa.DataType, dict[str, str]], ...] = (
         {"about": "The byte of the capture at which it begins.", "unit": "byte"},
     ),
     ("size", pa.uint32(), {"about": "How many bytes it has.", "unit": "byte"}),
-    ("direction", DIRECTION.type, {"about": "Who sent it to whom, where that is known."}),
+    ("direction", _NAMES, {"about": "Who sent it to whom, where that is known."}),
     ("time", pa.float64(), {"about": "When it came, since the recording began.", "unit": "s"}),
     ("clock", CLOCK, {"about": "The time of day at which it came."}),
 )
 
 
-def schemas() -> dict[str, pa.Schema]:
-    """Return the schema of each table, by name: one a message, and `noise`."""
-    return {each.name: schema_of(each) for each in layouts()} | {NOISE: noise_schema()}
+class Schemas:
+    """The schemas of the tables of a protocol.
+
+    `direction_names` are the names of the directions, in their order.
+    """
+
+    def __init__(self, layouts: Layouts) -> None:
+        self.layouts = layouts
+        self.direction_names = pa.array([each.value for each in layouts.directions], pa.string())
+        self._made: dict[Layout, pa.Schema] = {}
+
+    def every(self) -> dict[str, pa.Schema]:
+        """Return the schema of each table, by name: one a message, and `noise`."""
+        return {each.name: self.of(each) for each in self.layouts.every} | {NOISE: self.noise}
+
+    def of(self, layout: Layout) -> pa.Schema:
+        """Return the schema of the table of one message; made once."""
+        made = self._made.get(layout)
+        if made is None:
+            made = self._made[layout] = self._schema_of(layout)
+        return made
+
+    def _schema_of(self, layout: Layout) -> pa.Schema:
+        fields = [
+            _field(each.name, arrow_type(layout, each), _said_of(each)) for each in layout.columns
+        ]
+        about = {
+            "message": layout.name,
+            "summary": str(layout.described.said["summary"]),
+            "direction": layout.kind.DIRECTION.value,
+            "protocol": self.layouts.described.title,
+        }
+        return pa.schema([*_event_fields(), *fields], metadata=about)
+
+    @cached_property
+    def noise(self) -> pa.Schema:
+        """The schema of the table of noise and unknown frames."""
+        numbers = [
+            _field(column, kind, {"about": "Of an unknown frame."})
+            for column, kind in self.unknown_numbers.values()
+        ]
+        is_unknown = {"about": "Whether it is a frame that is not known."}
+        return pa.schema(
+            [
+                *_event_fields(),
+                _field(REASON_COLUMN, _NAMES, {"about": "Why it is no message."}),
+                _field(UNKNOWN_COLUMN, pa.bool_(), is_unknown),
+                *numbers,
+                _field(PARAMETERS, pa.binary(), {"about": "The fields of an unknown frame."}),
+            ],
+            metadata={
+                "summary": "Noise and unknown frames.",
+                "protocol": self.layouts.described.title,
+            },
+        )
+
+    @cached_property
+    def unknown_numbers(self) -> dict[str, tuple[str, pa.DataType]]:
+        """Columns and types of the numbers that tell unknown frames apart, by their names."""
+        # None is negative, and one of eight bytes needs all of its bits.
+        return {
+            name: (column, pa.uint64() if size == 8 else pa.int64())
+            for name, (column, size) in self.layouts.unknown_columns.items()
+        }
 
 
 @cache
-def schema_of(layout: Layout) -> pa.Schema:
-    """Return the schema of the table of one message."""
-    fields = [
-        _field(each.name, arrow_type(layout, each), _said_of(each)) for each in layout.columns
-    ]
-    said = layout.described.said
-    about = {
-        "message": layout.name,
-        "summary": str(said["summary"]),
-        "direction": layout.kind.DIRECTION.value,
-        "protocol": described().title,
-    }
-    return pa.schema([*_event_fields(), *fields], metadata=about)
-
-
-@cache
-def noise_schema() -> pa.Schema:
-    """Return the schema of the table of noise and unknown frames."""
-    numbers = [
-        _field(column, kind, {"about": "Of an unknown frame."})
-        for column, kind in unknown_numbers().values()
-    ]
-    return pa.schema(
-        [
-            *_event_fields(),
-            _field(REASON_COLUMN, REASON.type, {"about": "Why it is no message."}),
-            _field(
-                UNKNOWN_COLUMN, pa.bool_(), {"about": "Whether it is a frame that is not known."}
-            ),
-            *numbers,
-            _field(PARAMETERS, pa.binary(), {"about": "The fields of an unknown frame."}),
-        ],
-        metadata={"summary": "Noise and unknown frames.", "protocol": described().title},
-    )
-
-
-@cache
-def unknown_numbers() -> dict[str, tuple[str, pa.DataType]]:
-    """Return columns and types of the numbers that tell unknown frames apart, by their names."""
-    # None is negative, and one of eight bytes needs all of its bits.
-    return {
-        name: (column, pa.uint64() if size == 8 else pa.int64())
-        for name, (column, size) in unknown_columns().items()
-    }
+def schemas_of(codec: ProtocolCodec) -> Schemas:
+    """Return the schemas of the tables of a protocol; made once."""
+    return Schemas(layouts_of(codec))
 
 
 def arrow_type(layout: Layout, column: Column) -> Any:

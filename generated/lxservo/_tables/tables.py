@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 import pyarrow as pa
 
-from .schema import schemas
-
 if TYPE_CHECKING:
     from .reader import Batches
+    from .schema import Schemas
 
 
 class Tables(Mapping[str, pa.Table]):
@@ -54,15 +53,13 @@ class Tables(Mapping[str, pa.Table]):
         return f"<table><tr><th>table</th><th>rows</th></tr>{rows}</table>"
 
 
-def gathered(batches: Iterable[Batches]) -> Tables:
+def gathered(schemas: Schemas, batches: Iterable[Batches]) -> Tables:
     """Return all batches, table by table."""
-    parts: dict[str, list[pa.RecordBatch]] = {name: [] for name in schemas()}
+    every = schemas.every()
+    parts: dict[str, list[pa.RecordBatch]] = {name: [] for name in every}
     for made in batches:
         for name, batch in made.items():
             parts[name].append(batch)
     return Tables(
-        {
-            name: pa.Table.from_batches(parts[name], schema=schema)
-            for name, schema in schemas().items()
-        }
+        {name: pa.Table.from_batches(parts[name], schema=schema) for name, schema in every.items()}
     )

@@ -222,7 +222,7 @@ TABLES_LAYERS = [
     {"noise_rows"},
     {"reader"},
     {"tables", "files", "stats"},
-    {"archive"},
+    {"archive", "captures"},
     {"__init__"},
 ]
 TABLES = [path.relative_to("_tables") for path in PARTS if path.parts[0] == "_tables"]

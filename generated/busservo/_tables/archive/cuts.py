@@ -20,8 +20,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._codec.codec import table_for
-from ..._codec.decoder import StreamDecoder
 from ..._codec.event_bytes import bytes_of
 from ..._codec.noise import Noise
 from ..places import find_all
@@ -30,6 +28,7 @@ from ..search.searchable import frames_on
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..._frame.message import Message
     from ..events import Bytes
@@ -44,34 +43,35 @@ _TRIED = 1 << 10
 
 
 def safe_cuts(
+    codec: ProtocolCodec,
     file: str | os.PathLike[str] | bytes | bytearray | memoryview,
     size: int,
-    *,
-    direction: Direction | None = None,
+    direction: Direction | None,
 ) -> list[int]:
     """Return places of a raw capture, about `size` bytes apart, where any decoder holds nothing.
 
-    `file` is its name, or its bytes, as a memory map. A decoder that began at the beginning of the
-    capture, or at an earlier one of these places, has emitted all that is in front of each. They
-    are found by a few frames around them. Where noise leaves no such place, the next is further
-    away. Raises OSError for a file that cannot be read, and ValueError for a size below 1.
+    Raises OSError for a file that cannot be read, and ValueError for a size below 1.
     """
     if size < 1:
         raise ValueError(f"size is {size}, and a piece has at least 1 byte")
     if not isinstance(file, (str, os.PathLike)):
         held = memoryview(file).cast("B")
-        return [*_cuts(lambda start, end: bytes(held[start:end]), len(held), size, direction)]
+        return [
+            *_cuts(codec, lambda start, end: bytes(held[start:end]), len(held), size, direction)
+        ]
     with Path(file).open("rb", buffering=0) as stream:
 
         def read(start: int, end: int) -> bytes:
             stream.seek(start)
             return stream.read(end - start)
 
-        return [*_cuts(read, stream.seek(0, os.SEEK_END), size, direction)]
+        return [*_cuts(codec, read, stream.seek(0, os.SEEK_END), size, direction)]
 
 
-def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> Iterator[int]:
-    largest, proven = _prover(direction) if size < length else (0, None)
+def _cuts(
+    codec: ProtocolCodec, read: Read, length: int, size: int, direction: Direction | None
+) -> Iterator[int]:
+    largest, proven = _prover(codec, direction) if size < length else (0, None)
     if proven is None:
         return
     about = size
@@ -82,13 +82,15 @@ def _cuts(read: Read, length: int, size: int, direction: Direction | None) -> It
         about = max(about + size, searched + 1) if place is None else place + size
 
 
-def _prover(direction: Direction | None) -> tuple[int, _Proven | _Tried | None]:
+def _prover(
+    codec: ProtocolCodec, direction: Direction | None
+) -> tuple[int, _Proven | _Tried | None]:
     """Return the size of the largest frame on a line, and what proves its places, if anything."""
-    largest, legal = table_for(direction).largest, frames_on(direction)
+    largest, legal = codec.table_for(direction).largest, frames_on(codec, direction)
     if legal is not None:
         return largest, _Proven(legal)
     # There is no frame at all where nothing is sent.
-    return largest, _Tried(direction, largest) if 0 < largest <= _TRIED else None
+    return largest, _Tried(codec, direction, largest) if 0 < largest <= _TRIED else None
 
 
 def _place_near(
@@ -133,7 +135,8 @@ class _Proven:
 class _Tried:
     """Frames of other protocols: a decoder tries each place from which one may come to a frame."""
 
-    def __init__(self, direction: Direction | None, largest: int) -> None:
+    def __init__(self, codec: ProtocolCodec, direction: Direction | None, largest: int) -> None:
+        self._codec = codec
         self._direction = direction
         self._largest = largest
         # To try a frame takes time.
@@ -141,7 +144,7 @@ class _Tried:
 
     def ends(self, data: bytes, about: int) -> Iterator[int]:
         """Yield safe places from `about` on."""
-        events: Sequence[Message | Noise] = StreamDecoder(self._direction).feed(data)
+        events: Sequence[Message | Noise] = self._codec.decoder(self._direction).feed(data)
         sizes = [len(bytes_of(each)) for each in events]
         for event, size, end in zip(events, sizes, accumulate(sizes), strict=True):
             is_message = not isinstance(event, Noise)
@@ -157,7 +160,7 @@ class _Tried:
     def _is_read(self, line: tuple[bytes, int]) -> bool:
         """Tell whether a decoder reads a frame of some size last, and holds nothing."""
         data, size = line
-        decoder = StreamDecoder(self._direction)
+        decoder = self._codec.decoder(self._direction)
         events: Sequence[Message | Noise] = decoder.feed(data)
         last = events[-1] if events else None
         return not (decoder.pending or last is None or isinstance(last, Noise)) and (

@@ -15,7 +15,7 @@ from .write_error import naming
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from ..reader import Batches
 
@@ -94,13 +94,15 @@ def _writer(path: Path, schema: pa.Schema) -> Any:
     )
 
 
-def parquet_written(batches: Iterable[Batches], folder: str | os.PathLike[str]) -> dict[str, int]:
-    """Write tables as FOLDER/<Table>.parquet, and return the rows of each.
+def parquet_written(
+    names: Sequence[str], batches: Iterable[Batches], folder: str | os.PathLike[str]
+) -> dict[str, int]:
+    """Write tables as FOLDER/<Table>.parquet, and return the rows of each; `names` are all of them.
 
     The folder is made, or holds nothing but such files, which are replaced. Raises FileExistsError
     if it holds something else. Whatever goes wrong, no file is half-written.
     """
-    target = TableFolder(Path(folder), ".parquet")
+    target = TableFolder(names, Path(folder), ".parquet")
     files = ParquetFiles(Path(folder), f".parquet{UNFINISHED}")
     with target.replaced() as written:
         try:

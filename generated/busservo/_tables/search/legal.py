@@ -37,7 +37,7 @@ class Judged:
     """What begins at some places.
 
     `size` is that of the frame, or what a frame of unknown command claims; 0 for a size that none
-    has. `kind` is an index into MESSAGES, and `reason` one into Reason where no frame begins.
+    has. `kind` is an index into all messages, and `reason` one into Reason where no frame begins.
     `either` tells which frames may be another message as well.
     """
 

@@ -11,7 +11,6 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..._recording.layout import described
 from .panels import more_of, page_of
 from .trace import alone
 
@@ -87,7 +86,7 @@ def _drawn(page: Page, has_times: bool, title: str, baud: float) -> Figure:
     length = max(float(at[-1]) for at in points) - min(float(at[0]) for at in points)
     divisor, unit = next((by, unit) for least, by, unit in _LONG if length >= least)
     text = _Text(figure, page)
-    text.show(f"{title}: {described().title}", 0.1, 0.08, fontsize=11)
+    text.show(title, 0.1, 0.08, fontsize=11)
     first: Axes | None = None
     for number, (block, top, panels) in enumerate(page.placed()):
         text.show(_heading(block.quantity), panels[0].left, top, fontweight="bold", fontsize=10)

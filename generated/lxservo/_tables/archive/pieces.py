@@ -7,12 +7,13 @@ import os
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from ..._frame.visible import visible
 from ..._recording.entry import RecordingError
 from ..files.part import part_of
 from ..reader import BLOCK, batches
+from ..schema import schemas_of
 from ..source import opened
 from ..tables import gathered
 from .capture_files import capture_files
@@ -20,10 +21,14 @@ from .cuts import safe_cuts
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from typing import TypeVar
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..reader import Batches
     from ..tables import Tables
+
+    _Piece = TypeVar("_Piece", bound="Piece")
 
 PIECE = 1 << 26
 """About how many bytes of a capture are one piece."""
@@ -31,12 +36,10 @@ PIECE = 1 << 26
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A stretch of a capture, from its byte `start` to `end`, which holds whole events.
+    """A stretch of a capture, which holds whole events: what `Piece` of each library is made of."""
 
-    `path` is absolute; `capture` is the name below the folder that was scanned. `form` is "raw" or
-    "hex", "auto" if the file could not be read. `stamp` is the size of the file and the time, in
-    nanoseconds, at which it was written last: a file that has another when it is read has changed.
-    """
+    # A piece is of a library, so that whatever process it is sent to reads it with the same.
+    codec: ClassVar[ProtocolCodec]
 
     path: str
     capture: str
@@ -53,7 +56,7 @@ class Piece:
 
     def read(self) -> Tables:
         """Read it into memory; offsets are those of the whole capture. Raises as `read_batches`."""
-        return gathered(self.read_batches())
+        return gathered(schemas_of(self.codec), self.read_batches())
 
     def read_batches(self, *, block: int = BLOCK) -> Iterator[Batches]:
         """Yield its tables stretch by stretch; offsets are those of the whole capture.
@@ -63,7 +66,7 @@ class Piece:
         """
         self.refuse_changed()
         with part_of(self.path, self.start, self.end) as stream:
-            yield from batches(stream, self.form, self.direction, block, self.start)
+            yield from batches(self.codec, stream, self.form, self.direction, block, self.start)
         self.refuse_changed()
 
     def refuse_changed(self) -> None:
@@ -85,44 +88,32 @@ def stamp_of(path: str) -> tuple[int, int]:
 
 
 def scan(
+    kind: type[_Piece],
     paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
-    *,
-    size: int = PIECE,
-    form: str = "auto",
-    direction: Direction | None = None,
-) -> list[Piece]:
-    """Return the pieces of captures: independent work for any number of processes or machines.
-
-    `paths` are files, patterns such as "captures/*.bin", and folders, or one of these. Of a folder
-    all files are taken, and of those in it, but hidden ones and datasets. Raw captures are cut
-    about every `size` bytes, where any decoder holds nothing; text recordings are one piece each.
-    `form` and `direction` are as in `read`. A file that cannot be read, or is not there, is a piece
-    whose work says so.
-
-    Links are followed to files of the folder alone, and not to folders: a link that leads out of
-    what is scanned is no capture of it, unless it is named itself.
-
-    Captures are named below the folder that is scanned, or that holds all that is scanned.
-    """
+    size: int,
+    form: str,
+    direction: Direction | None,
+) -> list[_Piece]:
+    """Return the pieces of captures, of the kind of a library; a raw capture is cut by `size`."""
     given = [paths] if isinstance(paths, (str, os.PathLike)) else [*paths]
     return [
         piece
         for capture, path in capture_files(given).items()
-        for piece in _pieces(str(path), capture, size, form, direction)
+        for piece in _pieces(kind, str(path), capture, size, form, direction)
     ]
 
 
 def _pieces(
-    path: str, capture: str, size: int, form: str, direction: Direction | None
-) -> Iterator[Piece]:
+    kind: type[_Piece], path: str, capture: str, size: int, form: str, direction: Direction | None
+) -> Iterator[_Piece]:
     try:
         stamp = stamp_of(path)
         with opened(path, form) as begun:
             is_text = begun.is_text
-        cuts = [] if is_text else safe_cuts(path, size, direction=direction)
+        cuts = [] if is_text else safe_cuts(kind.codec, path, size, direction)
     except OSError:
-        yield Piece(path, capture, 0, 0, form, direction, None)
+        yield kind(path, capture, 0, 0, form, direction, None)
         return
     bounds = [0, *(cut for cut in cuts if cut < stamp[0]), stamp[0]]
     for start, end in pairwise(bounds):
-        yield Piece(path, capture, start, end, "hex" if is_text else "raw", direction, stamp)
+        yield kind(path, capture, start, end, "hex" if is_text else "raw", direction, stamp)

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyarrow as pa
 
-from ..._recording.layout import EVENT_COLUMNS, NOISE, PARAMETERS, layouts
+from ..._recording.layout import EVENT_COLUMNS, NOISE, PARAMETERS, layouts_of
 from ..reader import BLOCK, events
-from ..schema import REASON, schemas, unknown_numbers
+from ..schema import REASON_NAMES
 from ..source import opened
 from .write_error import naming
 
@@ -22,9 +22,11 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Sequence
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..events import Numbers
     from ..reader import Batches
+    from ..schema import Schemas
     from ..source import Source
 
 _MAGIC = b"ARROW1"
@@ -36,18 +38,21 @@ UNKNOWN = "unknown"
 class EventRows:
     """Events as rows of one table, for a capture that has some tables."""
 
-    def __init__(self, names: Iterable[str]) -> None:
+    def __init__(self, schemas: Schemas, names: Iterable[str]) -> None:
         there = set(names)
-        every = [name for name in schemas() if name in there and name != NOISE]
+        self._every = schemas.every()
+        every = [name for name in self._every if name in there and name != NOISE]
         self._events = pa.array([*every, NOISE, UNKNOWN], pa.string())
         # Of a message without fields, `event` says all.
-        self._messages = [name for name in every if _fields(schemas()[name])]
+        self._messages = [name for name in every if _fields(self._every[name])]
         self._has_noise = NOISE in there
+        numbers = [column for column, _ in schemas.unknown_numbers.values()]
+        self._of_unknown = [*numbers, PARAMETERS]
 
     @cached_property
     def schema(self) -> pa.Schema:
         """The schema: what is known of every event, which it is, and its fields."""
-        every = schemas()
+        every = self._every
         noise = every[NOISE]
         columns = [noise.field(name) for name in EVENT_COLUMNS]
         event = pa.dictionary(pa.int16(), pa.string())
@@ -57,7 +62,7 @@ class EventRows:
             said = {b"about": every[name].metadata[b"summary"]}
             columns.append(pa.field(name, pa.struct(_fields(every[name])), metadata=said))
         if self._has_noise:
-            of_unknown = pa.struct([noise.field(name) for name in _of_unknown()])
+            of_unknown = pa.struct([noise.field(name) for name in self._of_unknown])
             columns.append(pa.field(UNKNOWN, of_unknown))
         protocol = noise.metadata[b"protocol"]
         said = {b"protocol": protocol, b"summary": b"The events of a capture."}
@@ -73,7 +78,7 @@ class EventRows:
         columns += [rows.reasons()]
         columns += [rows.structs(name, self.schema) for name in self._messages]
         if self._has_noise:
-            columns.append(rows.unknown(self.schema))
+            columns.append(rows.unknown(self.schema, self._of_unknown))
         return pa.RecordBatch.from_arrays(columns, schema=self.schema)
 
     def _event(self, made: Batches, order: Numbers) -> pa.Array:
@@ -107,7 +112,7 @@ class _Rows:
         """Return the reasons of noise."""
         if NOISE not in self._made:
             nothing = pa.nulls(len(self._order), pa.int8())
-            return pa.DictionaryArray.from_arrays(nothing, REASON.names)
+            return pa.DictionaryArray.from_arrays(nothing, REASON_NAMES)
         return self._spread(NOISE, self._made[NOISE].column("reason"))
 
     def structs(self, name: str, schema: pa.Schema) -> pa.Array:
@@ -120,13 +125,13 @@ class _Rows:
         values = [batch.column(each.name) for each in fields]
         return self._spread(name, pa.StructArray.from_arrays(values, fields=fields))
 
-    def unknown(self, schema: pa.Schema) -> pa.Array:
+    def unknown(self, schema: pa.Schema, names: Sequence[str]) -> pa.Array:
         """Return the numbers and parameters of unknown frames, and null in the rows of others."""
         kind = schema.field(UNKNOWN).type
         if NOISE not in self._made:
             return pa.nulls(len(self._order), kind)
         noise = self._made[NOISE]
-        values = [noise.column(name) for name in _of_unknown()]
+        values = [noise.column(name) for name in names]
         absent = pa.array(~noise.column("unknown").to_numpy(zero_copy_only=False))
         frames = pa.StructArray.from_arrays(values, fields=[*kind], mask=absent)
         return self._spread(NOISE, frames)
@@ -148,16 +153,14 @@ def _fields(schema: pa.Schema) -> Sequence[pa.Field]:
     return [each for each in schema if each.name not in EVENT_COLUMNS]
 
 
-def _of_unknown() -> Sequence[str]:
-    return [*(column for column, _ in unknown_numbers().values()), PARAMETERS]
-
-
-def names_in(source: Source, form: str, direction: Direction | None) -> set[str]:
+def names_in(
+    codec: ProtocolCodec, source: Source, form: str, direction: Direction | None
+) -> set[str]:
     """Return the tables that have rows in a capture."""
-    every = layouts()
+    every = layouts_of(codec).every
     there: set[str] = set()
     with opened(source, form) as capture:
-        for stretch in events(capture, direction, BLOCK):
+        for stretch in events(codec, capture, direction, BLOCK):
             there.update(every[kind].name for kind in np.unique(stretch.frames.kind).tolist())
             if stretch.noise.frame:
                 there.add(NOISE)
@@ -165,7 +168,10 @@ def names_in(source: Source, form: str, direction: Direction | None) -> set[str]
 
 
 def arrow_written(
-    batches: Iterable[Batches], file: str | os.PathLike[str], names: Iterable[str]
+    schemas: Schemas,
+    batches: Iterable[Batches],
+    file: str | os.PathLike[str],
+    names: Iterable[str],
 ) -> dict[str, int]:
     """Write all events to one Arrow IPC file, and return the rows of each table.
 
@@ -176,7 +182,7 @@ def arrow_written(
     rows: dict[str, int] = {}
     try:
         with naming(part):
-            _write(batches, part, EventRows(names), rows)
+            _write(batches, part, EventRows(schemas, names), rows)
         part.replace(target)
     except BaseException:
         with suppress(OSError):

@@ -6,7 +6,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ..._recording.layout import messages_on
+from ..._recording.layout import layouts_of
 from .checksums import is_summed
 from .legal import LegalFrames
 from .shape import is_testable
@@ -14,6 +14,7 @@ from .shape import is_testable
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._explanation.protocol import Envelope
     from ..._frame.direction import Direction
     from ..._recording.layout import Layout
@@ -25,9 +26,9 @@ _WIDEST = 4
 
 
 @cache
-def frames_on(direction: Direction | None) -> LegalFrames | None:
+def frames_on(codec: ProtocolCodec, direction: Direction | None) -> LegalFrames | None:
     """Return the frames on a line, if they can be found at many places at once; None if not."""
-    messages = messages_on(direction)
+    messages = layouts_of(codec).on(direction)
     return LegalFrames(messages) if is_searchable(messages) else None
 
 

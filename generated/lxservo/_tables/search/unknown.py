@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._codec.codec import table_for
-from ..._codec.noise_lane import NoiseLane
 from .chain import Chain, first_come
 from .legal import UNKNOWN_COMMAND, UNKNOWN_KIND
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..events import Bytes, Numbers
     from .legal import Judged
@@ -23,9 +22,9 @@ if TYPE_CHECKING:
 class Claims:
     """What judges claims on a line that carries one direction, or both for None."""
 
-    def __init__(self, direction: Direction | None, header: bytes) -> None:
-        self._table = table_for(direction)
-        self._lane = NoiseLane(self._table)
+    def __init__(self, codec: ProtocolCodec, direction: Direction | None, header: bytes) -> None:
+        self._table = codec.table_for(direction)
+        self._lane = codec.noise_lane(self._table)
         self._header = header
 
     def put_between(self, chain: Chain, data: Bytes, places: Numbers, judged: Judged) -> Chain:

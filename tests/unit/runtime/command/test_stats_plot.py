@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
 from busservo._cli import main
-from busservo._recording.layout import layouts
+from busservo._library import CODEC
+from busservo._recording.layout import layouts_of
 from busservo._tables.stats import panels, traces
 from busservo._tables.stats.quantities import quantities
 from busservo._tables.stats.trace import Trace
@@ -253,8 +254,9 @@ def test_each_servo_has_a_panel_and_all_share_the_axes(
 def test_panels_stand_in_as_many_columns_as_there_is_room_for(
     count: int, columns: int, rows: int
 ) -> None:
+    layouts = layouts_of(CODEC).every
     (quantity,) = (
-        each for of in layouts() if of.kind is ServoPositions for each in quantities(of) if each.key
+        each for of in layouts if of.kind is ServoPositions for each in quantities(of) if each.key
     )
     page, left_out = panels.page_of([(quantity, {each: Trace() for each in range(count)})])
     assert (page.columns, [block.rows for block in page.blocks]) == (columns, [rows])

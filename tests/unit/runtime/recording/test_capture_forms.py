@@ -11,6 +11,7 @@ from busservo import recordings, tables
 from busservo._cli.recording import Recording
 from busservo._cli.usage_error import UsageError
 from busservo._codec.event_bytes import bytes_of
+from busservo._library import CODEC
 from busservo._tables.stats.statistics import statistics
 from busservo.recordings import RecordingError
 from framegen.audit.recording import read_recording
@@ -101,7 +102,7 @@ READERS: dict[str, Callable[[bytes], bytes]] = {
 COUNTS: dict[str, Callable[[bytes], int]] = {
     "tables.read": lambda content: in_tables([tables.read(content).filled]),
     "tables.read_batches": lambda content: in_tables(tables.read_batches(io.BytesIO(content))),
-    "stats": lambda content: statistics(content).size,
+    "stats": lambda content: statistics(CODEC, content).size,
 }
 REFUSALS = (RecordingError, Unusable, UsageError, ValueError)
 

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 import pyarrow as pa
 import pytest
 from busservo import Direction
+from busservo._library import CODEC
 from busservo._tables.files.arrow_file import arrow_written
+from busservo._tables.schema import schemas_of
 from busservo.recordings import RecordingError
 from busservo.tables import NOISE, read, read_batches, schemas, write_arrow
 
@@ -68,7 +70,7 @@ def test_so_it_has_for_a_recording_with_times(tmp_path: Path) -> None:
 
 def test_events_of_many_blocks_are_in_order(tmp_path: Path) -> None:
     batches = read_batches(CAPTURE * 10, form="raw", block=1000)
-    arrow_written(batches, tmp_path / "line.arrow", schemas())
+    arrow_written(schemas_of(CODEC), batches, tmp_path / "line.arrow", schemas())
     with pa.ipc.open_file(tmp_path / "line.arrow") as opened:
         assert opened.num_record_batches > 1
         table = opened.read_all()

@@ -44,7 +44,7 @@ def pieces_of(capture: bytes, places: list[int]) -> list[bytes]:
 def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Find places as in protocols that are searched at once, and as in all others."""
     if request.param == "tried":
-        monkeypatch.setattr(cuts, "frames_on", lambda _direction: None)
+        monkeypatch.setattr(cuts, "frames_on", lambda _codec, _direction: None)
 
 
 def _holds(capture: bytes, size: int, direction: Direction | None) -> None:
@@ -64,7 +64,7 @@ def test_so_they_have_for_protocols_that_are_not_searched_at_once(
     line: bytes, direction: Direction | None
 ) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cuts, "frames_on", lambda _direction: None)
+        patch.setattr(cuts, "frames_on", lambda _codec, _direction: None)
         _holds(line, 1, direction)
 
 

@@ -135,7 +135,7 @@ def test_what_was_written_with_other_tables_is_written_again(
     captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     archived(captures, tmp_path / "dataset")
-    monkeypatch.setattr(manifest, "_tables", lambda: "those of another version")
+    monkeypatch.setattr(manifest, "_tables", lambda _codec: "those of another version")
     assert all(report.is_new for report in archived(captures, tmp_path / "dataset"))
     assert rows_in(tmp_path / "dataset") == rows_of(captures)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from busservo import BatteryVoltage
+from busservo._library import CODEC
 from busservo._tables.stats import statistics
 from busservo._tables.stats.timeline import Intervals, Moments
 from hypothesis import given
@@ -27,7 +28,7 @@ def recording(times: list[float], data: bytes = READING) -> bytes:
 
 
 def measured(text: bytes) -> statistics.Statistics:
-    return statistics.statistics(text, form="hex")
+    return statistics.statistics(CODEC, text, form="hex")
 
 
 # --- Recordings behind each other ----------------------------------------------------------------
@@ -118,7 +119,7 @@ def test_unknown_frames_of_too_many_kinds_are_counted_together(
     frames = b"".join(
         bytes([0x55, 0x55, 3, command, 1]) for command in (99, 98, 98, 97, 96, 99, 98)
     )
-    found = statistics.statistics(frames, form="raw")
+    found = statistics.statistics(CODEC, frames, form="raw")
     assert [(each.numbers, each.count, each.size) for each in found.unknown] == [
         ({"command": 98}, 3, 15),
         ({}, 2, 10),

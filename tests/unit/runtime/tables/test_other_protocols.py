@@ -124,7 +124,8 @@ def is_vectorised(made: ModuleType, direction: Any) -> bool:
     """Tell whether a library searches at many places at once."""
     layout: Any = import_module(f"{made.__name__}._recording.layout")
     searchable: Any = import_module(f"{made.__name__}._tables.search.searchable")
-    return bool(searchable.is_searchable(layout.messages_on(direction)))
+    library: Any = import_module(f"{made.__name__}._library")
+    return bool(searchable.is_searchable(layout.layouts_of(library.CODEC).on(direction)))
 
 
 @pytest.mark.parametrize("name", some(FILES, is_shown))

@@ -73,7 +73,7 @@ def test_row_groups_are_written_when_so_much_is_held(
 ) -> None:
     monkeypatch.setattr(parquet, "_ROW_GROUP", 2000)
     batch = read(CAPTURE)["BatteryVoltage"].to_batches()[0]
-    rows = parquet.parquet_written([{"BatteryVoltage": batch}] * 10, tmp_path)
+    rows = parquet.parquet_written([*schemas()], [{"BatteryVoltage": batch}] * 10, tmp_path)
     file = pq.ParquetFile(tmp_path / "BatteryVoltage.parquet")
     assert rows == {"BatteryVoltage": 10 * batch.num_rows}
     assert file.metadata.num_rows == 10 * batch.num_rows
@@ -87,7 +87,7 @@ def test_the_largest_table_is_written_when_all_hold_too_much(
     tables = read(CAPTURE)
     names = ["BatteryVoltage", "ServoPositions"]
     batches = [{name: tables[name].to_batches()[0] for name in names}] * 4
-    parquet.parquet_written(batches, tmp_path)
+    parquet.parquet_written(names, batches, tmp_path)
     groups = {name: pq.ParquetFile(tmp_path / f"{name}.parquet").num_row_groups for name in names}
     assert groups["ServoPositions"] > 1
 

@@ -36,14 +36,24 @@ def part(made: ModuleType, name: str) -> Any:
     return import_module(f"{made.__name__}.{name}")
 
 
+def statistics_of(made: ModuleType, line: bytes, **how: Any) -> Any:
+    measure, codec = part(made, "_tables.stats.statistics").statistics, part(made, "_library").CODEC
+    return measure(codec, line, form="raw", **how)
+
+
+def traces_of(made: ModuleType) -> Any:
+    library = part(made, "_library")
+    traces = part(made, "_tables.stats.traces").Traces
+    return traces(library.LINK.bits_per_byte / 9600, library.CODEC.received)
+
+
 def _measured(
     made: ModuleType, name: str, way: Direction | None, data: st.DataObject
 ) -> tuple[bytes, Any, Any]:
     """Return a line, who sends on it, and its statistics."""
     line = data.draw(lines_of(name, made))
     direction = None if way is None else direction_of(made, way)
-    measure = part(made, "_tables.stats.statistics").statistics
-    return line, direction, measure(line, form="raw", direction=direction)
+    return line, direction, statistics_of(made, line, direction=direction)
 
 
 @pytest.mark.parametrize(("name", "way"), CASES)
@@ -142,8 +152,8 @@ def test_statistics_can_be_shown_and_drawn(
 ) -> None:
     made = libraries[name]
     line = data.draw(lines_of(name, made))
-    traces = part(made, "_tables.stats.traces").Traces(9600)
-    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+    traces = traces_of(made)
+    found = statistics_of(made, line, traces=traces)
     sheet = part(made, "_cli.statistics_sheet")
     assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600)
     sheet.show(found, "line.bin", 9600)
@@ -157,9 +167,9 @@ def test_what_is_drawn_is_in_the_larger_unit(libraries: Libraries) -> None:
     made = libraries["crsf"]
     (place,) = (kind for kind in made.MESSAGES if "altitude" in kind.__match_args__)
     given = dict.fromkeys(place.__match_args__, 1) | {"altitude": 1234, "heading": 9050}
-    traces = part(made, "_tables.stats.traces").Traces(9600)
+    traces = traces_of(made)
     line = place(**given).encode()
-    found = part(made, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+    found = statistics_of(made, line, traces=traces)
     drawn = {
         quantity.path: trace.points()[1].tolist()
         for quantity, lines in traces.panels()
@@ -176,7 +186,7 @@ def test_where_nothing_is_measured_other_numbers_are_drawn_first_those_of_the_de
     asked, told = busservo.ActionGroupRun(8, 2), busservo.ActionGroupCompleted(8, 2)
     for messages, drawn in (([asked], asked), ([asked, told], told)):
         line = b"".join(each.encode() for each in messages)
-        traces = part(busservo, "_tables.stats.traces").Traces(9600)
-        part(busservo, "_tables.stats.statistics").statistics(line, form="raw", traces=traces)
+        traces = traces_of(busservo)
+        statistics_of(busservo, line, traces=traces)
         kinds = {quantity.layout.kind for quantity, _ in traces.panels()}
         assert kinds == {type(drawn)}

@@ -4,6 +4,7 @@ from io import BytesIO
 
 import pytest
 from busservo import recordings
+from busservo._library import CODEC
 from busservo._tables.by_entry import events_by_entry
 from busservo._tables.stats.timeline import Clockwork, Timeline
 
@@ -27,7 +28,7 @@ def test_times_that_go_back_stand_still_until_they_are_reached(many: int) -> Non
     clockwork, timeline = Clockwork(), Timeline()
     seconds: list[float] = []
     recording: list[int] = []
-    for stretch in events_by_entry(recordings.read(BytesIO(RECORDING.encode())), many):
+    for stretch in events_by_entry(CODEC, recordings.read(BytesIO(RECORDING.encode())), many):
         moments = clockwork.moments(stretch)
         assert moments is not None
         timeline.add(stretch, moments)

@@ -111,7 +111,8 @@ def test_numbers_of_any_width_are_in_the_tables(bits: int) -> None:
             line = b"".join(frame(bits, *each) for each in sent)
             rows = rows_in_tables(made, line)
             assert rows == rows_of_decoder(made, line)
-            found = part(made, "_tables.stats.statistics").statistics(line, form="raw")
+            measure = part(made, "_tables.stats.statistics").statistics
+            found = measure(part(made, "_library").CODEC, line, form="raw")
             unknown = [row for row in rows if row.table == "unknown"]
             assert sum(each.count for each in found.unknown) == len(unknown)
             stations = {row.fields["station"] for row in rows if row.table in ("Low", "High")}

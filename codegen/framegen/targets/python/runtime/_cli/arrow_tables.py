@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._library import CODEC
 from .._recording.layout import NOISE
 from .._tables.files.arrow_file import arrow_written, names_in, refuse_target
 from .._tables.files.parquet import parquet_written
 from .._tables.reader import batches
+from .._tables.schema import schemas_of
 from .rereading import rereadable
 
 if TYPE_CHECKING:
@@ -25,7 +27,8 @@ def write_parquet(
 ) -> dict[str, int]:
     """Write a folder of tables, and return the rows of each file. Raises OSError."""
     with recording.from_the_beginning():
-        rows = parquet_written(_counted(batches(recording, form, direction), seen), folder)
+        made = _counted(batches(CODEC, recording, form, direction), seen)
+        rows = parquet_written(schemas_of(CODEC).layouts.names, made, folder)
     return {str(folder / f"{name}.parquet"): count for name, count in rows.items()}
 
 
@@ -38,9 +41,10 @@ def write_arrow(
     with rereadable(recording) as twice:
         twice.is_quiet = True
         with twice.from_the_beginning():
-            names = names_in(twice, form, direction)
+            names = names_in(CODEC, twice, form, direction)
         with twice.from_the_beginning():
-            return arrow_written(_counted(batches(twice, form, direction), seen), file, names)
+            made = _counted(batches(CODEC, twice, form, direction), seen)
+            return arrow_written(schemas_of(CODEC), made, file, names)
 
 
 def _counted(made: Iterator[Batches], seen: Counters) -> Iterator[Batches]:

@@ -14,14 +14,14 @@ from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
 from .._frame.free_name import free_name
+from .._library import CODEC
 from .._recording.layout import (
     EVENT_COLUMNS,
     NOISE,
     PARAMETERS,
     REASON_COLUMN,
     UNKNOWN_COLUMN,
-    layouts,
-    unknown_columns,
+    layouts_of,
 )
 from .._recording.table_folder import TableFolder
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from .._frame.message import Message
     from .._recording.entry import Entry
-    from .._recording.layout import Column, Layout
+    from .._recording.layout import Column, Layout, Layouts
 
 # So many rows are held before they are written.
 _HELD = 20_000
@@ -45,14 +45,17 @@ def csv_written(entries: Iterable[Entry], folder: Path) -> dict[str, int]:
     The folder is made, or holds nothing but such files, which are replaced. Raises FileExistsError
     if it holds something else, and OSError. Whatever goes wrong, no file is half-written.
     """
-    target = TableFolder(folder, ".csv")
+    layouts = layouts_of(CODEC)
+    noise = [*EVENT_COLUMNS, REASON_COLUMN, UNKNOWN_COLUMN]
+    noise += [*(column for column, _ in layouts.unknown_columns.values()), PARAMETERS]
+    target = TableFolder(layouts.names, folder, ".csv")
     with target.replaced() as written:
         files = _Files(target, written)
-        shapes = {each.kind: _Shape(each) for each in layouts()}
+        shapes = {each.kind: _Shape(each) for each in layouts.every}
         for entry, size in _joined(entries):
             event = entry.event
             if isinstance(event, Noise):
-                files.add(NOISE, _NOISE, [[*_of_event(entry, size), *_of_noise(event)]])
+                files.add(NOISE, noise, [[*_of_event(entry, size), *_of_noise(event, layouts)]])
             else:
                 shape = shapes[type(event)]
                 files.add(shape.name, shape.columns, shape.rows(entry, size, event))
@@ -164,22 +167,13 @@ def _clock(seconds: float) -> str:
     return f"{at:%Y-%m-%dT%H:%M:%S.%fZ}"
 
 
-_NOISE = [
-    *EVENT_COLUMNS,
-    REASON_COLUMN,
-    UNKNOWN_COLUMN,
-    *(column for column, _ in unknown_columns().values()),
-    PARAMETERS,
-]
-
-
-def _of_noise(event: Noise) -> list[object]:
+def _of_noise(event: Noise, layouts: Layouts) -> list[object]:
     numbers: dict[str, int] = {}
     parameters = ""
     unknown = "false"
     if isinstance(event, UnknownFrame):
         unknown, numbers, parameters = "true", event.numbers, format_hex(event.parameters)
-    cells = [numbers.get(name, "") for name in unknown_columns()]
+    cells = [numbers.get(name, "") for name in layouts.unknown_columns]
     return [event.reason.value, unknown, *cells, parameters]
 
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .._frame.table import Table
     from .careful_decoder import CarefulDecoder
     from .decoder import StreamDecoder
+    from .noise_lane import NoiseLane
 
 
 class ProtocolCodec:
@@ -65,6 +66,12 @@ class ProtocolCodec:
         """What decodes a stream of bytes for those who can wait for what decides."""
         decoder: type[CarefulDecoder] = self._part("_codec.careful_decoder").CarefulDecoder
         return decoder
+
+    @cached_property
+    def noise_lane(self) -> type[NoiseLane]:
+        """What tells frames of unknown command from other noise, among some messages."""
+        lane: type[NoiseLane] = self._part("_codec.noise_lane").NoiseLane
+        return lane
 
     @cached_property
     def recognise(self) -> Callable[..., str | None]:

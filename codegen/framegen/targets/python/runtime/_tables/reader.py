@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-from .._library import CODEC
-from .._recording.layout import NOISE, layouts
+from .._recording.layout import NOISE
 from .._recording.reader import read
 from .by_entry import events_by_entry
 from .columns import batch_of
 from .noise_rows import NoiseRows
+from .schema import schemas_of
 from .search.searchable import frames_on
 from .search.window import search
 from .source import opened
@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 
     import pyarrow as pa
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .events import Events, Frames
+    from .schema import Schemas
     from .source import Capture, Source
 
 BLOCK = 1 << 20
@@ -33,16 +35,22 @@ Batches: TypeAlias = "dict[str, pa.RecordBatch]"
 
 
 def batches(
-    source: Source, form: str, direction: Direction | None, block: int = BLOCK, start: int = 0
+    codec: ProtocolCodec,
+    source: Source,
+    form: str,
+    direction: Direction | None,
+    block: int = BLOCK,
+    start: int = 0,
 ) -> Iterator[Batches]:
     """Yield the tables of each stretch of a capture, by name, without those that are empty.
 
     `start` is the byte of a larger capture at which this one begins.
     """
-    rows = NoiseRows()
+    schemas = schemas_of(codec)
+    rows = NoiseRows(schemas)
     with opened(source, form) as capture:
-        for stretch in (each.moved(start) for each in events(capture, direction, block)):
-            made = _messages(stretch.frames)
+        for stretch in (each.moved(start) for each in events(codec, capture, direction, block)):
+            made = _messages(schemas, stretch.frames)
             noise = rows.add(stretch.noise, stretch.end)
             if noise is not None:
                 made[NOISE] = noise
@@ -53,15 +61,19 @@ def batches(
         yield {NOISE: noise}
 
 
-def events(capture: Capture, direction: Direction | None, block: int) -> Iterator[Events]:
+def events(
+    codec: ProtocolCodec, capture: Capture, direction: Direction | None, block: int
+) -> Iterator[Events]:
     """Yield what an open capture holds, stretch by stretch."""
-    legal = None if capture.is_text else frames_on(direction)
+    legal = None if capture.is_text else frames_on(codec, direction)
     if legal is not None:
-        return search(capture.blocks(block), direction, legal)
+        return search(codec, capture.blocks(block), direction, legal)
     form = "hex" if capture.is_text else "raw"
-    return events_by_entry(read(CODEC, capture, form, direction), _ENTRIES)
+    return events_by_entry(codec, read(codec, capture, form, direction), _ENTRIES)
 
 
-def _messages(frames: Frames) -> Batches:
-    every = layouts()
-    return {every[kind].name: batch_of(every[kind], found) for kind, found in frames.by_kind()}
+def _messages(schemas: Schemas, frames: Frames) -> Batches:
+    every = schemas.layouts.every
+    return {
+        every[kind].name: batch_of(schemas, every[kind], found) for kind, found in frames.by_kind()
+    }

@@ -17,18 +17,17 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 from uuid import uuid4
 
-from ..schema import schemas
+from ..schema import schemas_of
 from .capture_files import MANIFESTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from .pieces import Piece
 
 _LONGEST_NAME = 200
-_LIBRARY = __name__.partition(".")[0]
-
 
 # What a manifest says of its piece, and what it says once the piece is done.
 _PIECE = {
@@ -51,6 +50,7 @@ class Manifest:
 
     def __init__(self, folder: Path, piece: Piece) -> None:
         self._folder = folder
+        self._library = piece.codec.package.rpartition(".")[2]
         self._capture = f"capture={_file_name(piece.capture)}"
         self._said: dict[str, Any] = {
             "capture": piece.capture,
@@ -61,7 +61,7 @@ class Manifest:
             "stamp": None if piece.stamp is None else [*piece.stamp],
         }
         # The same name means the same bytes, read in the same way.
-        known = blake2b(json.dumps([self._said, _tables()]).encode(), digest_size=6)
+        known = blake2b(json.dumps([self._said, _tables(piece.codec)]).encode(), digest_size=6)
         self._name = f"{piece.start:015}-{known.hexdigest()}"
         self._manifests = folder / MANIFESTS / self._capture
         self._own = self._manifests / f"{self._name}.json"
@@ -123,11 +123,11 @@ class Manifest:
         path = self._folder / MANIFESTS / "library.json"
         said = _read(path)
         if said is None:
-            _write(unfinished, path, {"library": _LIBRARY})
+            _write(unfinished, path, {"library": self._library})
         elif not _has(said, {"library": (str,)}):
             problem = "it is damaged, and does not tell whose captures the dataset holds"
-            raise ManifestError(f"{path}: {problem}: remove it if they are of {_LIBRARY}")
-        elif said["library"] != _LIBRARY:
+            raise ManifestError(f"{path}: {problem}: remove it if they are of {self._library}")
+        elif said["library"] != self._library:
             problem = f"it holds captures of {said['library']}: name another folder"
             raise FileExistsError(errno.EEXIST, problem, str(self._folder))
 
@@ -216,7 +216,8 @@ def _file_name(capture: str) -> str:
 
 
 @cache
-def _tables() -> str:
+def _tables(codec: ProtocolCodec) -> str:
     """Return what the tables are made of: pieces that were written with others are done again."""
-    made = {name: [(each.name, str(each.type)) for each in of] for name, of in schemas().items()}
+    every = schemas_of(codec).every()
+    made = {name: [(each.name, str(each.type)) for each in of] for name, of in every.items()}
     return blake2b(json.dumps(made).encode(), digest_size=6).hexdigest()

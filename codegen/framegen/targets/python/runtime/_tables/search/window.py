@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._library import CODEC
-from ..._recording.layout import DIRECTIONS, REASON_NUMBERS, layouts
+from ..._recording.layout import REASON_NUMBERS, layouts_of
 from ..._recording.reader import read
 from ..by_entry import events_by_entry
 from ..events import UNKNOWN_SENDER, Events, Frames, NoiseRuns
@@ -28,26 +27,25 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..events import Bytes, Numbers
     from .legal import LegalFrames
 
 _BAD_HEADER = REASON_NUMBERS["BAD_HEADER"]
 _NOTHING = np.empty(0, np.int64)
-# Who sends each message.
-_SENDERS = np.array([each.direction for each in layouts()], np.int8)
 # What the end of a stream holds is one stretch.
 _ALL = 1 << 31
 
 
 def search(
-    blocks: Iterable[Bytes], direction: Direction | None, legal: LegalFrames
+    codec: ProtocolCodec, blocks: Iterable[Bytes], direction: Direction | None, legal: LegalFrames
 ) -> Iterator[Events]:
     """Yield what a stream holds, which comes in blocks; after the last, the line is quiet.
 
     `legal` are the frames on a line that carries `direction`.
     """
-    window = _Window(direction, legal)
+    window = _Window(codec, direction, legal)
     for block in blocks:
         yield window.add(block)
     yield from window.end()
@@ -56,12 +54,18 @@ def search(
 class _Window:
     """The bytes of a stream that are not decided yet, and what was in front of them."""
 
-    def __init__(self, direction: Direction | None, legal: LegalFrames) -> None:
+    def __init__(
+        self, codec: ProtocolCodec, direction: Direction | None, legal: LegalFrames
+    ) -> None:
+        layouts = layouts_of(codec)
+        self._codec = codec
         self._direction = direction
-        self._sender = UNKNOWN_SENDER if direction is None else DIRECTIONS.index(direction)
+        self._sender = UNKNOWN_SENDER if direction is None else layouts.directions.index(direction)
+        # Who sends each message.
+        self._senders = np.array([each.direction for each in layouts.every], np.int8)
         self._legal = legal
         self._header = self._legal.envelope.header
-        self._claims = Claims(direction, self._header)
+        self._claims = Claims(codec, direction, self._header)
         self._data: Bytes = np.empty(0, np.uint8)
         # Where they begin in the capture; and why noise is noise that goes on there.
         self._offset = 0
@@ -89,8 +93,8 @@ class _Window:
         headers = find_all(data, self._header)
         rest = int(headers[0]) if len(headers) else len(data)
         yield self._events(no_chain(), _NOTHING, _NOTHING, rest)
-        entries = read(CODEC, io.BytesIO(self._data.tobytes()), "raw", self._direction)
-        for events in events_by_entry(entries, _ALL):
+        entries = read(self._codec, io.BytesIO(self._data.tobytes()), "raw", self._direction)
+        for events in events_by_entry(self._codec, entries, _ALL):
             yield events.moved(self._offset)
 
     def _events(self, chain: Chain, refused: Numbers, reasons: NDArray[Any], until: int) -> Events:
@@ -114,7 +118,7 @@ class _Window:
         return events
 
     def _frames(self, chain: Chain) -> Frames:
-        sender = _SENDERS.take(chain.kind)
+        sender = self._senders.take(chain.kind)
         if self._direction is None:
             sender[chain.either] = UNKNOWN_SENDER
         return Frames(

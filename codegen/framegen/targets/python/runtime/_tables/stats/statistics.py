@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._codec.noise import UnknownFrame
 from ..._frame.errors import Reason
-from ..._recording.layout import DIRECTIONS, layouts
+from ..._recording.layout import layouts_of
 from ..reader import BLOCK, events
 from ..source import opened
 from .excerpted import Excerpted
@@ -24,8 +24,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..._recording.excerpt import Excerpt
+    from ..._recording.layout import Layouts
     from ..events import Events, Frames, NoiseRuns, Numbers
     from ..source import Source
     from .extremes import Extremes
@@ -105,6 +107,7 @@ class Statistics:
 
 
 def statistics(
+    codec: ProtocolCodec,
     source: Source,
     *,
     form: str = "auto",
@@ -119,10 +122,10 @@ def statistics(
     `ids`, of quantities that are measured of several numbers only the values of these count. The
     other arguments are those of tables.read, and so are the errors.
     """
-    survey, clockwork = _Survey(traces, ids), Clockwork()
+    survey, clockwork = _Survey(layouts_of(codec), traces, ids), Clockwork()
     excerpted = None if excerpt is None else Excerpted(excerpt)
     with opened(source, form) as capture:
-        for each in events(capture, direction, BLOCK):
+        for each in events(codec, capture, direction, BLOCK):
             moments = clockwork.moments(each)
             if excerpted is None:
                 survey.add(each, moments)
@@ -136,14 +139,18 @@ def statistics(
 class _Survey:
     """All that is counted, stretch by stretch."""
 
-    def __init__(self, traces: Traces | None, ids: Collection[int] | None) -> None:
+    def __init__(
+        self, layouts: Layouts, traces: Traces | None, ids: Collection[int] | None
+    ) -> None:
+        self._layouts = layouts.every
+        self._directions = layouts.directions
         self._traces = traces
         self._ids = None if ids is None else np.array([*ids], np.int64)
-        self._count = np.zeros(len(layouts()), np.int64)
-        self._size = np.zeros(len(layouts()), np.int64)
-        self._sent = np.zeros(len(DIRECTIONS) + 1, np.int64)
+        self._count = np.zeros(len(self._layouts), np.int64)
+        self._size = np.zeros(len(self._layouts), np.int64)
+        self._sent = np.zeros(len(self._directions) + 1, np.int64)
         self._timeline = Timeline()
-        self._intervals = [Intervals() for _ in layouts()]
+        self._intervals = [Intervals() for _ in self._layouts]
         self._noise = NoiseCount()
         self._unknown: Counter[tuple[tuple[str, int], ...]] = Counter()
         self._unknown_size: Counter[tuple[tuple[str, int], ...]] = Counter()
@@ -168,7 +175,7 @@ class _Survey:
             self._add_values(kind, frames.chosen(which), moments and moments.chosen(which))
 
     def _add_values(self, kind: int, frames: Frames, moments: Moments | None) -> None:
-        for quantity, every in readings(layouts()[kind], frames):
+        for quantity, every in readings(self._layouts[kind], frames):
             values = every
             if self._ids is not None and quantity.key is not None:
                 values = every.measured_of(self._ids)
@@ -192,17 +199,17 @@ class _Survey:
         span = None
         if timeline.first is not None:
             span = Span(timeline.first, timeline.last, timeline.began, timeline.recordings)
-        sent = dict(zip((None, *DIRECTIONS), self._sent.tolist(), strict=True))
+        sent = dict(zip((None, *self._directions), self._sent.tolist(), strict=True))
         counted = self._count.tolist(), self._size.tolist(), self._intervals
         return Statistics(
             size=int(self._sent.sum()),
-            sent={each: sent[each] for each in (*DIRECTIONS, None) if each or sent[each]},
+            sent={each: sent[each] for each in (*self._directions, None) if each or sent[each]},
             span=span,
             messages=[
                 MessageCount(
                     layout.name, layout.kind.DIRECTION, count, size, gaps.median, gaps.longest
                 )
-                for layout, count, size, gaps in zip(layouts(), *counted, strict=True)
+                for layout, count, size, gaps in zip(self._layouts, *counted, strict=True)
                 if count
             ],
             noise=self._noise.result(),

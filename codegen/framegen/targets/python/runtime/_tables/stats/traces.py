@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._frame.direction import RECEIVED
-from ..._frame.protocol import BITS_PER_BYTE
 from .trace import Trace
 
 if TYPE_CHECKING:
+    from ..._frame.direction import Direction
     from ..events import Numbers, Seconds
     from .quantities import Quantity, Readings
     from .timeline import Moments
@@ -22,12 +21,14 @@ _MOST_LINES = 64
 class Traces:
     """All quantities of a capture over time.
 
-    Without times, bytes are taken to come as fast as a line of this `baud` carries them.
+    Without times, each byte is taken to come so many seconds behind the one before. What goes in
+    the direction `received` is what the device says.
     """
 
-    def __init__(self, baud: float) -> None:
+    def __init__(self, seconds_per_byte: float, received: Direction) -> None:
         self.has_times = False
-        self._seconds_per_byte = BITS_PER_BYTE / baud
+        self._seconds_per_byte = seconds_per_byte
+        self._received = received
         self._found: dict[Quantity, dict[int, Trace]] = {}
         self.left_out: dict[Quantity, set[int]] = {}
 
@@ -63,7 +64,7 @@ class Traces:
             for quantity, traces in self._found.items()
         ]
         some = [(quantity, traces) for quantity, traces in some if traces]
-        received = [each for each in some if each[0].layout.kind.DIRECTION is RECEIVED]
+        received = [each for each in some if each[0].layout.kind.DIRECTION is self._received]
         measured = [each for each in received if each[0].is_measured]
         sent = [each for each in some if each[0].is_measured]
         chosen = measured or sent or received or some
