@@ -158,25 +158,23 @@ class Oracle:
         if name is None:
             return False
         client = next(iter(self.editions.old.spec.endpoints))
-        chosen = layout.direction.sender == client
-        # What a client says, a program has chosen; a device says anything to who has asked it.
-        said = self._said_again if chosen else self._with_address
-        again = said(layout.name, name, values)
+        if layout.direction.sender != client:
+            return self._was_asked(layout.name, name, values)
+        again = self._said_again(layout.name, name, values)
         other = self.editions.new.model.messages[name]
         return again is not None and self.encoded(self.theirs, other, again) is not None
 
-    def _with_address(self, ours: str, theirs: str, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Return any values of the other edition, with the address that is in these."""
-        before, after = self._descriptions(ours, theirs)
-        said = {name: _anything(each) for name, each in arguments_of(after).items()}
-        addresses = (
+    def _was_asked(self, ours: str, theirs: str, values: Mapping[str, Any]) -> bool:
+        """Tell whether the other library has any devices with the address in these values."""
+        one, other = (
             next((name for name, each in fields.items() if each.get("is") == "address"), None)
-            for fields in (before, after)
+            for fields in self._descriptions(ours, theirs)
         )
-        match [*addresses]:
-            case [str(one), str(other)]:
-                said[other] = values[one]
-        return said
+        if one is None or other is None:
+            return True
+        layout = self.editions.new.model.messages[theirs]
+        example = layout.message.examples[0].values
+        return self.encoded(self.theirs, layout, {**example, other: values[one]}) is not None
 
     def _said_again(
         self, ours: str, theirs: str, values: Mapping[str, Any]
