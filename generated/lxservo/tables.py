@@ -12,10 +12,15 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 
+from ._library import CODEC
+from ._tables.extra import need
+
+# Before all that imports them: whoever has not got them is told how to get them.
+need("numpy", "pyarrow", library=CODEC.package)
+
 import pyarrow as pa
 
 from ._frame.direction import Direction
-from ._library import CODEC
 from ._recording.layout import NOISE
 from ._tables import captures
 from ._tables.archive import cuts, pieces

@@ -50,10 +50,10 @@ def write_tables(arguments: Namespace, seen: Counters) -> bytes:
 def _chosen(arguments: Namespace) -> tuple[Path, _Write]:
     """Return what is written to, and what does it. Raises UsageError."""
     if arguments.arrow is not None:
-        return arguments.arrow, imported("arrow_tables").write_arrow
+        return arguments.arrow, imported("arrow_tables", "tables").write_arrow
     if arguments.parquet is not None:
         folder, option = arguments.parquet, "--parquet"
-        write = imported("arrow_tables").write_parquet
+        write = imported("arrow_tables", "tables").write_parquet
     else:
         folder, option, write = arguments.csv_tables, "--csv-tables", _write_csv
     if folder.is_file():

@@ -1,5 +1,1 @@
 """Captures as tables: what `tables` is made of. Only here are NumPy and PyArrow imported."""
-
-from .extra import need
-
-need("numpy", "pyarrow")

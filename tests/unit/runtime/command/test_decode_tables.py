@@ -298,7 +298,7 @@ def test_without_the_extra_the_error_says_how_to_get_it(
 
 def test_what_is_missing_is_said_once() -> None:
     with pytest.raises(ImportError, match="absent_package is needed here") as missing:
-        need("absent_package")
+        need("absent_package", library="busservo")
     assert missing.value.__cause__ is None
     assert missing.value.__suppress_context__
 

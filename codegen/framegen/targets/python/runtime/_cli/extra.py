@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from importlib import import_module
 
+from .._library import CODEC
+from .._tables.extra import need
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
+# What each of them brings, as far as it is imported here.
+_BROUGHT = {"tables": ("numpy", "pyarrow"), "plots": ("matplotlib",)}
 
-def imported(name: str, *, needs: str = "") -> Any:
-    """Import a module of this folder. Raises UsageError where the extra that it needs is missing.
 
-    `needs` is what it needs beside the extra `tables`: a package of the extra `plots`.
-    """
+def imported(name: str, *extras: str) -> Any:
+    """Import a module of this folder. Raises UsageError where an extra that it needs is missing."""
     try:
-        if needs:
-            import_module(".._tables.extra", __package__).need(needs, extra="plots")
+        for extra in extras:
+            need(*_BROUGHT[extra], library=CODEC.package, extra=extra)
         return import_module(f".{name}", __package__)
     except ImportError as error:
         raise UsageError(str(error)) from None

@@ -62,8 +62,8 @@ def run(arguments: Namespace) -> int:
     excerpt = excerpt_of(arguments)
     if plot is not None:
         _refuse(plot)
-    measuring = imported("measuring")
-    drawing = None if plot is None else imported("drawing", needs="matplotlib")
+    measuring = imported("measuring", "tables")
+    drawing = None if plot is None else imported("drawing", "tables", "plots")
     with opened_capture(arguments) as (recording, form):
         recording.is_quiet = True
         with recording.from_the_beginning():
