@@ -210,6 +210,39 @@ def test_imports_of_a_library_point_downwards() -> None:
     assert upwards(LIBRARY_LAYERS, ((part_of(path), path, needed(path)) for path in PARTS)) == []
 
 
+TEMPLATES = GENERATOR / "targets" / "python" / "templates"
+GENERATED = {
+    file.relative_to(TEMPLATES).as_posix().removesuffix(".py.jinja")
+    for file in TEMPLATES.rglob("*.py.jinja")
+}
+# What is the same for every protocol here is given what is generated, and still imports so much.
+GIVEN = ("_explanation", "_recording", "_tables")
+STILL = {"_codec/noise", "_frame/direction", "_frame/errors"}
+
+
+def needed_at_run_time(path: Path) -> Iterator[str]:
+    """Yield every module of the library that one of its modules imports, not for typing alone."""
+    tree = ast.parse((LIBRARY / path).read_text(encoding="utf-8"))
+    for_typing = {
+        inner
+        for node in ast.walk(tree)
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        for each in node.body
+        for inner in ast.walk(each)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level and node not in for_typing:
+            above = path.parents[node.level - 1]
+            module = above.joinpath(*(node.module or "").split("."))
+            yield module.as_posix()
+            yield from ((module / alias.name).as_posix() for alias in node.names)
+
+
+def test_what_is_given_the_protocol_imports_nothing_of_it() -> None:
+    found = {each for path in PARTS if path.parts[0] in GIVEN for each in needed_at_run_time(path)}
+    assert found & GENERATED == STILL
+
+
 # ------------------------------------------------------------------ the tables of a library
 
 # From the bottom up.
