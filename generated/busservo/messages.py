@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 
 from ._frame.direction import Direction
 from ._frame.element import Element
-from ._frame.items import Items
+from ._frame.envelopes import FRAME_ENVELOPE
+from ._frame.lists import List
 from ._frame.message import Message
 from ._frame.number import U8, U16
 
@@ -93,6 +94,8 @@ class ServoMove(Message):
     COMMAND = 3
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(8, 255, 3)
+    FRAME = FRAME_ENVELOPE
+    IDS = (3,)
 
     servo_count = U8(4)
     """How many servos are listed."""
@@ -103,7 +106,7 @@ class ServoMove(Message):
     "as fast as possible" to many; the vendor's own library refuses it. (Client code in public
     repositories)
     """
-    targets = Items(7, ServoTarget, 1, 83, count=servo_count)
+    targets = List(7, ServoTarget, 1, 83, count=servo_count)
     """The servos to turn and where to, in the order of the frame."""
 
     def __new__(
@@ -157,6 +160,8 @@ class ActionGroupRun(Message):
     COMMAND = 6
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(5, 6)
+    FRAME = FRAME_ENVELOPE
+    IDS = (6,)
 
     group = U8(4)
     """The number of the action group."""
@@ -189,9 +194,11 @@ class ActionGroupStop(Message):
     COMMAND = 7
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(2, 3)
+    FRAME = FRAME_ENVELOPE
+    IDS = (7,)
 
     def __new__(cls) -> typing.Self:
-        return cls._packed_at_once("<2sBB", (b"\x55\x55", 2, 7), ())
+        return cls._packed("<2sBB", b"\x55\x55", 2, 7)
 
 
 class ActionGroupSpeed(Message):
@@ -216,6 +223,8 @@ class ActionGroupSpeed(Message):
     COMMAND = 11
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(5, 6)
+    FRAME = FRAME_ENVELOPE
+    IDS = (11,)
 
     GROUP_ALL: typing.Final = 255
     """Every action group stored on the controller."""
@@ -250,9 +259,11 @@ class BatteryVoltageRead(Message):
     COMMAND = 15
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(2, 3)
+    FRAME = FRAME_ENVELOPE
+    IDS = (15,)
 
     def __new__(cls) -> typing.Self:
-        return cls._packed_at_once("<2sBB", (b"\x55\x55", 2, 15), ())
+        return cls._packed("<2sBB", b"\x55\x55", 2, 15)
 
 
 class ServoUnload(Message):
@@ -276,10 +287,12 @@ class ServoUnload(Message):
     COMMAND = 20
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(4, 256)
+    FRAME = FRAME_ENVELOPE
+    IDS = (20,)
 
     servo_count = U8(4)
     """How many servos are listed."""
-    servo_ids = Items(5, U8(), 1, 252, count=servo_count)
+    servo_ids = List(5, U8(), 1, 252, count=servo_count)
     """The servos to switch off."""
 
     def __new__(cls, servo_ids: Iterable[int]) -> typing.Self:
@@ -313,10 +326,12 @@ class ServoPositionsRead(Message):
     COMMAND = 21
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(4, 256)
+    FRAME = FRAME_ENVELOPE
+    IDS = (21,)
 
     servo_count = U8(4)
     """How many servos are listed."""
-    servo_ids = Items(5, U8(), 1, 252, count=servo_count)
+    servo_ids = List(5, U8(), 1, 252, count=servo_count)
     """The servos asked about."""
 
     def __new__(cls, servo_ids: Iterable[int]) -> typing.Self:
@@ -353,6 +368,8 @@ class ActionGroupStarted(Message):
     COMMAND = 6
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(5, 6)
+    FRAME = FRAME_ENVELOPE
+    IDS = (6,)
 
     group = U8(4)
     """The number of the action group."""
@@ -385,9 +402,11 @@ class ActionGroupStopped(Message):
     COMMAND = 7
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(2, 3)
+    FRAME = FRAME_ENVELOPE
+    IDS = (7,)
 
     def __new__(cls) -> typing.Self:
-        return cls._packed_at_once("<2sBB", (b"\x55\x55", 2, 7), ())
+        return cls._packed("<2sBB", b"\x55\x55", 2, 7)
 
 
 class ActionGroupCompleted(Message):
@@ -410,6 +429,8 @@ class ActionGroupCompleted(Message):
     COMMAND = 8
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(5, 6)
+    FRAME = FRAME_ENVELOPE
+    IDS = (8,)
 
     group = U8(4)
     """The number of the action group."""
@@ -437,6 +458,8 @@ class BatteryVoltage(Message):
     COMMAND = 15
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(4, 5)
+    FRAME = FRAME_ENVELOPE
+    IDS = (15,)
 
     voltage_mv = U16(4, unit="mV")
     """The voltage of the controller board. A step is 0.001 V."""
@@ -464,10 +487,12 @@ class ServoPositions(Message):
     COMMAND = 21
     DIRECTION = Direction.CONTROLLER_TO_HOST
     LENGTHS = range(3, 256, 3)
+    FRAME = FRAME_ENVELOPE
+    IDS = (21,)
 
     servo_count = U8(4)
     """How many servos are listed."""
-    positions = Items(5, ServoPosition, 0, 84, count=servo_count)
+    positions = List(5, ServoPosition, 0, 84, count=servo_count)
     """The servos and where they are, in the order of the frame.
 
     A servo that is off or missing may be left out, so there may be fewer than were asked for.

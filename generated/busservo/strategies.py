@@ -104,7 +104,10 @@ def messages(direction: Direction | None = None) -> SearchStrategy[Message]:
 
 
 def noise(*, max_size: int = 40) -> SearchStrategy[bytes]:
-    """Generate bytes without a complete header, though the beginning of one may end them."""
+    """Generate bytes without a complete header, though the beginning of one may end them.
+
+    Of frames without a header, they may hold the beginning, too.
+    """
     return _any_noise(max_size)
 
 

@@ -12,7 +12,7 @@ from busservo import (
     ServoPosition,
     ServoPositions,
 )
-from busservo._frame.protocol import HEADER
+from busservo._frame.envelopes import FRAME_ENVELOPE
 
 from busservo_simulator.fault_injector import FaultInjector
 
@@ -31,7 +31,7 @@ class BoardFaultInjector(FaultInjector):
     """One run of faults, repeatable by their seed."""
 
     def __init__(self, faults: Faults) -> None:
-        super().__init__(faults, REPLIES, HEADER)
+        super().__init__(faults, REPLIES, FRAME_ENVELOPE.header)
         self._kinds = faults
 
     def reports(self, report: Report) -> Iterator[Report]:

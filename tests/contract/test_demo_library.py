@@ -275,8 +275,10 @@ def test_it_refuses_every_bad_vector_for_the_reason_given() -> None:
     for vector in vectors["invalid"]:
         found = result_here("greenhouse", bytes.fromhex(vector["hex"]), ways[vector["direction"]])
         assert found == (vector["reason"], vector["offset"]), vector
+    # Nothing stands behind its fields.
+    absent = {lib().Reason.BAD_CHECKSUM, lib().Reason.BAD_TRAILER}
     assert {vector["reason"] for vector in vectors["invalid"]} == {
-        reason.value for reason in lib().Reason
+        reason.value for reason in {*lib().Reason} - absent
     }
 
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from copy import copy
 
+from .._frame.envelopes import ENVELOPES
 from .._frame.errors import Reason
-from .._frame.protocol import HEADER
 from .decoder import StreamDecoder
 from .event_bytes import bytes_of
 from .noise import Noise
@@ -19,6 +19,12 @@ from .noise import Noise
 # How many seconds of silence end a frame that has begun: longer than the latency of any adapter,
 # which gathers bytes for up to 16 ms.
 GAP = 0.05
+
+# What begins with no header, or with a single byte as an acknowledgement may, can be anywhere
+# in a frame by chance: there is nothing to doubt by.
+_HEADERS = {each.header for each in ENVELOPES if each.header and each.body_at > 1}
+# The beginnings of these that more bytes may complete.
+_BEGUN = tuple(header[:size] for header in _HEADERS for size in range(1, len(header)))
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -121,7 +127,10 @@ class CarefulDecoder:
     def _sifted(self, events: Sequence[Message | Noise]) -> Sequence[Message | Noise]:
         """Return the events up to a message that is in doubt; what follows is decoded again."""
         for number, event in enumerate(events):
-            if isinstance(event, Noise) or not (self._is_torn(event) or self._doubt(event)):
+            # In most messages, nothing begins that could be another.
+            if isinstance(event, Noise) or not _beginnings(event.encode()):
+                continue
+            if not (self._is_torn(event) or self._doubt(event)):
                 continue
             rest = b"".join(map(bytes_of, events[number + 1 :])) + self._decoder.held
             found = [] if self._doubted is not None else self._refuted(event)
@@ -177,12 +186,14 @@ class CarefulDecoder:
         return [torn, *self._sifted(self._rival_events)]
 
 
-def _beginnings(frame: bytes) -> Iterator[int]:
-    """Yield each place behind a frame's own header where another stands, or may begin."""
-    at = frame.find(HEADER, 1)
-    while at > 0:
-        yield at
-        at = frame.find(HEADER, at + 1)
-    for size in range(len(HEADER) - 1, 0, -1):
-        if frame.endswith(HEADER[:size]):
-            yield len(frame) - size
+def _beginnings(frame: bytes) -> list[int]:
+    """Return each place behind a frame's own header where another stands, or may begin."""
+    found: list[int] = []
+    for header in _HEADERS:
+        at = frame.find(header, 1)
+        while at > 0:
+            found.append(at)
+            at = frame.find(header, at + 1)
+    if frame.endswith(_BEGUN, 1):
+        found += [len(frame) - len(begun) for begun in _BEGUN if frame.endswith(begun, 1)]
+    return sorted(set(found)) if len(found) > 1 else found

@@ -6,8 +6,8 @@ from __future__ import annotations
 from operator import index
 
 from .._frame.direction import Direction
+from .._frame.heads import HEAD, LEAST
 from .._frame.message import Message
-from .._frame.protocol import BODY_AT
 from .._frame.table import Table, largest_of
 from ..messages import MESSAGES
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _new = object.__new__
 
 # Made once: making it takes as long as using it.
-_HEAD = slice(BODY_AT)
+_HEAD = slice(HEAD)
 
 _tables: dict[Direction | None, Table] = {}
 
@@ -43,8 +43,8 @@ def table_for(direction: Direction | None, max_frame: int | None = None) -> Tabl
         table = _tables[direction] = Table(kinds, largest_of(kinds))
     if max_frame is None or index(max_frame) >= table.largest:
         return table
-    if max_frame < BODY_AT:
-        raise ValueError(f"max_frame is {max_frame}, and the smallest frame has {BODY_AT} bytes")
+    if max_frame < LEAST:
+        raise ValueError(f"max_frame is {max_frame}, and the smallest frame has {LEAST} bytes")
     return Table(table.messages, index(max_frame))
 
 
@@ -80,8 +80,12 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
     if type(frame) is bytes:
         entry = table.get(frame[_HEAD])
         if entry is not None:
-            size, at, until, count, kind, _ = entry
-            if len(frame) == size and (not count or frame[at:until] == count):
+            size, at, until, count, kind, holds, _ = entry
+            if (
+                len(frame) == size
+                and (not count or frame[at:until] == count)
+                and (holds is None or holds(frame))
+            ):
                 message = _new(kind)
                 message._frame = frame
                 return message
@@ -90,15 +94,5 @@ def decode(frame: bytes | bytearray | memoryview, direction: Direction | None) -
 
 def twins(message: Message) -> list[type[Message]]:
     """Return the other messages that the same frame may be, if its sender is unknown."""
-    frame = message.encode()
-    table = table_for(None)
-    entry = table.get(frame[:BODY_AT])
-    if entry is not None and entry[-1] is None:
-        return []
-    return [
-        kind
-        for _, count_at, count_end, count, kind, _ in table.entries(frame[:BODY_AT])
-        if kind is not type(message)
-        and frame[count_at:count_end] == count
-        and kind.SHAPE.out_of_range(frame) is None
-    ]
+    found = table_for(None).all_of(message.encode())
+    return [kind for kind in found if kind is not type(message)]

@@ -4,8 +4,12 @@
 from __future__ import annotations
 
 from .._frame.bytes_like import format_hex
+from .._frame.envelopes import ENVELOPES
 from .._frame.errors import Reason
-from .._frame.protocol import BODY_AT, COMMAND_NAME, read_command
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from .._frame.envelope import Envelope
 
 
 class Noise:
@@ -57,21 +61,39 @@ class UnknownFrame(Noise):
     __slots__ = ()
 
     @property
-    def command(self) -> int:
-        """The command it would have."""
-        return read_command(self._data)
-
-    @property
     def numbers(self) -> dict[str, int]:
         """What says who it is from and which message it is, by name."""
-        return {COMMAND_NAME: self.command}
+        envelope = self._envelope
+        parts = [envelope.address, *envelope.ids]
+        return {part.name: part.read(self._data) for part in parts if part is not None}
+
+    @property
+    def ids(self) -> tuple[int, ...]:
+        """The numbers that say which message it is."""
+        return tuple(part.read(self._data) for part in self._envelope.ids)
+
+    @property
+    def command(self) -> int:
+        """The last of these numbers."""
+        return self.ids[-1]
 
     @property
     def parameters(self) -> bytes:
-        """The bytes that would be its parameters."""
-        return self._data[BODY_AT:]
+        """The bytes that would be its fields."""
+        envelope = self._envelope
+        return self._data[envelope.body_at : len(self._data) - envelope.tail_size]
+
+    @property
+    def _envelope(self) -> Envelope:
+        """The envelope that it has."""
+        for envelope in ENVELOPES:
+            if envelope.fits(self._data):
+                return envelope
+        raise ValueError("no frame is like that")
 
     def _repr_html_(self) -> str:
         from .._frame.html_strip import noise_strip
 
-        return noise_strip(f"Unknown frame: command {self.command}", self._data, is_frame=True)
+        parts = zip(self._envelope.ids, self.ids, strict=True)
+        said = ", ".join(f"{part.name} {number}" for part, number in parts)
+        return noise_strip(f"Unknown frame: {said}", self._data, is_frame=True)

@@ -8,7 +8,8 @@ own bytes prove that no message begins in it: any message is worth more than suc
 from __future__ import annotations
 
 from .._frame.errors import Reason
-from .._frame.protocol import BODY_AT, HEADER, UNCOUNTED, read_length
+from .._frame.heads import HEAD, LEAST, next_begun
+from .._frame.table import found_entry, whole
 from .noise import Noise, UnknownFrame
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -19,11 +20,6 @@ if TYPE_CHECKING:
 
 _TOO_SHORT = Reason.TOO_SHORT
 
-# Beginnings of a header, or of a frame, that more bytes may complete, the longest first.
-_BEGUN = tuple(HEADER[:size] for size in range(len(HEADER), 0, -1))
-# A head of one byte repeated, if the header is such: each byte of a run of it begins another.
-_RUN = HEADER[:1] * BODY_AT if not HEADER.strip(HEADER[:1]) else bytes(BODY_AT)
-_RUN_CLAIM = read_length(_RUN) + UNCOUNTED
 # How much of a run is read at once.
 _STRETCH = 256
 # A place behind the end of any stream.
@@ -41,6 +37,7 @@ class NoiseLane:
         "_last",
         "_reason",
         "_refused",
+        "_since",
         "_table",
         "at",
         "emitted",
@@ -61,6 +58,8 @@ class NoiseLane:
         # bytes of the stream must be there before it does.
         self.emitted = self.at = self.wake = 0
         self.unknown_frames = 0
+        # How much of the frame at `at` has been judged already.
+        self._since = 0
 
     def copy(self) -> NoiseLane:
         """Return a copy in the same state."""
@@ -84,22 +83,27 @@ class NoiseLane:
         None if none came, and `emitted`, `at` and `wake` say what is held.
         """
         table, refused = self._table, self._refused
-        known = table.verdicts
+        known, header = table.verdicts, table.header
         while True:
-            found = data.find(HEADER, at)
-            at = found if found >= 0 else _begun_header(data, at)
-            verdict = known.get(data[at : at + BODY_AT])
+            begun = data.find(header, at) if header else -1
+            at = begun if begun >= 0 else table.next_begun(data, at)
+            head = data[at : at + HEAD]
+            verdict = known.get(head)
             if verdict is None:
-                entry = table.whole(data, at)
-                verdict = table.weigh(data, at) if entry is None else None
-                if verdict is not None and verdict.kind is not None:
-                    entry = verdict.size, 0, 0, b"", verdict.kind, None
+                entry = table.get(head)
+                entry = entry and whole(entry, data, at)
+                if entry is None:
+                    since = self._since if base + at == self.at else 0
+                    verdict = table.weigh(data, at, None, since, quiet=quiet)
+                    entry = None if verdict.kind is None else found_entry(verdict)
                 if verdict is None or entry is not None:
-                    if refused:
-                        self._cut(events, data, base, at, at, final=True)
-                    self._emit_noise(events, data, base, base + at)
-                    self.at = base + at
+                    self._end(events, data, base, at)
                     return entry
+                if verdict.proven and not verdict.is_open:
+                    self._end(events, data, base, at)
+                    at += verdict.size
+                    self._emit_unknown(events, data, base, base + at)
+                    continue
             if verdict.is_open:
                 after = self._wait(events, data, base, at, verdict, quiet=quiet)
                 if after is None:
@@ -107,11 +111,22 @@ class NoiseLane:
                 if after != at:
                     at = after
                     continue
-            last, claim = at, verdict.claim
-            if claim == _RUN_CLAIM and data.startswith(_RUN, at):
-                last += _run_length(data, at) - BODY_AT
-            refused.append((base + at, base + last, verdict.reason, claim))
+            last = self._run_end(data, at) if verdict.claim == table.run_claim else at
+            if header or table.begins(data, at):
+                refused.append((base + at, base + last, verdict.reason, verdict.claim))
             at = last + 1
+
+    def _end(self, events: list[Event], data: bytes, base: int, at: int) -> None:
+        """Emit the noise in front of data[at], where a frame begins."""
+        if self._refused:
+            self._cut(events, data, base, at, at, final=True)
+        self.at = base + at
+        self._emit_noise(events, data, base, self.at)
+
+    def _run_end(self, data: bytes, at: int) -> int:
+        """Return where the last head begins of the run of a header's byte at data[at]."""
+        run = self._table.run
+        return at + _run_length(data, at, run) - HEAD if data.startswith(run, at) else at
 
     def _wait(
         self,
@@ -129,17 +144,16 @@ class NoiseLane:
         there is to be refused.
         """
         # Of an unknown command, only the length of its claim is not known yet.
-        weighed = at if verdict.reason is _TOO_SHORT else len(data)
+        weighed = at if verdict.reason is _TOO_SHORT or verdict.proven else len(data)
         self._cut(events, data, base, at, weighed, final=quiet)
         if self.emitted > base + at:
             return self.emitted - base
         if quiet and at < len(data):
-            return at if data.startswith(HEADER, at) else at + 1
-        self.at = self.wake = base + at
-        if at < len(data):
-            self.wake += verdict.size
-        elif self._refused:
-            self.wake += BODY_AT
+            return at if self._table.begins(data, at) else at + 1
+        self.at, self._since = base + at, len(data) - at
+        # Where nothing has begun, only a whole frame decides, or the end of a claim.
+        least = LEAST if self._refused and at == len(data) else 0
+        self.wake = self.at + max(least, verdict.size)
         if self._refused:
             first, _, _, claim = self._refused[0]
             self.wake = min(self.wake, max(first, self.emitted) + claim)
@@ -186,7 +200,8 @@ class NoiseLane:
                     self._reason = reason
                 # In a run, this holds for all that end in the same run, or behind data[weighed].
                 if claim and at < last:
-                    alike = _run_length(data, end - base - 1) if own else horizon - end + 1
+                    run = self._table.run
+                    alike = _run_length(data, end - base - 1, run) if own else horizon - end + 1
                     at = min(last, at + max(alike, 1) - 1)
                 else:
                     at = last
@@ -200,13 +215,16 @@ class NoiseLane:
 
         That none does is known; a header that only later bytes refused stands near the end.
         """
-        if data.endswith(_BEGUN, start + 1, end):
+        table, header = self._table, self._table.header
+        if data.endswith(table.begun, start + 1, end):
             return False
-        at = data.find(HEADER, max(start + 1, end - self._table.reach + 1), end)
-        while at >= 0:
-            if self._table.weigh(data[at:end]).reason is _TOO_SHORT:
+        held = data[max(start + 1, end - table.reach + 1) : end]
+        at = held.find(header) if header else next_begun(held, 0)
+        while 0 <= at < len(held):
+            verdict = table.weigh(held, at)
+            if verdict.reason is _TOO_SHORT or verdict.proven:
                 return False
-            at = data.find(HEADER, at + 1, end)
+            at = held.find(header, at + 1) if header else next_begun(held, at + 1)
         return True
 
     def _emit_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
@@ -223,15 +241,7 @@ class NoiseLane:
         self.begin_anew(end)
 
 
-def _begun_header(data: bytes, at: int) -> int:
-    """Return where behind data[at] an incomplete header may begin; the end if none does."""
-    for begun in _BEGUN:
-        if data.endswith(begun, at):
-            return len(data) - len(begun)
-    return len(data)
-
-
-def _run_length(data: bytes, at: int) -> int:
-    """Return how often the byte at data[at], the first of a header, is repeated there."""
+def _run_length(data: bytes, at: int, run: bytes) -> int:
+    """Return how often the byte of a run is repeated at data[at]."""
     stretch = data[at : at + _STRETCH]
-    return len(stretch) - len(stretch.lstrip(HEADER[:1]))
+    return len(stretch) - len(stretch.lstrip(run))

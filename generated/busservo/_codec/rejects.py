@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from .._frame.errors import Reason
-from .._frame.protocol import HEADER
+from .._frame.heads import begins
 from .noise import Noise
 
 
@@ -21,7 +21,7 @@ class Rejects:
 
     def add(self, noise: Noise) -> bool:
         """Count a piece of noise; return False if it continues the piece before it."""
-        rest = self._goes_on and not noise.data.startswith(HEADER)
+        rest = self._goes_on and not begins(noise.data)
         self._goes_on = True
         if rest:
             return False

@@ -16,6 +16,8 @@ class Reason(Enum):
     COUNT_MISMATCH = "count mismatch"
     UNKNOWN_COMMAND = "unknown command"
     OUT_OF_RANGE = "out of range"
+    BAD_CHECKSUM = "bad checksum"
+    BAD_TRAILER = "bad trailer"
 
 
 _PACKAGE = __name__.partition("._frame")[0]

@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from struct import Struct, error
 
 from .direction import Direction
+from .envelope import Envelope
+from .fixed import Always
 from .shape import Shape
 from .table import ANY_SIZE, Table
 
@@ -18,11 +20,16 @@ else:
 
 _new = object.__new__
 
+# So many layouts are remembered at once: a list of bytes has one for each length.
+_REMEMBERED = 1024
+
 
 class _Packers(dict[str, "Callable[..., bytes]"]):
     """Functions that pack values, by layout in the notation of `struct`; made once for each."""
 
     def __missing__(self, layout: str) -> Callable[..., bytes]:
+        if len(self) >= _REMEMBERED:
+            self.clear()
         self[layout] = Struct(layout).pack
         return self[layout]
 
@@ -44,7 +51,10 @@ class Message:
     DEPRECATED: typing.ClassVar[str] = ""
     COMMAND: typing.ClassVar[int]
     DIRECTION: typing.ClassVar[Direction]
-    LENGTHS: typing.ClassVar[range]
+    FRAME: typing.ClassVar[Envelope]
+    IDS: typing.ClassVar[tuple[int, ...]]
+    LENGTHS: typing.ClassVar[Sequence[int]]
+    CONSTANTS: typing.ClassVar[tuple[Always, ...]] = ()
     DEFAULTS: typing.ClassVar[tuple[tuple[str, object], ...]] = ()
     SHAPE: typing.ClassVar[Shape]
 
@@ -57,7 +67,6 @@ class Message:
 
     def __init_subclass__(cls) -> None:
         cls.SHAPE = Shape(cls, cls.LENGTHS)
-        cls._table = Table([cls], ANY_SIZE)
 
     @classmethod
     def _packed_at_once(
@@ -73,7 +82,7 @@ class Message:
         checksum. Good ones are packed at once; any others are checked one by one, and are either
         converted, as those of NumPy are, or explained.
         """
-        pack, good = _packers[layout], not cls.SHAPE.narrowed
+        pack, good = _packers[layout], True
         for number in fields:
             if type(number) is not int:
                 good = False
@@ -87,6 +96,16 @@ class Message:
             message._frame = pack(*head, *cls.SHAPE.checked((*fields, *flat)))
         return message
 
+    @classmethod
+    def _packed(cls, layout: str, *values: typing.Any) -> typing.Self:
+        """Return the message with this frame, packed as `struct` does it, with its checksums.
+
+        The values are good ones, each given or derived; where a checksum stands there are zeros.
+        """
+        message = _new(cls)
+        message._frame = cls.FRAME.seal(_packers[layout](*values), cls.IDS)
+        return message
+
     def encode(self) -> bytes:
         """Return the frame, from its header to its last byte."""
         return self._frame
@@ -94,11 +113,13 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> typing.Self:
         """Decode one frame of this message, with nothing after it. Raises DecodeError."""
-        try:
-            table = cls._table
-        except AttributeError:
+        table = vars(cls).get("_table")
+        if table is None and cls is not Message:
+            cls._table = Table([cls], ANY_SIZE)
+            table = vars(cls)["_table"]
+        if table is None:
             problem = "Message is what all messages are: decode with one of its subclasses"
-            raise TypeError(f"{problem}, or with the function `decode` of this package") from None
+            raise TypeError(f"{problem}, or with the function `decode` of this package")
         message: typing.Self = table.read(frame)
         return message
 

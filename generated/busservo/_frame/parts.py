@@ -3,71 +3,112 @@
 
 from __future__ import annotations
 
-from .protocol import (
-    BODY_AT,
-    COMMAND_AT,
-    COMMAND_END,
-    COMMAND_NAME,
-    HEADER,
-    HEADER_NAME,
-    LENGTH_AT,
-    LENGTH_END,
-    LENGTH_NAME,
-    read_command,
-    read_length,
-)
+from .envelope import NumberPart
+from .envelopes import ENVELOPES
+from .fixed import Always
+from .lists import List, size_of
+from .number import set_bits
+from .optional import Optional
+from .packed import Packed
+from .text import Text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import TypeAlias
+    from collections.abc import Iterable, Iterator, Mapping
+    from typing import Any, TypeAlias
 
+    from .envelope import Envelope, Part
     from .message import Message
-    from .number import Number
 
     # The bytes of a part, what it is called, and what it says.
     Cell: TypeAlias = tuple[bytes, str, str]
 
 
 def message_parts(message: Message) -> Iterator[Cell]:
-    """Yield the parts of a message: its head, its numbers, and the elements of its list."""
-    frame, items = message.encode(), message.SHAPE.items
-    yield from _head(frame)
-    at = BODY_AT
-    for number in message.SHAPE.numbers:
-        size = number.struct.size
-        yield frame[at : at + size], number.name, _says(number, frame, at)
-        at += size
-    position = 0
-    while items is not None and at < len(frame):
-        begun, said = at, []
-        for number in items.fields:
-            name = "" if items.element is None else f"{number.name} "
-            said.append(f"{name}{_says(number, frame, at)}")
-            at += number.struct.size
-        yield frame[begun:at], f"{items.name}[{position}]", ", ".join(said)
-        position += 1
+    """Yield the parts of a message: those around its fields, and these, element by element."""
+    kind, frame = type(message), message.encode()
+    envelope = kind.FRAME
+    given = [each for each in (envelope.address, envelope.counter) if each is not None]
+    outside = {each: getattr(kind, each.name) for each in given}
+    yield from _around(envelope.head, frame, outside)
+    body = frame[: len(frame) - envelope.tail_size]
+    for part in kind.SHAPE.parts:
+        yield from _cells(part, body)
+    yield from _around(envelope.tail, frame, outside)
 
 
-def unknown_parts(frame: bytes) -> list[Cell]:
-    """Return the parts of a frame of unknown command."""
-    return [*_head(frame), (frame[BODY_AT:], "parameters", "")]
+def unknown_parts(frame: bytes) -> Iterator[Cell]:
+    """Yield the parts of a frame of unknown id."""
+    envelope = next(each for each in ENVELOPES if each.fits(frame))
+    yield from _around(envelope.head, frame, {})
+    yield frame[envelope.body_at : len(frame) - envelope.tail_size], _body(envelope), ""
+    yield from _around(envelope.tail, frame, {})
 
 
-def _head(frame: bytes) -> list[Cell]:
-    """Return the parts that stand in front of the parameters."""
-    parts = [
-        (0, HEADER, HEADER_NAME, ""),
-        (LENGTH_AT, frame[LENGTH_AT:LENGTH_END], LENGTH_NAME, str(read_length(frame))),
-        (COMMAND_AT, frame[COMMAND_AT:COMMAND_END], COMMAND_NAME, str(read_command(frame))),
-    ]
-    return [(data, name, says) for _, data, name, says in sorted(parts)]
+def _body(envelope: Envelope) -> str:
+    return "parameters" if envelope.ids else "bytes"
 
 
-def _says(number: Number, frame: bytes, at: int) -> str:
-    """Return what a number says: its value with its name or its unit."""
-    (value,) = number.struct.unpack_from(frame, at)
+def _around(parts: Iterable[Part], frame: bytes, fields: Mapping[Any, Any]) -> Iterator[Cell]:
+    """Yield the parts of an envelope; those that a user gives say what their field does.
+
+    `fields` are by part, not by name: a field of the message may be called like a part.
+    """
+    for part in parts:
+        data = frame[part.place]
+        says = str(part.read(frame)) if isinstance(part, NumberPart) else ""
+        if part in fields:
+            says = value_in_words(fields[part], fields[part].struct.unpack(data)[0])
+        yield data, part.name, says
+
+
+def _cells(part: Any, body: bytes) -> Iterator[Cell]:
+    """Yield the cells of a part of the fields; none where it is absent."""
+    if isinstance(part, List):
+        yield from _elements(part, body)
+        return
+    field = part.number if isinstance(part, Optional) else part
+    varies = isinstance(field, Text) and field.least is not None
+    size = field.size if isinstance(field, Packed) else 0 if varies else size_of(field)
+    data = body[field.at :] if varies else body[field.at : field.at + size]
+    if len(data) < size:
+        return
+    if isinstance(field, Always):
+        yield data, field.name, ""
+    elif isinstance(field, Packed):
+        yield data, field.name, ", ".join(map(str, field.read(data)))
+    elif isinstance(field, Text):
+        yield data, field.name, repr(field.read(data) if size else str(data, "ascii"))
+    else:
+        yield data, field.name, value_in_words(field, field.struct.unpack(data)[0])
+
+
+def _elements(items: List[Any], body: bytes) -> Iterator[Cell]:
+    """Yield the elements of a list."""
+    fixed = not items.counters and items.least == items.most
+    end = items.at + items.most * items.unit_size if fixed else len(body)
+    for position, at in enumerate(range(items.at, end, items.unit_size)):
+        data = body[at : at + items.unit_size]
+        said = []
+        for piece in items.pieces:
+            if isinstance(piece, Always):
+                continue
+            found = data[piece.at : piece.at + size_of(piece)]
+            name = "" if items.element is None else f"{piece.name} "
+            if isinstance(piece, Text):
+                said.append(f"{name}{piece.read(found)!r}")
+            else:
+                said.append(f"{name}{value_in_words(piece, piece.struct.unpack(found)[0])}")
+        yield data, f"{items.name}[{position}]", ", ".join(said)
+
+
+def value_in_words(number: Any, value: float) -> str:
+    """Return what a number says: its value with its name, its named bits that are set, its unit."""
     for name, meant in number.names.items():
         if meant == value:
             return f"{value} ({name})"
+    bits = getattr(number, "bits", {})
+    names = set_bits(int(value), bits) if bits else []
+    if names:
+        return f"{value} ({', '.join(names)})"
     return f"{value} {number.unit}" if number.unit else str(value)

@@ -5,18 +5,6 @@ from __future__ import annotations
 
 PROTOCOL_VERSION = "1.0.1"
 """The version of the protocol's specification."""
-HEADER = b"\x55\x55"
-LENGTH_AT = 2
-LENGTH_END = 3
-COMMAND_AT = 3
-COMMAND_END = 4
-BODY_AT = 4
-# What these parts are called.
-HEADER_NAME = "header"
-LENGTH_NAME = "length"
-COMMAND_NAME = "command"
-# How many bytes of a frame its length does not count.
-UNCOUNTED = 2
 # The byte order, in the notation of the struct module.
 STRUCT_ORDER = "<"
 # The serial line: bits per second, and the form of a byte.
@@ -31,21 +19,6 @@ LOCAL_ECHO = False
 HID_DEVICES: tuple[tuple[int, int, int], ...] = ((0x0483, 0x5750, 64),)
 
 
-def head(command: int, length: int) -> bytes:
-    """Return the bytes of a frame in front of its parameters."""
-    return HEADER + length.to_bytes(1, "little") + command.to_bytes(1, "little")
-
-
 def read_number(data: bytes) -> int:
     """Return the number that bytes of a frame encode."""
     return int.from_bytes(data, "little")
-
-
-def read_length(frame: bytes) -> int:
-    """Return the length in the head of a frame."""
-    return int.from_bytes(frame[LENGTH_AT:LENGTH_END], "little")
-
-
-def read_command(frame: bytes) -> int:
-    """Return the command in the head of a frame."""
-    return int.from_bytes(frame[COMMAND_AT:COMMAND_END], "little")

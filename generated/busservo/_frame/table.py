@@ -2,37 +2,39 @@
 """The first bytes of legal frames, by message, and why others begin none.
 
 The bytes are tested in the order in which they come, and the first that no legal frame can have
-gives the reason and the place. Single frames and streams are judged by this alone.
+gives the reason and the place; a checksum is the last test. Single frames and streams are judged by
+this alone.
 """
 
 from __future__ import annotations
 
-from .bytes_like import as_bytes, format_hex
+from .bytes_like import as_bytes
+from .envelope import Constant
+from .envelopes import ENVELOPES, PROVEN_IN_PLACE
 from .errors import DecodeError, Reason
-from .pluralize import describe_range
-from .protocol import (
-    BODY_AT,
-    COMMAND_AT,
-    COMMAND_END,
-    HEADER,
-    LENGTH_AT,
-    LENGTH_END,
-    UNCOUNTED,
-    read_command,
-    read_length,
-)
+from .head_walk import HeadWalk
+from .heads import FIRST_BYTES, HEAD, next_begun, size_of
+from .quick_tests import together
+from .trial import Known, Refused, too_short
 from .verdict import Verdict
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Sequence
     from typing import Any, TypeAlias
 
+    from .envelope import Address, Checksum, Envelope
+    from .head_walk import Trial
     from .message import Message
+    from .trial import Prove
 
-    # The size of the frame; from where to where its count stands, and the bytes it must be (b"" at
-    # 0:0 if there is no list); the class; and the entry for another message with the same head.
-    Entry: TypeAlias = "tuple[int, int, int, bytes, type[Message], Entry | None]"
+    # The size of the frame, 0 where only its count says it; from where to where that count stands,
+    # and the bytes it must be (b"" at 0:0 if there is none); the class; what says of a whole frame
+    # whether all is right that the decoders do not test themselves (None if it always is); and the
+    # entry for another message with the same head.
+    Entry: TypeAlias = (
+        "tuple[int, int, int, bytes, type[Message], Callable[[bytes], bool] | None, Entry | None]"
+    )
 
 
 _new = object.__new__
@@ -44,82 +46,110 @@ ANY_SIZE = 1 << 62
 # noise must not fill the memory.
 _REMEMBERED = 4096
 
-# A length that no frame has; one that no frame of its command has.
-_NO_LENGTH = Verdict(None, Reason.LENGTH_MISMATCH, LENGTH_AT, LENGTH_END)
-_NO_LENGTH_OF_ITS_COMMAND = Verdict(None, Reason.LENGTH_MISMATCH, LENGTH_AT, BODY_AT)
+_NOTHING = Verdict(None, Reason.BAD_HEADER, 0, 1)
 
 
 class Table(dict[bytes, "Entry"]):
-    """A map from the head of a frame, up to its command, to what must follow for it to be legal.
+    """A map from the head of a frame to what must follow for it to be legal.
 
-    It learns heads as they come. Heads that do not decide alone, since a field has a range of its
-    own, are not in it: `weigh` judges them. No frame is larger than `largest`.
+    It learns heads as they come; `weigh` judges all that are not in it. No frame is larger than
+    `largest`. `header` is that of all its frames, b"" where they do not have the same, and `begun`
+    are its beginnings, the longest first. If it is one byte, or repeats one, `run` is a head of
+    this byte alone, and `run_claim` what it claims as a frame of unknown command, -1 if it does
+    not: each byte of a longer run begins another.
     """
 
-    __slots__ = ("_legal", "kinds", "largest", "messages", "reach", "verdicts", "waits")
+    __slots__ = (
+        "_proofs",
+        "_trials",
+        "begun",
+        "frames",
+        "header",
+        "largest",
+        "messages",
+        "reach",
+        "run",
+        "run_claim",
+        "verdicts",
+        "waits",
+    )
 
     def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
         super().__init__()
         self.messages = messages
         self.largest = largest
-        self.kinds: dict[int, list[type[Message]]] = {}
-        # How many bytes of an illegal frame may look legal: up to its count, unless a field has a
-        # range of its own.
-        self.reach = BODY_AT
-        for kind in messages:
-            self.kinds.setdefault(kind.COMMAND, []).append(kind)
-            count_end = kind.SHAPE.count_bytes(kind.LENGTHS[0])[1]
-            self.reach = max(self.reach, largest if kind.SHAPE.narrowed else count_end)
-        # What may follow the legal heads seen so far, and the verdicts on others, complete or not.
-        self._legal: dict[bytes, Entry] = {}
+        # The envelopes that there may be, each with its messages.
+        every = [(frame, [each for each in messages if each.FRAME is frame]) for frame in ENVELOPES]
+        # Where nothing is sent, bytes may still begin as any frame does.
+        self.frames = [
+            (frame, kinds)
+            for frame, kinds in every
+            if not messages or (kinds and frame.least <= largest)
+        ]
+        headers = {frame.header for frame, _ in self.frames}
+        self.header = headers.pop() if len(headers) == 1 else b""
+        # How many bytes of an illegal frame may look legal, where no checksum proves it.
+        self.reach = max((_reach(kind, largest) for kind in messages), default=0)
+        # What the heads seen so far may belong to; the verdicts on those that decide alone.
+        self._trials: dict[bytes, list[Trial]] = {}
+        # What says whether the checksums of a message are right, where its entries do not.
+        self._proofs: dict[type[Message], Callable[[bytes], bool] | None] = {}
         self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
+        self.begun = tuple(self.header[:size] for size in range(len(self.header), 0, -1))
+        self.run = b"" if self.header.strip(self.header[:1]) else self.header[:1] * HEAD
+        self.run_claim = self._claim_of_run()
 
-    def weigh(self, data: bytes, at: int = 0) -> Verdict:
+    def weigh(
+        self,
+        data: bytes,
+        at: int = 0,
+        prove: Prove | None = None,
+        since: int = 0,
+        *,
+        quiet: bool = False,
+    ) -> Verdict:
         """Judge the frame that begins at `at`; `data` may go on behind it.
 
-        If they may be one of several messages, it is the first that is legal; if none is, the
-        refusal at the last byte is returned.
+        If they may be one of several messages, it is the longest that is legal; if none is, the
+        refusal at the last byte is returned. As long as a longer frame may come, the verdict is
+        open, unless the line is `quiet`. `prove` tells wrong checksums, and `since` bytes of the
+        frame were judged before.
         """
-        head = data[at : at + BODY_AT]
+        head = data[at : at + HEAD]
         verdict = self.verdicts.get(head)
         if verdict is not None:
             return verdict
-        entry = self._legal.get(head)
-        if entry is None:
-            verdict = self._weigh_head(head)
-            if verdict is not None:
-                _remember(self.verdicts, head, verdict)
-                return verdict
-            entry = self._legal[head]
-        furthest = _fit(data, at, entry)
-        while furthest.kind is None and entry[-1] is not None:
-            entry = entry[-1]
-            verdict = _fit(data, at, entry)
-            if verdict.kind is not None or verdict.offset > furthest.offset:
-                furthest = verdict
-        return furthest
+        trials = self._trials.get(head) or self._learn(head)
+        if len(trials) == 1:
+            return trials[0].judged(data, at, prove or wrong_checksum, since)
+        verdict = chosen([each.judged(data, at, prove or wrong_checksum, 0) for each in trials])
+        return verdict.whole or verdict if quiet else verdict
 
-    def whole(self, data: bytes, at: int) -> Entry | None:
-        """Return the entry of the message at `at` if a look-up proves it, otherwise None."""
-        entry = self.get(data[at : at + BODY_AT])
-        if entry is not None and at + entry[0] <= len(data):
-            _, count_at, count_end, count, _, _ = entry
-            if data[at + count_at : at + count_end] == count:
-                return entry
-        return None
+    @property
+    def is_bounded(self) -> bool:
+        """Whether there is a size above which no frame is."""
+        return self.largest < ANY_SIZE
 
-    def entries(self, head: bytes) -> Iterator[Entry]:
-        """Yield the entries of `head`, one for each message; the first direction's comes first."""
-        entry = self._legal.get(head) or self._learn(head)
-        while entry is not None:
-            yield entry
-            entry = entry[-1]
+    def begins(self, data: bytes, at: int) -> bool:
+        """Return whether a frame may begin at data[at], as far as its header goes."""
+        if self.header:
+            return data.startswith(self.header, at)
+        return any(frame.begins(data, at) for frame, _ in self.frames)
 
-    def may_have(self, length: int) -> bool:
-        """Return whether some frame could have this length, if its command were not known."""
-        return BODY_AT <= length + UNCOUNTED <= self.largest
+    def next_begun(self, data: bytes, at: int) -> int:
+        """Return where from data[at] on a frame may begin, of whose header not all is there.
+
+        That is the end if nowhere. If the frames do not all have the same header, it may be there.
+        """
+        if not self.header:
+            return next_begun(data, at)
+        if data.endswith(self.begun, at):
+            for begun in self.begun:
+                if data.endswith(begun, at):
+                    return len(data) - len(begun)
+        return len(data)
 
     def wait(self, beginning: bytes, size: int) -> None:
         """Remember at which size the beginning of a frame can be judged further."""
@@ -131,152 +161,223 @@ class Table(dict[bytes, "Entry"]):
             frame = as_bytes(frame)
         message = self.find(frame)
         if message is None:
-            raise self.error(frame, self.weigh(frame))
+            raise self.error(frame, self.weigh(frame, quiet=True))
         return message
 
     def find(self, frame: bytes) -> Message | None:
         """Return the message of `frame`, with nothing after it; None if there is none."""
-        entry = self.whole(frame, 0)
-        kind: type[Message] | None
-        if entry is not None:
-            size, kind = entry[0], entry[4]
-        else:
-            verdict = self.weigh(frame)
-            size, kind = verdict.size, verdict.kind
-        if kind is None or size != len(frame):
-            return None
+        kind = self._seen(frame)
+        if kind is None:
+            verdict = self.weigh(frame, quiet=True)
+            kind = verdict.kind
+            if kind is None or verdict.size != len(frame):
+                return None
         message = _new(kind)
         message._frame = frame
         return message
 
+    def _seen(self, frame: bytes) -> type[Message] | None:
+        """Return the message of `frame`, by an entry for its head; None if none says so."""
+        entry = self.get(frame[:HEAD])
+        if entry is not None and not entry[0]:
+            entry = measured(entry, frame, 0)
+        if entry is None:
+            return None
+        size, at, until, count, kind, holds, _ = entry
+        if len(frame) != size or (count and frame[at:until] != count):
+            return None
+        proves = self._proofs[kind]
+        right = (holds is None or holds(frame)) and (proves is None or proves(frame))
+        return kind if right else None
+
+    def all_of(self, frame: bytes) -> list[type[Message]]:
+        """Return every message that a whole frame may be."""
+        trials = self._trials_of(frame[:HEAD])
+        found = (each.judged(frame, 0, wrong_checksum, 0) for each in trials)
+        return [each.kind for each in found if each.kind is not None and each.size == len(frame)]
+
+    def awaited(self, data: bytes) -> list[type[Message] | None]:
+        """Return the messages that more bytes may make of these; None stands for unknown ones."""
+        return [
+            each.kind if isinstance(each, Known) else None
+            for each in self._trials_of(data[:HEAD])
+            if each.judged(data, 0, wrong_checksum, 0).is_open
+        ]
+
     def error(self, frame: bytes, verdict: Verdict) -> DecodeError:
         """Return the error for `frame`, by its verdict."""
-        return DecodeError(verdict.reason, verdict.offset, self._problem(frame, verdict))
+        from .why_not import WhyNot
 
-    def _weigh_head(self, head: bytes) -> Verdict | None:
-        """Judge `head` by itself; None if the bytes behind it decide."""
-        size = len(head)
-        if not head.startswith(HEADER[:size]):
-            return _no_header(head)
-        length = read_length(head) if size >= LENGTH_END else None
-        no_length = length is not None and not self.may_have(length)
-        if no_length and LENGTH_AT < COMMAND_AT:
-            return _NO_LENGTH
-        if size >= COMMAND_END and read_command(head) not in self.kinds:
-            claim = 0 if length is None or no_length else length + UNCOUNTED
-            shown, is_open = (COMMAND_END, False) if size == BODY_AT else (BODY_AT, True)
-            unknown = Reason.UNKNOWN_COMMAND
-            return Verdict(None, unknown, COMMAND_AT, shown, claim=claim, is_open=is_open)
-        if no_length:
-            return _NO_LENGTH
-        if size < BODY_AT:
-            return _too_short(head, 0, size + 1)
-        return _NO_LENGTH_OF_ITS_COMMAND if self._learn(head) is None else None
+        why_not = WhyNot(self, frame, verdict, self._trials_of(frame[:HEAD]))
+        return DecodeError(verdict.reason, verdict.offset, why_not.words(wrong_checksum))
 
-    def _learn(self, head: bytes) -> Entry | None:
-        """Return the entry of a complete head that is new, and remember it."""
-        length = read_length(head)
-        entry: Entry | None = None
-        narrowed = False
-        for kind in reversed(self.kinds.get(read_command(head), ())):
-            if length in kind.LENGTHS and length + UNCOUNTED <= self.largest:
-                entry = (length + UNCOUNTED, *kind.SHAPE.count_bytes(length), kind, entry)
-                narrowed |= kind.SHAPE.narrowed
-        if entry is not None:
-            _remember(self._legal, head, entry)
-            if not narrowed:
+    def _trials_of(self, head: bytes) -> list[Trial]:
+        return self._trials.get(head) or self._learn(head)
+
+    def _learn(self, head: bytes) -> list[Trial]:
+        """Return what a head may belong to, and remember it."""
+        trials = self._walked(head)
+        refused = [each for each in trials if isinstance(each, Refused)]
+        if len(refused) == len(trials):
+            _remember(self.verdicts, head, chosen([each.verdict for each in refused]))
+            return trials
+        _remember(self._trials, head, trials)
+        if len(head) == HEAD and not any(each.verdict.is_open for each in refused):
+            entry = self._entry([each for each in trials if not isinstance(each, Refused)])
+            if entry is not None:
                 _remember(self, head, entry)
+        return trials
+
+    def _claim_of_run(self) -> int:
+        """Return what a head that is a run of the header's byte claims, if that alone decides."""
+        trials = self._walked(self.run) if self.run else []
+        claims = [each.verdict.claim for each in trials if isinstance(each, Refused)]
+        return claims[0] or -1 if len(claims) == len(trials) == 1 else -1
+
+    def _walked(self, head: bytes) -> list[Trial]:
+        """Return what a head may belong to, of any envelope."""
+        found: list[Trial] = []
+        if not head:
+            return [Refused(too_short(0, 1))]
+        if head[0] in FIRST_BYTES:
+            for frame, kinds in self.frames:
+                found += HeadWalk(frame, kinds, head, self.largest).trials()
+        return found or [Refused(_NOTHING)]
+
+    def _entry(self, trials: Sequence[Trial]) -> Entry | None:
+        """Return the entries of the messages that a head may belong to, those of the longest frame.
+
+        None where only `weigh` can tell: a size is not known, or an unknown frame may be longer.
+        """
+        known = [each for each in trials if isinstance(each, Known)]
+        size = max((each.size for each in trials), default=0)
+        if size not in {each.size for each in known}:
+            return None
+        if any(not each.size and self._may_grow(each, len(trials)) for each in known):
+            return None
+        entry: Entry | None = None
+        # The last first: each is put in front of the others.
+        for each in reversed([each for each in known if each.size == size]):
+            kind = each.kind
+            proofs = kind.FRAME.provers(kind.IDS) if PROVEN_IN_PLACE else []
+            self._proofs[kind] = together(proofs)
+            entry = (each.size, *_counted(kind, each.count), kind, _holds(kind), entry)
         return entry
 
-    def _problem(self, frame: bytes, verdict: Verdict) -> str:
-        """Return what is wrong with an illegal frame, in words."""
-        if verdict.kind is not None:
-            name, size = verdict.kind.__name__, verdict.size
-            return f"{name} with this length has {size} bytes, not {len(frame)}"
-        if verdict.offset < len(HEADER):
-            return f"a frame begins {format_hex(HEADER)}"
-        if verdict.reason is Reason.UNKNOWN_COMMAND:
-            known = ", ".join(str(number) for number in sorted(self.kinds))
-            return f"the command is {read_command(frame)}, and only {known} can be here"
-        if verdict.reason is Reason.LENGTH_MISMATCH:
-            legal = self._lengths(frame)
-            return f"the length is {read_length(frame)}, and must be {legal}"
-        for entry in self.entries(frame[:BODY_AT]):
-            if _fit(frame, 0, entry).offset == verdict.offset:
-                return _misfit(frame, verdict, entry)
-        return f"the shortest frame has {BODY_AT} bytes"
-
-    def _lengths(self, frame: bytes) -> str:
-        """Return the lengths that could stand there, in words."""
-        kinds = self.kinds.get(read_command(frame), []) if len(frame) >= COMMAND_END else []
-        if not kinds:
-            least, most = BODY_AT - UNCOUNTED, self.largest - UNCOUNTED
-            return f"at least {least}" if self.largest == ANY_SIZE else f"{least}..{most}"
-        names: dict[str, list[str]] = {}
-        for kind in kinds:
-            names.setdefault(describe_range(kind.LENGTHS), []).append(kind.__name__)
-        return " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
+    def _may_grow(self, each: Known, trials: int) -> bool:
+        """Return whether a frame whose count says its size may be another, or be too large."""
+        return trials > 1 or largest_of([each.kind]) > self.largest
 
 
 def largest_of(messages: Sequence[type[Message]]) -> int:
     """Return the size of the largest frame of these messages; 0 where there are none."""
-    return max((kind.LENGTHS[-1] + UNCOUNTED for kind in messages), default=0)
+    return max((size_of(kind, kind.LENGTHS[-1]) for kind in messages), default=0)
 
 
-def _no_header(head: bytes) -> Verdict:
-    """Return the verdict on bytes without a header."""
-    at = next(at for at, byte in enumerate(HEADER) if head[at] != byte)
-    return Verdict(None, Reason.BAD_HEADER, at, at + 1)
+def found_entry(verdict: Verdict) -> Entry | None:
+    """Return the entry of a message that is found."""
+    kind = verdict.kind
+    return None if kind is None else (verdict.size, 0, 0, b"", kind, None, None)
 
 
-def _fit(data: bytes, at: int, entry: Entry) -> Verdict:
-    """Judge the bytes behind a legal head at `at`, as the message of this entry."""
-    size, count_at, count_end, count, kind, _ = entry
-    begun = data[at + count_at : at + count_end]
-    misplaced = _out_of_range(kind, data[at : at + size]) if kind.SHAPE.narrowed else None
-    if misplaced is not None and (misplaced[0] < count_at or count.startswith(begun)):
-        return Verdict(None, Reason.OUT_OF_RANGE, *misplaced)
-    if begun == count:
-        whole = at + size <= len(data)
-        return (
-            Verdict(kind, Reason.TRAILING_BYTES, size, size)
-            if whole
-            else _too_short(data, at, size)
-        )
-    if count.startswith(begun):
-        return _too_short(data, at, count_end)
-    shown = count_at + 1
-    while data[at + count_at : at + shown] == count[: shown - count_at]:
-        shown += 1
-    return Verdict(None, Reason.COUNT_MISMATCH, count_at, shown)
+def whole(entry: Entry | None, data: bytes, at: int) -> Entry | None:
+    """Return the one of some entries whose message is whole at data[at]; None if none is.
+
+    What a checksum proves is left to `weigh`, and so is a frame whose count says its size.
+    """
+    while entry is not None:
+        size, start, end, count, kind, holds, other = entry
+        if not size or kind.FRAME.checksums:
+            return None
+        if at + size <= len(data) and (not count or data[at + start : at + end] == count):
+            if holds is None:
+                return entry
+            if holds(data[at : at + size]):
+                return size, 0, 0, b"", kind, None, None
+        entry = other
+    return None
 
 
-def _too_short(data: bytes, at: int, size: int) -> Verdict:
-    """Return the verdict on a frame that is legal so far, and judged further at `size` bytes."""
-    return Verdict(None, Reason.TOO_SHORT, len(data) - at, size, is_open=True)
+def is_certain(kind: type[Message]) -> bool:
+    """Return whether nothing but its checksum can be wrong behind the head and count of a frame."""
+    return kind.SHAPE.certain and not kind.FRAME.judged
 
 
-def _out_of_range(kind: type[Message], frame: bytes) -> tuple[int, int] | None:
-    """Return from and to which byte the first number of a frame outside its range stands."""
-    out_of_range = kind.SHAPE.out_of_range
-    found = out_of_range(frame)
-    if found is None:
+def measured(entry: Entry, data: bytes, at: int) -> Entry | None:
+    """Return the entry of a frame whose count says its size; None if there is none."""
+    size, start, end, _, kind, holds, other = entry
+    if size or at + end > len(data):
         return None
-    at = found[0]
-    return at, next(end for end in range(at + 1, len(frame) + 1) if out_of_range(frame[:end]))
+    size = kind.SHAPE.sizes[data[at + start : at + end]]
+    return (size, 0, 0, b"", kind, holds, other) if size else None
 
 
-def _misfit(frame: bytes, verdict: Verdict, entry: Entry) -> str:
-    """Return what keeps `frame` from being the message whose head it has, in words."""
-    size, at, until, count, kind, _ = entry
-    if verdict.reason is Reason.COUNT_MISMATCH:
-        return (
-            f"with this length the count is {format_hex(count)}, not {format_hex(frame[at:until])}"
-        )
-    misplaced = kind.SHAPE.out_of_range(frame[:size])
-    if verdict.reason is Reason.OUT_OF_RANGE and misplaced is not None:
-        return misplaced[1]
-    return f"{kind.__name__} with this length has {size} bytes"
+def chosen(verdicts: Sequence[Verdict]) -> Verdict:
+    """Return the verdict on bytes by those of all that they may be.
+
+    It is open as long as one of them is, so that it makes no difference how they arrive. Of frames
+    that are there, it is the longest: it may begin as a shorter one by chance.
+    """
+    decided = [each for each in verdicts if not each.is_open and (each.kind or each.proven)]
+    # For one of unknown id alone, nothing is awaited that could not prove it.
+    waiting = [
+        each
+        for each in verdicts
+        if each.is_open and (each.proven or each.reason is Reason.TOO_SHORT)
+    ]
+    if len(waiting) == 1 and not decided:
+        return waiting[0]
+    whole = max(decided, key=lambda each: (each.size, each.kind is not None), default=None)
+    if not waiting:
+        return whole or max(verdicts, key=lambda each: each.offset)
+    last = max(waiting, key=lambda each: each.offset)
+    size = min(each.size for each in waiting)
+    proven = any(each.proven for each in waiting)
+    return Verdict(None, last.reason, last.offset, size, is_open=True, proven=proven, whole=whole)
+
+
+def wrong_checksum(
+    data: bytes, at: int, size: int, frame: Envelope, ids: Sequence[int]
+) -> Checksum | None:
+    """Return the first wrong checksum of the frame at data[at]."""
+    return frame.wrong(data[at : at + size], ids)
+
+
+def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:
+    """Return where the count of a message stands, from and to, and its bytes if it is known."""
+    if kind.SHAPE.counter is None:
+        return 0, 0, b""
+    start, end = kind.SHAPE.counter
+    if count is None:
+        # No count is like that, so that it is looked at: see `measured`.
+        return start, end, bytes(end - start + 1)
+    due = next(place[3] for place in kind.SHAPE.places(count) if place[0] == start)
+    return start, end, due if isinstance(due, bytes) else b""
+
+
+def _holds(kind: type[Message]) -> Callable[[bytes], bool] | None:
+    """Return what says whether a frame of a message's size is right, but for head and count.
+
+    What the decoders test themselves is left out; None where nothing else can be wrong.
+    """
+    frame = kind.FRAME
+    proofs = [] if PROVEN_IN_PLACE else frame.provers(kind.IDS)
+    return together([*kind.SHAPE.tests, *map(_end_test, frame.judged), *proofs])
+
+
+def _end_test(part: Constant | Address) -> Callable[[bytes], bool]:
+    """Return what says whether a constant or an address behind the fields is right."""
+    if isinstance(part, Constant):
+        place, due = part.place, part.data
+        return lambda frame: frame[place] == due
+    return part.is_right
+
+
+def _reach(kind: type[Message], largest: int) -> int:
+    """Return how many bytes of an illegal frame may look like those of a message."""
+    if not is_certain(kind) or kind.FRAME.checksums:
+        return largest
+    return kind.SHAPE.counter[1] if kind.SHAPE.counter else kind.FRAME.body_at
 
 
 def _remember(known: dict[bytes, Any], key: bytes, value: Any) -> None:

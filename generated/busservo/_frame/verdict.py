@@ -17,9 +17,11 @@ class Verdict:
     While it `is_open`, more bytes may change the verdict: `size` is the number at which it can be
     judged further. Otherwise `size` is the number of bytes that show it. `claim` is the size that a
     frame of unknown command would have.
+    If it is `proven`, there is such a frame, and it has `size` bytes. `whole` is the frame that is
+    there if the line is quiet, where a longer one may come.
     """
 
-    __slots__ = ("claim", "is_open", "kind", "offset", "reason", "size")
+    __slots__ = ("claim", "is_open", "kind", "offset", "proven", "reason", "size", "whole")
 
     def __init__(
         self,
@@ -30,6 +32,8 @@ class Verdict:
         *,
         claim: int = 0,
         is_open: bool = False,
+        proven: bool = False,
+        whole: Verdict | None = None,
     ) -> None:
         self.kind = kind
         self.reason = reason
@@ -37,3 +41,5 @@ class Verdict:
         self.size = size
         self.claim = claim
         self.is_open = is_open
+        self.proven = proven
+        self.whole = whole

@@ -103,7 +103,7 @@ class NoiseLane:
                 if entry is None:
                     since = self._since if base + at == self.at else 0
                     verdict = table.weigh(data, at, self._proof.wrong, since, quiet=quiet)
-                    entry = found_entry(verdict)
+                    entry = None if verdict.kind is None else found_entry(verdict)
                 if verdict is None or entry is not None:
                     self._end(events, data, base, at)
                     return entry
@@ -119,10 +119,9 @@ class NoiseLane:
                 if after != at:
                     at = after
                     continue
-            claim = verdict.claim
-            last = self._run_end(data, at) if claim and claim == table.run_claim else at
+            last = self._run_end(data, at) if verdict.claim == table.run_claim else at
             if header or table.begins(data, at):
-                refused.append((base + at, base + last, verdict.reason, claim))
+                refused.append((base + at, base + last, verdict.reason, verdict.claim))
             at = last + 1
 
     def _end(self, events: list[Event], data: bytes, base: int, at: int) -> None:
@@ -160,10 +159,9 @@ class NoiseLane:
         if quiet and at < len(data):
             return at if self._table.begins(data, at) else at + 1
         self.at, self._since = base + at, len(data) - at
-        self.wake = self.at + verdict.size
-        if self._refused and at == len(data):
-            # Nothing has begun, so only a whole frame or the end of a claim decides.
-            self.wake = self.at + max(LEAST, verdict.size)
+        # Where nothing has begun, only a whole frame decides, or the end of a claim.
+        least = LEAST if self._refused and at == len(data) else 0
+        self.wake = self.at + max(least, verdict.size)
         if self._refused:
             first, _, _, claim = self._refused[0]
             self.wake = min(self.wake, max(first, self.emitted) + claim)
@@ -225,13 +223,16 @@ class NoiseLane:
 
         That none does is known; a header that only later bytes refused stands near the end.
         """
-        held = data[max(start + 1, end - self._table.reach + 1) : end]
-        at = next_begun(held, 0)
-        while at < len(held):
-            verdict = self._table.weigh(held, at)
+        table, header = self._table, self._table.header
+        if data.endswith(table.begun, start + 1, end):
+            return False
+        held = data[max(start + 1, end - table.reach + 1) : end]
+        at = held.find(header) if header else next_begun(held, 0)
+        while 0 <= at < len(held):
+            verdict = table.weigh(held, at)
             if verdict.reason is _TOO_SHORT or verdict.proven:
                 return False
-            at = next_begun(held, at + 1)
+            at = held.find(header, at + 1) if header else next_begun(held, at + 1)
         return True
 
     def _emit_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:

@@ -124,31 +124,30 @@ class List(Items["Item"]):
 
     def reader(self) -> Callable[[Any], tuple[Item, ...]]:
         """Return a function that reads the list from the bytes of a message."""
-        at, end = self.at, self.end
+        place = slice(self.at, self.end)
         if self.element is None:
             self.fields[0].name = self.name
             if self.layout == "B":
-                return lambda message: tuple(message._frame[at:end])
+                return lambda message: tuple(message._frame[place])
             return lambda message: self.numbers(message._frame)
         # Equivalent to calling the class, and several times as fast.
         make: Any = tuple.__new__
         kinds = repeat(self.element)
         rows = Struct(STRUCT_ORDER + self.layout).iter_unpack
         if self.is_read:
-            return lambda message: tuple(map(make, kinds, rows(message._frame[at:end])))
+            return lambda message: tuple(map(make, kinds, rows(message._frame[place])))
         read = self._read
-        return lambda message: tuple(map(make, kinds, map(read, rows(message._frame[at:end]))))
+        return lambda message: tuple(map(make, kinds, map(read, rows(message._frame[place]))))
 
     def numbers(self, frame: bytes) -> Any:
         """Return all values of all elements of a legal frame, in order."""
-        if self.is_read:
-            unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
-            return unpack(frame)
-        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(frame[self.at : self.end])
-        return tuple(value for row in map(self._read, rows) for value in row)
+        unpack = self._unpackers.get(len(frame)) or self._unpacker(len(frame))
+        return unpack(frame)
 
     def _unpacker(self, size: int) -> Callable[[bytes], tuple[Any, ...]]:
         """Return a function that unpacks the list of a frame of a size."""
+        if not self.is_read:
+            return self._all_read
         listed = len(range(size)[self.at : self.end])
         count, behind = listed // self.unit_size, size - self.at - listed
         layout = f"{count}{self.layout}" if len(self.layout) == 1 else count * self.layout
@@ -158,6 +157,11 @@ class List(Items["Item"]):
                 self._unpackers.clear()
             self._unpackers[size] = unpack
         return unpack
+
+    def _all_read(self, frame: bytes) -> tuple[Any, ...]:
+        """Return the values of all elements of which `struct` knows only the bytes of some."""
+        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(frame[self.at : self.end])
+        return tuple(value for row in map(self._read, rows) for value in row)
 
     def _read(self, row: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the values of an element of which `struct` knows only the bytes of some."""

@@ -9,7 +9,7 @@ from struct import Struct, error
 from .direction import Direction
 from .envelope import Envelope
 from .fixed import Always
-from .general_shape import Shape
+from .shape import Shape
 from .table import ANY_SIZE, Table
 
 TYPE_CHECKING = False

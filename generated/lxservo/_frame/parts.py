@@ -46,7 +46,7 @@ def unknown_parts(frame: bytes) -> Iterator[Cell]:
 
 
 def _body(envelope: Envelope) -> str:
-    return "fields" if envelope.ids else "bytes"
+    return "parameters" if envelope.ids else "bytes"
 
 
 def _around(parts: Iterable[Part], frame: bytes, fields: Mapping[Any, Any]) -> Iterator[Cell]:

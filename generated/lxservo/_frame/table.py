@@ -53,15 +53,16 @@ class Table(dict[bytes, "Entry"]):
     """A map from the head of a frame to what must follow for it to be legal.
 
     It learns heads as they come; `weigh` judges all that are not in it. No frame is larger than
-    `largest`. `header` is that of all its frames, b"" where they do not have the same. If that is
-    one byte, or repeats one, `run` is a head of this byte alone, and `run_claim` what it claims as
-    a frame of unknown command, -1 if it does not: each byte of a longer run begins another.
+    `largest`. `header` is that of all its frames, b"" where they do not have the same, and `begun`
+    are its beginnings, the longest first. If it is one byte, or repeats one, `run` is a head of
+    this byte alone, and `run_claim` what it claims as a frame of unknown command, -1 if it does
+    not: each byte of a longer run begins another.
     """
 
     __slots__ = (
-        "_begun",
         "_proofs",
         "_trials",
+        "begun",
         "frames",
         "header",
         "largest",
@@ -79,7 +80,12 @@ class Table(dict[bytes, "Entry"]):
         self.largest = largest
         # The envelopes that there may be, each with its messages.
         every = [(frame, [each for each in messages if each.FRAME is frame]) for frame in ENVELOPES]
-        self.frames = [(frame, kinds) for frame, kinds in every if kinds and frame.least <= largest]
+        # Where nothing is sent, bytes may still begin as any frame does.
+        self.frames = [
+            (frame, kinds)
+            for frame, kinds in every
+            if not messages or (kinds and frame.least <= largest)
+        ]
         headers = {frame.header for frame, _ in self.frames}
         self.header = headers.pop() if len(headers) == 1 else b""
         # How many bytes of an illegal frame may look legal, where no checksum proves it.
@@ -91,7 +97,7 @@ class Table(dict[bytes, "Entry"]):
         self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
-        self._begun = tuple(self.header[:size] for size in range(len(self.header) - 1, 0, -1))
+        self.begun = tuple(self.header[:size] for size in range(len(self.header), 0, -1))
         self.run = b"" if self.header.strip(self.header[:1]) else self.header[:1] * HEAD
         self.run_claim = self._claim_of_run()
 
@@ -121,8 +127,15 @@ class Table(dict[bytes, "Entry"]):
         verdict = chosen([each.judged(data, at, prove or wrong_checksum, 0) for each in trials])
         return verdict.whole or verdict if quiet else verdict
 
+    @property
+    def is_bounded(self) -> bool:
+        """Whether there is a size above which no frame is."""
+        return self.largest < ANY_SIZE
+
     def begins(self, data: bytes, at: int) -> bool:
         """Return whether a frame may begin at data[at], as far as its header goes."""
+        if self.header:
+            return data.startswith(self.header, at)
         return any(frame.begins(data, at) for frame, _ in self.frames)
 
     def next_begun(self, data: bytes, at: int) -> int:
@@ -132,8 +145,8 @@ class Table(dict[bytes, "Entry"]):
         """
         if not self.header:
             return next_begun(data, at)
-        if data.endswith(self._begun, at):
-            for begun in self._begun:
+        if data.endswith(self.begun, at):
+            for begun in self.begun:
                 if data.endswith(begun, at):
                     return len(data) - len(begun)
         return len(data)
@@ -179,14 +192,15 @@ class Table(dict[bytes, "Entry"]):
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
         """Return every message that a whole frame may be."""
-        found = (each.judged(frame, 0, wrong_checksum, 0) for each in self._learn(frame[:HEAD]))
+        trials = self._trials_of(frame[:HEAD])
+        found = (each.judged(frame, 0, wrong_checksum, 0) for each in trials)
         return [each.kind for each in found if each.kind is not None and each.size == len(frame)]
 
     def awaited(self, data: bytes) -> list[type[Message] | None]:
         """Return the messages that more bytes may make of these; None stands for unknown ones."""
         return [
             each.kind if isinstance(each, Known) else None
-            for each in self._learn(data[:HEAD])
+            for each in self._trials_of(data[:HEAD])
             if each.judged(data, 0, wrong_checksum, 0).is_open
         ]
 
@@ -194,8 +208,11 @@ class Table(dict[bytes, "Entry"]):
         """Return the error for `frame`, by its verdict."""
         from .why_not import WhyNot
 
-        why_not = WhyNot(self, frame, verdict, self._learn(frame[:HEAD]))
+        why_not = WhyNot(self, frame, verdict, self._trials_of(frame[:HEAD]))
         return DecodeError(verdict.reason, verdict.offset, why_not.words(wrong_checksum))
+
+    def _trials_of(self, head: bytes) -> list[Trial]:
+        return self._trials.get(head) or self._learn(head)
 
     def _learn(self, head: bytes) -> list[Trial]:
         """Return what a head may belong to, and remember it."""
@@ -263,22 +280,21 @@ def found_entry(verdict: Verdict) -> Entry | None:
     return None if kind is None else (verdict.size, 0, 0, b"", kind, None, None)
 
 
-def whole(entry: Entry, data: bytes, at: int) -> Entry | None:
+def whole(entry: Entry | None, data: bytes, at: int) -> Entry | None:
     """Return the one of some entries whose message is whole at data[at]; None if none is.
 
     What a checksum proves is left to `weigh`, and so is a frame whose count says its size.
     """
-    found: Entry | None = entry
-    while found is not None:
-        size, start, end, count, kind, holds, other = found
+    while entry is not None:
+        size, start, end, count, kind, holds, other = entry
         if not size or kind.FRAME.checksums:
             return None
         if at + size <= len(data) and (not count or data[at + start : at + end] == count):
             if holds is None:
-                return found
+                return entry
             if holds(data[at : at + size]):
                 return size, 0, 0, b"", kind, None, None
-        found = other
+        entry = other
     return None
 
 
@@ -303,13 +319,15 @@ def chosen(verdicts: Sequence[Verdict]) -> Verdict:
     that are there, it is the longest: it may begin as a shorter one by chance.
     """
     decided = [each for each in verdicts if not each.is_open and (each.kind or each.proven)]
-    whole = max(decided, key=lambda each: (each.size, each.kind is not None), default=None)
     # For one of unknown id alone, nothing is awaited that could not prove it.
     waiting = [
         each
         for each in verdicts
         if each.is_open and (each.proven or each.reason is Reason.TOO_SHORT)
     ]
+    if len(waiting) == 1 and not decided:
+        return waiting[0]
+    whole = max(decided, key=lambda each: (each.size, each.kind is not None), default=None)
     if not waiting:
         return whole or max(verdicts, key=lambda each: each.offset)
     last = max(waiting, key=lambda each: each.offset)

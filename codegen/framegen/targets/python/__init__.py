@@ -55,8 +55,7 @@ def _runtime() -> dict[str, str]:
 
 def _from_templates(library: LibraryView, client: ClientView) -> dict[str, str]:
     templates = _environment()
-    device, frame = DeviceView(library.model), library.model.frame
-    given = {"library": library, "client": client, "device": device, "frame": frame}
+    given = {"library": library, "client": client, "device": DeviceView(library.model)}
     return {
         name.removesuffix(".jinja"): templates.get_template(name).render(given)
         for name in sorted(templates.list_templates(extensions=["jinja"]))

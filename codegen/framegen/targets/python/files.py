@@ -20,59 +20,24 @@ ONLY_WITH = {
     "addresses": {"_client/address.py", "_client/async_devices.py", "_client/devices.py"},
     "failures": {"_client/failures.py"},
     "counted replies": {"_client/counted.py"},
-    "envelopes": {
-        f"_frame/{name}.py" for name in ("envelope", "envelopes", "head_walk", "trial", "why_not")
-    },
     "proof": {"_codec/proof.py"},
     # Each method needs some of these, and each kind of field some of those.
     "checksums": {
         f"_frame/{name}.py" for name in ("byte_sum", "word_sum", "crc", "fletcher", "running")
     },
-    "fields": {
-        f"_frame/{name}.py"
-        for name in (
-            "fixed",
-            "floating",
-            "general_shape",
-            "lists",
-            "mixed_element",
-            "optional",
-            "packed",
-            "quick_tests",
-            "shape",
-            "swapped",
-            "text",
-            "three_bytes",
-        )
-    },
+    "fields": {f"_frame/{name}.py" for name in ("mixed_element", "swapped", "three_bytes")},
 }
-# What takes the place of another file, by whose library it does: frames that are a header, a
-# length and an id; frames that are more than that; frames that each prove that they are one.
-INSTEAD = {
-    "plain": {
-        "_frame/plain_heads.py": "_frame/heads.py",
-        "_frame/plain_parts.py": "_frame/parts.py",
-        "_frame/plain_strategies.py": "_frame/strategies.py",
-    },
-    "general": {
-        "_frame/envelope_heads.py": "_frame/heads.py",
-        "_frame/envelope_parts.py": "_frame/parts.py",
-        "_frame/envelope_strategies.py": "_frame/strategies.py",
-        "_frame/envelope_table.py": "_frame/table.py",
-    },
-    "proven": {"_codec/certain_decoder.py": "_codec/careful_decoder.py"},
-}
+# What takes the place of another file where each frame proves that it is one.
+PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}
 
 
 def placed(files: dict[str, str], library: LibraryView, client: ClientView) -> dict[str, str]:
     """Return those of all files that the library has a use for, each in its place."""
     used = _used(library, client)
-    kinds = {"plain": library.plain, "general": not library.plain, "proven": library.proven}
-    unused = set[str]().union(*ONLY_WITH.values(), *INSTEAD.values()) - used
+    unused = set[str]().union(*ONLY_WITH.values(), PROVEN) - used
     found = {name: text for name, text in files.items() if name not in unused}
-    for kind, places in INSTEAD.items():
-        if kinds[kind]:
-            found |= {place: files[name] for name, place in places.items()}
+    if library.proven:
+        found |= {place: files[name] for name, place in PROVEN.items()}
     return found
 
 
@@ -84,7 +49,6 @@ def _used(library: LibraryView, client: ClientView) -> set[str]:
         "addresses": client.bus is not None,
         "failures": bool(client.failing),
         "counted replies": any(each.counted for each in library.model.exchanges),
-        "envelopes": not library.plain,
         "proof": bool(library.checksums),
     }
     used = {name for what, there in has.items() if there for name in ONLY_WITH[what]}

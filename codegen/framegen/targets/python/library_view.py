@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 from framegen.language.command_verbs import STOP, VERBS
 from framegen.language.spec import Distribution
 from framegen.model.apart import begun
-from framegen.model.slots import Number
 from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.command_lines import messages_by_verb, verbs
 from framegen.targets.python.envelope_view import EnvelopeView
-from framegen.targets.python.escape import Bracketed, byte_literal, literal
+from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import (
     HOMES,
     OF_ADDRESSES,
@@ -27,7 +26,6 @@ from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.notes import noted
-from framegen.targets.python.plain import is_plain
 from framegen.targets.python.proof_view import proof_in_place
 from framegen.targets.python.spelling import direction_member, struct_order
 from framegen.targets.python.text_view import PackedView
@@ -43,11 +41,6 @@ if TYPE_CHECKING:
     from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.element_view import ElementView
     from framegen.targets.python.proof_view import ProofView
-
-
-# So many bytes have room in a line.
-_BYTES = 20
-
 
 _NO_DISTRIBUTION = Distribution.model_validate({})
 
@@ -165,11 +158,6 @@ class LibraryView:
         return any(message.deprecated for message in self.messages)
 
     @property
-    def plain(self) -> bool:
-        """Whether it is of the simplest kind, whose library is made of less."""
-        return is_plain(self.model)
-
-    @property
     def lists(self) -> list[ListView]:
         """The lists of all messages."""
         fields = (field for message in self.messages for field in message.fields)
@@ -215,11 +203,7 @@ class LibraryView:
     @property
     def modules(self) -> set[str]:
         """The modules of the runtime that fields of these kinds need."""
-        if self.plain:
-            return {"shape"}
-        found = {"fixed", "floating", "general_shape", "lists", "optional", "packed", "text"}
-        found |= {"quick_tests", *(_snake(each.base) for each in self.elements)}
-        found |= set(self._field_classes.values())
+        found = {_snake(each.base) for each in self.elements} | {*self._field_classes.values()}
         return found | ({"three_bytes"} if "swapped" in found else set[str]())
 
     @property
@@ -228,8 +212,7 @@ class LibraryView:
         homes = {"Direction": "direction", "Message": "message", **self._field_classes}
         homes |= {"warn_deprecated": "deprecation"} if self.deprecates else {}
         homes |= {each.base: _snake(each.base) for each in self.elements}
-        if not self.plain:
-            homes |= {message.envelope: "envelopes" for message in self.messages}
+        homes |= {message.envelope: "envelopes" for message in self.messages}
         return [
             relative_import(f"_frame.{home}", [name for name in homes if homes[name] == home])
             for home in sorted(set(homes.values()))
@@ -416,29 +399,6 @@ class LibraryView:
     @property
     def struct_order(self) -> str:
         return struct_order(self.byte_order)
-
-    @property
-    def header_name(self) -> str:
-        """What the part is called that begins a plain frame."""
-        return self.model.frame.head[0].name
-
-    @property
-    def header(self) -> str:
-        header = self.model.frame.header
-        pieces = [header[at : at + _BYTES] for at in range(0, len(header), _BYTES)]
-        if len(pieces) == 1:
-            return byte_literal(header)
-        return "\n".join(["(", *(f"    {byte_literal(piece)}" for piece in pieces), ")"])
-
-    @property
-    def head(self) -> list[str]:
-        """The expressions whose sum is the head of a frame, behind its header."""
-        names = {"length": "length", "id": "command"}
-        return [
-            f'{names[slot.role]}.to_bytes({slot.size}, "{slot.order}")'
-            for slot in self.model.frame.head
-            if isinstance(slot, Number)
-        ]
 
 
 def _snake(name: str) -> str:

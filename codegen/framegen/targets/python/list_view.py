@@ -43,11 +43,11 @@ def _literal(value: Any) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ListView:
-    """A list of a message: `tail` bytes stand behind the fields, where its frame is general."""
+    """A list of a message, with `tail` bytes behind the fields."""
 
     slot: Items
     spec: Spec
-    tail: int | None = None
+    tail: int = 0
 
     @property
     def name(self) -> str:
@@ -108,15 +108,13 @@ class ListView:
         """The call that makes the field: its offset, its elements, and its bounds."""
         of: Part = self.bare.call([]) if self.bare else str(self.slot.element)
         items = [str(self.slot.at), of, str(self.slot.low), str(self.slot.high)]
-        kind = "Items" if self.tail is None else "List"
-        items += counters(self.slot, self.tail or 0)
-        return Bracketed(f"{kind}(", items, ")").fitted(4, last=f"{self.name} = ")
+        items += counters(self.slot, self.tail)
+        return Bracketed("List(", items, ")").fitted(4, last=f"{self.name} = ")
 
     @property
     def classes(self) -> dict[str, str]:
         """The classes that declare it, each with its module."""
-        own = {"Items": "items"} if self.tail is None else {"List": "lists"}
-        return own | (self.bare.classes if self.bare else {})
+        return {"List": "lists"} | (self.bare.classes if self.bare else {})
 
     @property
     def count(self) -> str:

@@ -24,7 +24,6 @@ from framegen.targets.python.list_view import ListView, given
 from framegen.targets.python.names import envelope_name, id_names, strategy_name
 from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import AbsentView, NumberView, absent_view
-from framegen.targets.python.plain import is_plain
 from framegen.targets.python.spelling import direction_member, range_expression, struct_order
 from framegen.targets.python.text_view import (
     PackedView,
@@ -409,7 +408,7 @@ def field_view(slot: Field, model: Model, layout: MessageLayout) -> FieldView:
         case Items() if slot.text:
             return TextView(slot, spec, tail)
         case Items():
-            return ListView(slot, spec, None if is_plain(model) else tail)
+            return ListView(slot, spec, tail)
         case Text():
             return TextView(slot, spec)
         case Packed():

@@ -43,8 +43,8 @@ LIBRARY_CLASSES = words(
     AbsentError Address AllDevices Always AsyncAllDevices AsyncClient AsyncController AsyncMotion
     AsyncOneDevice Client ClosedError Column Controller Counters Decoded DecodeError Device
     Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError Event Exchange
-    EXCHANGES F32 F64 FailureError Failures Field HEADER I16 I24 I32 I64 I8 IncompleteReplyError
-    Items Kind LimitError LIMITS Limits LineCounters LineError List Message MESSAGES MixedElement
+    EXCHANGES F32 F64 FailureError Failures Field HEAD I16 I24 I32 I64 I8 IncompleteReplyError Items
+    Kind LEAST LimitError LIMITS Limits LineCounters LineError List Message MESSAGES MixedElement
     Motion Noise NoReplyError NoReportError NotHeldError Number OneDevice Optional Packed
     PortAddressError PortBusyError PortNotFoundError PortPermissionError POSE Pose ProtocolError
     Reason RECEIVED RefusedError Rejects Report Reserved Run SearchStrategy Sent Shape StreamDecoder

@@ -884,11 +884,13 @@ def test_hostile_input_costs_linear_time(
 
     # What is looked up once for all is none of it. Each is more than is ever held: at first, there
     # is less to look at.
-    cost(1024)
+    for size in (512, 768, 1024):
+        cost(size)
     small, middle, large = cost(512), cost(768), cost(1024)
 
     assert large <= CALLS_PER_BYTE * 1024
-    assert large - middle <= 1.05 * (middle - small) + 50
+    # At the end of the line, one more beginning may be left than at that of another.
+    assert large - middle <= 1.05 * (middle - small) + 100
 
 
 @given(

@@ -8,9 +8,9 @@ import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
 from busservo._codec.noise_lane import NoiseLane
 from busservo._frame.element import Element
-from busservo._frame.items import Items
+from busservo._frame.envelopes import FRAME_ENVELOPE
+from busservo._frame.lists import List
 from busservo._frame.number import U8, U16
-from busservo._frame.protocol import HEADER
 from busservo._frame.table import Table, largest_of
 
 from tests.strategies import bytes_of, joined, noise, single_bytes
@@ -38,19 +38,19 @@ class DialsTurn(Message):
     COMMAND = 0x30
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(7, 17, 3)
+    FRAME = FRAME_ENVELOPE
+    IDS = (0x30,)
 
     force = U8(4, low=1, high=9)
     dial_count = U8(5)
-    turns = Items(6, Turn, 1, 4, count=dial_count)
+    turns = List(6, Turn, 1, 4, count=dial_count)
 
     def __new__(cls, force: int, turns: list[tuple[int, int]]) -> Self:
-        flat = cls.turns.flat(turns)
-        dial_count = len(flat) // 2
-        return cls._packed_at_once(
-            "<2sBBBB" + dial_count * "BH",
-            (HEADER, 3 * dial_count + 4, 0x30),
-            (force, dial_count, *flat),
-        )
+        cls.SHAPE.check(force)
+        flat = cls.turns.packed(turns)
+        length, count = len(flat) + 4, len(flat) // 3
+        layout = f"<2sBBBB{len(flat)}s"
+        return cls._packed(layout, b"\x55\x55", length, 0x30, force, count, flat)
 
 
 class LampDim(Message):
@@ -61,6 +61,8 @@ class LampDim(Message):
     COMMAND = 0x31
     DIRECTION = Direction.HOST_TO_CONTROLLER
     LENGTHS = range(3, 4)
+    FRAME = FRAME_ENVELOPE
+    IDS = (0x31,)
 
     percent = U8(4, high=100)
 
@@ -71,10 +73,10 @@ GOOD = bytes.fromhex("55 55 0A 30 09 02 01 00 00 04 67 01")
 BAD = (
     ("55 55 0A 30 00 02 01 00 00 04 67 01", 4, "force is 0, outside 1..9"),
     ("55 55 0A 30 0A 02 01 00 00 04 67 01", 4, "force is 10, outside 1..9"),
-    ("55 55 0A 30 09 02 00 00 00 04 67 01", 6, "dial is 0, outside 1..4"),
-    ("55 55 0A 30 09 02 01 68 01 04 67 01", 7, "degrees is 360, outside 0..359"),
-    ("55 55 0A 30 09 02 01 00 00 05 67 01", 9, "dial is 5, outside 1..4"),
-    ("55 55 0A 30 09 02 01 00 00 04 FF FF", 10, "degrees is 65535, outside 0..359"),
+    ("55 55 0A 30 09 02 00 00 00 04 67 01", 6, "turns[0].dial is 0, outside 1..4"),
+    ("55 55 0A 30 09 02 01 68 01 04 67 01", 7, "turns[0].degrees is 360, outside 0..359"),
+    ("55 55 0A 30 09 02 01 00 00 05 67 01", 9, "turns[1].dial is 5, outside 1..4"),
+    ("55 55 0A 30 09 02 01 00 00 04 FF FF", 10, "turns[1].degrees is 65535, outside 0..359"),
 )
 
 each_bad = pytest.mark.parametrize(("frame", "offset", "problem"), BAD)

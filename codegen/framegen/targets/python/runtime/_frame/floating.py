@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from operator import itemgetter
 from struct import Struct
 
@@ -51,7 +50,7 @@ class Float(Field["float"]):
         super().__init_subclass__()
         cls.code, cls.struct = code, Struct(order + code)
         single = code == "f"
-        cls.high = math.ldexp(2 - 2**-23, 127) if single else math.ldexp(2 - 2**-52, 1023)
+        cls.high = (2 - 2**-23) * 2.0**127 if single else (2 - 2**-52) * 2.0**1023
         cls.low = -cls.high
 
     def reader(self) -> Callable[[Any], float]:

@@ -1,72 +1,397 @@
-"""The properties that the fields of a message give to all of its frames."""
+"""The properties that the fields of a message give to all of its frames, whatever they are."""
 
 from __future__ import annotations
 
 from itertools import count as upwards
+from struct import error
 
-from .items import Items
+from .bytes_like import format_hex
+from .errors import EncodeError, Reason
+from .field import Field
+from .fixed import Always
+from .floating import Float
+from .lists import List, is_read, places_of
 from .number import Number
-from .protocol import BODY_AT
+from .optional import Optional
+from .packed import Packed
+from .quick_tests import checker, count_test, element_test, item_test, place_test, range_test
+from .text import Text, misspelt
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from typing import Any
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from typing import Any, TypeAlias
+
+    from .lists import Place
+
+    Due: TypeAlias = "bytes | Callable[[bytes], int | None]"
+    # From where to where it stands, why it would be refused, and what must be there, or what tells
+    # where its bytes are wrong, None for nowhere.
+    Judged: TypeAlias = "tuple[int, int, Reason, Due]"
+
+
+# So many sizes are remembered at once.
+_REMEMBERED = 1024
+# So few places are judged again sooner than it is told which were judged before.
+_FEW = 3
 
 
 class Shape:
     """The fields of a class of messages, in the order of the frame, and the rules for its frames.
 
-    `numbers` stand in front of the list, its count among them; `items` is the list, if there is
-    one; `lengths` are the legal ones.
+    `given` are the numbers that its constructor has to `check`; `items` is the list of a size that
+    varies, if there is one; `lengths` are the legal ones, one for each of `counts`. `counter` is
+    from where to where the number stands that says how long the list is; None where there is none.
+    `parts` are all fields and constants between head and tail. All that can be wrong is told by
+    `places`; a frame of legal length, with the right counter, is right where all `tests` hold, and
+    `certain` where there are none. `sizes` are those of frames by the bytes of their counter.
     """
 
-    __slots__ = ("items", "lengths", "narrowed", "numbers")
+    __slots__ = (
+        "_counters",
+        "_judges_each",
+        "_kind",
+        "_known",
+        "_varying",
+        "check",
+        "counter",
+        "counts",
+        "given",
+        "items",
+        "lengths",
+        "optional",
+        "parts",
+        "sizes",
+        "tests",
+    )
 
-    def __init__(self, kind: type, lengths: range) -> None:
-        fields = [each for base in reversed(kind.__mro__) for each in vars(base).values()]
-        self.numbers = tuple(each for each in fields if isinstance(each, Number))
-        lists: list[Items[Any]] = [each for each in fields if isinstance(each, Items)]
-        self.items = lists[0] if lists else None
+    def __init__(self, kind: Any, lengths: Sequence[int]) -> None:
+        self._kind = kind
         self.lengths = lengths
-        # Whether a field has a range of its own, narrower than what struct accepts.
-        inside = self.items.fields if self.items is not None else ()
-        self.narrowed = any(number.narrowed for number in (*self.numbers, *inside))
 
-    def count_bytes(self, length: int) -> tuple[int, int, bytes]:
-        """Return where the count of a frame of legal length stands, from and to, and its bytes."""
-        if self.items is None:
-            return 0, 0, b""
-        count = self.items.counts[self.lengths.index(length)]
-        at, data = self.items.count.at, self.items.count.struct.pack(count)
-        return at, at + len(data), data
+    def __getattr__(self, name: str) -> Any:
+        # Worked out when it is first asked for: few messages of many are ever used.
+        if name not in self.__slots__:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+        self._work_out()
+        return getattr(self, name)
 
-    def out_of_range(self, frame: bytes) -> tuple[int, str] | None:
-        """Return the first number of a frame outside its range: its offset, and what is wrong.
+    def _work_out(self) -> None:
+        kind, lengths = self._kind, self.lengths
+        fields = [
+            each
+            for base in reversed(kind.__mro__)
+            for each in vars(base).values()
+            if isinstance(each, Field)
+        ]
+        frame = kind.FRAME
+        outside = [part.name for part in (frame.address, frame.counter) if part is not None]
+        self.given: list[Number | Float] = [
+            each
+            for name in kind.__match_args__
+            if isinstance(each := getattr(kind, name), (Number, Float))
+        ]
+        self.optional = [each for each in fields if isinstance(each, Optional)]
+        lists = [each for each in fields if isinstance(each, (List, Text))]
+        varying = [each for each in lists if _varies(each)]
+        self._varying: List[Any] | Text | None = varying[0] if varying else None
+        self.items = self._varying if isinstance(self._varying, List) else None
+        self._counters = self._counted()
+        self.counts = range(len(lengths)) if self._varying is None else self._varying.counts
+        first = min((number for number, _ in self._counters), key=_at, default=None)
+        self.counter = None if first is None else (first.at, first.at + first.struct.size)
+        self.sizes = _Sizes(self)
+        # Whether something can be wrong in each element of it; where not, the places in frames of
+        # each count, of which there are few.
+        self._judges_each = any(True for each in varying for _ in _elements(each, 1, 0))
+        self._known: dict[int, list[Judged]] = {}
+        body = [each for each in fields if each.name not in outside]
+        self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
+        self.tests = [*self._tested()]
+        self.check = checker(self.given)
 
-        If the frame is cut short, a number that is not complete is skipped.
+    def _counted(self) -> list[tuple[Number, int]]:
+        """Return the numbers that say how long the list is, each with its value of one element."""
+        varying = self._varying
+        if isinstance(varying, List):
+            return [*varying.counters]
+        if varying is None:
+            return []
+        return [(each, 1) for each in (varying.count, varying.size) if each is not None]
+
+    # What a frame must be.
+
+    @property
+    def certain(self) -> bool:
+        """Whether a frame of legal length, with the right count, is always legal."""
+        return not self.tests
+
+    def count_of(self, data: bytes) -> int | None:
+        """Return the count that these bytes of the counter mean; None where no frame has it."""
+        number, factor = min(self._counters, key=lambda each: each[0].at)
+        count, rest = divmod(number.struct.unpack(data)[0], factor)
+        return None if rest or count not in self.counts else count
+
+    def size_at(self, count: int) -> int:
+        """Return the size of the frames with this count."""
+        size: int = self._kind.FRAME.size(self.lengths[self.counts.index(count)])
+        return size
+
+    def places(self, count: int, since: int = 0) -> Iterable[Judged]:
+        """Return all that can be wrong in the fields of a frame with this count, in its order.
+
+        What ends at `since` or before it is left out.
         """
-        at = BODY_AT
-        for _, field in self._fields() if self.narrowed else ():
-            if at + field.struct.size > len(frame):
-                break
-            (value,) = field.struct.unpack_from(frame, at)
-            if not field.low <= value <= field.high:
-                return at, f"{field.name} is {value}, outside {field.low}..{field.high}"
-            at += field.struct.size
-        return None
+        if self._judges_each:
+            return self._places_at(count, since)
+        known = self._known.get(count)
+        if known is None:
+            if len(self._known) >= _REMEMBERED:
+                self._known.clear()
+            known = self._known[count] = [*self._places_at(count, 0)]
+        return [place for place in known if place[1] > since] if since else known
+
+    def few_places(self, count: int) -> Sequence[Judged] | None:
+        """Return all these places if they are so few that they are judged again at no cost."""
+        if self._judges_each:
+            return None
+        places = [*self.places(count)]
+        return places if len(places) <= _FEW else None
+
+    def _places_at(self, count: int, since: int) -> Iterator[Judged]:
+        until = self._end(count)
+        for part in map(_there, self.parts):
+            if part.at >= until or part is self._varying:
+                continue
+            for number, factor in self._counters:
+                if part is number and number.at + number.struct.size > since:
+                    due = number.struct.pack(count * factor)
+                    yield number.at, number.at + len(due), Reason.COUNT_MISMATCH, due
+            for at, end, wrong in _places(part):
+                if end > since:
+                    yield at, end, Reason.OUT_OF_RANGE, wrong
+        if self._varying is not None:
+            for at, end, wrong in _elements(self._varying, count, since):
+                yield at, end, Reason.OUT_OF_RANGE, wrong
+
+    def _tested(self) -> Iterator[Callable[[bytes], bool]]:
+        """Yield what say whether the fields of a frame of legal length are legal.
+
+        Its first count is tested by whoever knows its size.
+        """
+        places = [*self._fixed()]
+        starts = {at for at, _, _ in places}
+        numbers = [each for each in self.parts if isinstance(each, Number) and each.at in starts]
+        plain = [each for each in numbers if is_read(each)]
+        if plain:
+            yield range_test(plain)
+        rest = [place for place in places if place[0] not in {each.at for each in plain}]
+        if rest:
+            yield place_test(rest, self._kind.FRAME.tail_size)
+        varying = self._varying
+        if varying is None:
+            return
+        unit = 1 if isinstance(varying, Text) else varying.unit_size
+        for number, factor in sorted(self._counters, key=lambda each: each[0].at)[1:]:
+            yield count_test(number, factor, varying.at + varying.tail, unit)
+        at, end = varying.at, -varying.tail or None
+        if isinstance(varying, Text):
+            yield lambda frame: frame[at:end].isascii()
+        elif varying.element is None and varying.places:
+            (number,) = varying.fields
+            yield item_test(varying.numbers, number)
+        elif varying.places:
+            yield element_test(varying.places, slice(at, end), unit)
+
+    def _fixed(self) -> Iterator[tuple[int, int, Due]]:
+        """Yield what can be wrong at the same place in every frame, save for counts."""
+        for part in map(_there, self.parts):
+            if part is not self._varying:
+                yield from _places(part)
+
+    def out_of_range(self, frame: bytes, at: int) -> str:
+        """Return which of the fields of a frame is wrong at an offset, and how; "" if none is."""
+        body = frame[: self._size_in(frame) - self._kind.FRAME.tail_size]
+        for name, base, piece in self._pieces(body):
+            for start, end, due in _places_of(piece):
+                data = body[base + start : base + end]
+                wrong = _wrong(data, due)
+                if wrong is not None and base + start + wrong == at:
+                    return f"{name} {_explained(piece, data, wrong)}"
+        return ""
+
+    def _size_in(self, frame: bytes) -> int:
+        """Return the size that a frame says it has; that of its bytes where it does not say so."""
+        envelope = self._kind.FRAME
+        if envelope.length is None:
+            return len(frame)
+        size: int = envelope.size(envelope.length.read(frame))
+        return size
+
+    def _pieces(self, body: bytes) -> Iterator[tuple[str, int, Any]]:
+        """Yield what stands in the fields by its path, and where its place counts from."""
+        for part in map(_there, self.parts):
+            if isinstance(part, Text) and _varies(part):
+                for position, at in enumerate(range(part.at, len(body))):
+                    character = Text(0, 1)
+                    yield f"{part.name}[{position}]", at, character
+            elif isinstance(part, List):
+                end = len(body) if _varies(part) else part.at + part.most * part.unit_size
+                for position, at in enumerate(range(part.at, end, part.unit_size)):
+                    for piece in part.pieces:
+                        inner = f".{piece.name}" if part.element is not None else ""
+                        yield f"{part.name}[{position}]{inner}", at, piece
+            else:
+                yield part.name, 0, part
+
+    @property
+    def present(self) -> list[int]:
+        """How many of the fields that may be absent are there, in the frames of each count."""
+        ends = [self._end(count) for count in self.counts] if self.optional else []
+        return [sum(each.at < end for each in self.optional) for end in ends]
+
+    def _end(self, count: int) -> int:
+        """Return where the fields of a frame with this count end, if some may be absent."""
+        if not self.optional:
+            return 1 << 62
+        frame, length = self._kind.FRAME, self.lengths[count]
+        end: int = frame.size(length) - frame.tail_size
+        return end
+
+    # What is given.
 
     def checked(self, numbers: Sequence[Any]) -> list[int]:
-        """Return the numbers of a frame as ints. Raises EncodeError for the first wrong one."""
+        """Return the numbers of a frame as ints. Raises EncodeError for the first wrong one.
+
+        All its fields are numbers, save that the last one may be a list of them.
+        """
         return [
             field.checked(number, path)
-            for number, (path, field) in zip(numbers, self._fields(), strict=False)
+            for number, (path, field) in zip(numbers, self._numbers(), strict=False)
         ]
 
-    def _fields(self) -> Iterator[tuple[str, Number]]:
-        """Yield each number of a frame with its path; those of a list without end."""
-        for number in self.numbers:
-            yield number.name, number
-        if self.items is not None:
-            for position in upwards():
-                yield from self.items.one(position)
+    def _numbers(self) -> Iterator[tuple[str, Number]]:
+        """Yield each number of such a frame with its path; those of a list without end."""
+        for part in self.parts:
+            if isinstance(part, List):
+                for position in upwards():
+                    yield from part.one(position)
+            else:
+                yield part.name, part
+
+    def tail(self, *values: Any) -> bytes:
+        """Return the bytes of the fields that may be absent. Raises EncodeError for bad ones."""
+        data, last = b"", ""
+        for field, value in zip(self.optional, values, strict=True):
+            if value is None:
+                last = last or field.name
+                continue
+            if last:
+                problem = f"it is absent, and {field.name} behind it is not: give both, or neither"
+                raise EncodeError(last, None, problem)
+            number = field.number
+            data += number.struct.pack(number.checked(value, field.name))
+        ends = [self._end(count) - self.optional[0].at for count in self.counts]
+        if len(data) in ends:
+            return data
+        return self._no_such_end(len(data), ends)
+
+    def _no_such_end(self, size: int, ends: list[int]) -> bytes:
+        """Raise the error for optional fields of so many bytes, with which no frame ends."""
+        first = self.optional[0].at
+        due = min((end for end in ends if end > size), default=ends[-1])
+        absent = [each for each in self.optional if size <= each.at - first < due]
+        names = " and ".join(each.name for each in absent)
+        problem = f"no frame ends before it: give {names}, or none of them"
+        if not absent:
+            problem = "no frame goes on with it: leave it out"
+        raise EncodeError((absent or self.optional)[0].name, None, problem)
+
+
+class _Sizes(dict[bytes, int]):
+    """The sizes of the frames of a message, by the bytes of its counter; 0 where no frame has it.
+
+    Worked out once for each.
+    """
+
+    __slots__ = ("_shape",)
+
+    def __init__(self, shape: Shape) -> None:
+        self._shape = shape
+
+    def __missing__(self, counter: bytes) -> int:
+        if len(self) >= _REMEMBERED:
+            self.clear()
+        count = self._shape.count_of(counter)
+        self[counter] = size = 0 if count is None else self._shape.size_at(count)
+        return size
+
+
+def _varies(field: List[Any] | Text) -> bool:
+    """Tell whether a list or a text has a size that varies."""
+    if isinstance(field, Text):
+        return field.least is not None
+    return bool(field.counters) or field.least != field.most
+
+
+def _there(part: Any) -> Any:
+    """Return what a part of a frame is where it is not absent."""
+    return part.number if isinstance(part, Optional) else part
+
+
+def _places_of(piece: Any) -> Sequence[Place]:
+    """Return what can be wrong in a number, a text, a constant or packed numbers."""
+    if not isinstance(piece, Packed):
+        return places_of(piece)
+    return [(piece.at, piece.at + piece.size, piece.wrong)] if piece.narrowed else []
+
+
+def _wrong(data: bytes, due: Due) -> int | None:
+    """Return the offset of the first byte that is wrong; None if all are right."""
+    if isinstance(due, bytes):
+        places = enumerate(zip(data, due, strict=False))
+        return next((at for at, (byte, right) in places if byte != right), None)
+    try:
+        return due(data)
+    except error:  # it is cut short
+        return None
+
+
+def _explained(piece: Any, data: bytes, at: int) -> str:
+    """Return what is wrong with the bytes of a number, a text, a constant or packed numbers."""
+    if isinstance(piece, Always):
+        return f"is {format_hex(data)}, and always {format_hex(piece.data)}"
+    if isinstance(piece, Text):
+        return f"holds 0x{data[at]:02X}, which is no character of ASCII"
+    if isinstance(piece, Packed):
+        numbers = piece.read(data)
+        value = next(each for each in numbers if not piece.low <= each <= piece.high)
+    else:
+        (value,) = piece.struct.unpack(data)
+    return f"is {value}, outside {piece.low}..{piece.high}"
+
+
+def _at(part: Any) -> int:
+    at: int = part.at
+    return at
+
+
+def _places(part: Any) -> Iterator[tuple[int, int, Due]]:
+    """Yield what can be wrong in a part of a fixed size."""
+    if isinstance(part, List):
+        yield from _elements(part, part.most, 0)
+    else:
+        yield from _places_of(part)
+
+
+def _elements(listed: List[Any] | Text, count: int, since: int) -> Iterator[tuple[int, int, Due]]:
+    """Yield what can be wrong in the elements of a list, or the characters of a text."""
+    size = 1 if isinstance(listed, Text) else listed.unit_size
+    places: Any = [(0, 1, misspelt)] if isinstance(listed, Text) else listed.places
+    if not places:
+        return
+    for position in range(max(0, (since - listed.at) // size), count):
+        base = listed.at + position * size
+        for start, end, due in places:
+            if base + end > since:
+                yield base + start, base + end, due

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import takewhile
 
 from .envelope import Constant
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     # From where to where it stands, why it would be refused, and what must be there, or what tells
     # where its bytes are wrong.
     Place: TypeAlias = "tuple[int, int, Reason, bytes | Callable[[bytes], int | None]]"
+
+
+# So many verdicts on wrong counts are remembered at once.
+_REMEMBERED = 4096
 
 
 class Refused:
@@ -65,23 +70,24 @@ class Known:
         self.count = count
         self.size = size
         self.largest = largest
+        self._few = None if count is None else kind.SHAPE.few_places(count)
 
     def judged(self, data: bytes, at: int, prove: Prove, since: int) -> Verdict:
         """Judge the frame at data[at], of which `since` bytes were judged before."""
-        shape, have = self.kind.SHAPE, len(data) - at
         count, size = self.count, self.size
         if count is None:
             measured = self._measured(data, at, since)
             if isinstance(measured, Verdict):
                 return measured
             count, size = measured
-        wrong = _misfit(shape.places(count, since), data, at)
+        places = self.kind.SHAPE.places(count, since) if self._few is None else self._few
+        wrong = _misfit(places, data, at)
         if wrong is None and self.kind.FRAME.judged:
             wrong = _wrong_end(self.kind.FRAME, size, data, at)
         if wrong is not None:
             return wrong
-        if have < size:
-            return too_short(have, size)
+        if len(data) - at < size:
+            return too_short(len(data) - at, size)
         return self._proven(data, at, size, prove)
 
     def _measured(self, data: bytes, at: int, since: int) -> tuple[int, int] | Verdict:
@@ -122,19 +128,26 @@ def differs(due: bytes, found: bytes, reason: Reason, start: int, have: int) -> 
     return too_short(have, max(have, start) + 1)
 
 
+# In noise, the same again and again.
+@lru_cache(maxsize=_REMEMBERED)
+def _miscounted(start: int, due: bytes, found: bytes) -> Verdict:
+    """Return the verdict on the bytes of a count that are not those due."""
+    verdict = differs(due, found, Reason.COUNT_MISMATCH, start, 0)
+    verdict.offset = start
+    return verdict
+
+
 def _misfit(places: Iterable[Place], data: bytes, at: int) -> Verdict | None:
     """Return the verdict on the first place of the frame at `at` that is wrong, or not complete."""
-    have = len(data) - at
     for start, end, reason, due in places:
         found = data[at + start : at + end]
         if isinstance(due, bytes):
             if found != due:
-                verdict = differs(due, found, reason, start, have)
-                if reason is Reason.COUNT_MISMATCH and not verdict.is_open:
-                    verdict.offset = start
-                return verdict
+                if reason is Reason.COUNT_MISMATCH and not due.startswith(found):
+                    return _miscounted(start, due, found)
+                return differs(due, found, reason, start, len(data) - at)
         elif len(found) < end - start:
-            return too_short(have, end)
+            return too_short(len(data) - at, end)
         else:
             bad = due(found)
             if bad is not None:

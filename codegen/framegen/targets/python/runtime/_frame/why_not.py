@@ -32,8 +32,10 @@ class WhyNot:
         """Return what is wrong."""
         verdict = self._verdict
         if verdict.kind is not None:
-            name, size = verdict.kind.__name__, verdict.size
-            return f"this frame of {name} has {pluralize(size, 'byte')}, not {len(self._frame)}"
+            told = f"{_told(verdict.kind)} has {pluralize(verdict.size, 'byte')}"
+            return f"{told}, not {len(self._frame)}"
+        if verdict.offset < len(self._table.header):
+            return self._opening()
         in_the_head = {
             Reason.BAD_HEADER: self._opening,
             Reason.UNKNOWN_COMMAND: self._ids,
@@ -48,15 +50,15 @@ class WhyNot:
         for each in self._trials:
             found = each.judged(frame, 0, prove, 0)
             if isinstance(each, Known) and found.offset == at:
-                return self._misfit(each.kind, found, prove)
+                return self._misfit(each, found, prove)
         least = min((envelope.least for envelope, _ in self._table.frames), default=0)
         return f"the shortest frame has {pluralize(least, 'byte')}"
 
-    def _misfit(self, kind: type[Message], verdict: Verdict, prove: Prove) -> str:
-        name, at, envelope = kind.__name__, verdict.offset, kind.FRAME
-        found = format_hex(self._frame[at : verdict.size])
+    def _misfit(self, known: Known, verdict: Verdict, prove: Prove) -> str:
+        kind, at, envelope = known.kind, verdict.offset, known.kind.FRAME
+        name, found = kind.__name__, format_hex(self._frame[at : verdict.size])
         if verdict.reason is Reason.COUNT_MISMATCH:
-            return f"no {name} of this size has the count {found}"
+            return self._count(known, at) or f"no {name} of this size has the count {found}"
         if verdict.reason is Reason.BAD_TRAILER:
             return f"a frame ends {format_hex(b''.join(part.data for part in envelope.ends))}"
         if verdict.reason is Reason.OUT_OF_RANGE:
@@ -64,7 +66,19 @@ class WhyNot:
             return wrong or f"{name} has other bytes than {found} there"
         if verdict.reason is Reason.BAD_CHECKSUM:
             return self._checksum(kind, verdict.size, prove)
+        if envelope.length is not None:
+            return f"{_told(kind)} has {pluralize(known.size, 'byte')}"
         return f"a frame of {name} like this has {pluralize(verdict.size, 'byte')}, or more"
+
+    def _count(self, known: Known, at: int) -> str:
+        """Return what the count at an offset must be; "" where only the count says the size."""
+        if known.count is None:
+            return ""
+        for start, end, _, due in known.kind.SHAPE.places(known.count):
+            if start == at and isinstance(due, bytes):
+                found = format_hex(self._frame[at:end])
+                return f"with this length the count is {format_hex(due)}, not {found}"
+        return ""
 
     def _checksum(self, kind: type[Message], size: int, prove: Prove) -> str:
         frame, envelope = self._frame[:size], kind.FRAME
@@ -89,7 +103,7 @@ class WhyNot:
         """Return what ids there are, and which could be there."""
         for envelope, kinds in self._begun():
             parts = [part for part in envelope.ids if part.place.stop <= len(self._frame)]
-            known = dict.fromkeys(_shown(kind.IDS[: len(parts)]) for kind in kinds)
+            known = [_shown(ids) for ids in sorted({kind.IDS[: len(parts)] for kind in kinds})]
             if parts and parts[-1].at >= self._verdict.offset:
                 names = " and ".join(part.name for part in parts)
                 found = _shown([part.read(self._frame) for part in parts])
@@ -107,10 +121,14 @@ class WhyNot:
                 if self._is_told(envelope, kind):
                     names.setdefault(_lengths(kind.LENGTHS), []).append(kind.__name__)
             legal = " or ".join(f"{words} ({', '.join(who)})" for words, who in names.items())
-            least = f"at least {envelope.least - envelope.uncounted}"
             found = part.read(self._frame)
-            return f"the {part.name} is {found}, and must be {legal or least}"
+            return f"the {part.name} is {found}, and must be {legal or self._bounds(envelope)}"
         return "no message of this direction is that long"
+
+    def _bounds(self, envelope: Envelope) -> str:
+        """Return the lengths that frames of any message have."""
+        least, most = (size - envelope.uncounted for size in (envelope.least, self._table.largest))
+        return f"{least}..{most}" if self._table.is_bounded else f"at least {least}"
 
     def _is_told(self, envelope: Envelope, kind: type[Message]) -> bool:
         """Return whether the ids are all there, and those of a message."""
@@ -122,6 +140,13 @@ class WhyNot:
     def _begun(self) -> Iterable[tuple[Envelope, list[type[Message]]]]:
         frames = self._table.frames
         return [each for each in frames if each[0].begins(self._frame, 0)]
+
+
+def _told(kind: type[Message]) -> str:
+    """Return a message by what says how long its frame is."""
+    if kind.FRAME.length is None:
+        return f"this frame of {kind.__name__}"
+    return f"{kind.__name__} with this length"
 
 
 def _opening(envelope: Envelope) -> str:

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 # So many sizes are remembered at once.
 _REMEMBERED = 1024
+# So few places are judged again sooner than it is told which were judged before.
 _FEW = 3
 
 
@@ -149,10 +150,14 @@ class Shape:
             if len(self._known) >= _REMEMBERED:
                 self._known.clear()
             known = self._known[count] = [*self._places_at(count, 0)]
-        # A few are judged again sooner than they are sorted out.
-        if not since or len(known) <= _FEW:
-            return known
-        return [place for place in known if place[1] > since]
+        return [place for place in known if place[1] > since] if since else known
+
+    def few_places(self, count: int) -> Sequence[Judged] | None:
+        """Return all these places if they are so few that they are judged again at no cost."""
+        if self._judges_each:
+            return None
+        places = [*self.places(count)]
+        return places if len(places) <= _FEW else None
 
     def _places_at(self, count: int, since: int) -> Iterator[Judged]:
         until = self._end(count)
