@@ -159,12 +159,12 @@ class NoiseLane:
         if quiet and at < len(data):
             return at if self._table.begins(data, at) else at + 1
         self.at, self._since = base + at, len(data) - at
-        # Where nothing has begun, only a whole frame decides, or the end of a claim.
-        least = LEAST if self._refused and at == len(data) else 0
-        self.wake = self.at + max(least, verdict.size)
+        self.wake = self.at + verdict.size
         if self._refused:
             first, _, _, claim = self._refused[0]
-            self.wake = min(self.wake, max(first, self.emitted) + claim)
+            # Where nothing has begun, only a whole frame decides, or the end of a claim.
+            size = LEAST if at == len(data) else verdict.size
+            self.wake = min(self.at + size, max(first, self.emitted) + claim)
         return None
 
     def _cut(
