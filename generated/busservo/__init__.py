@@ -81,7 +81,7 @@ _HOMES = {
     "decode": "_codec.codec",
     "open_async_controller": "_client.async_opening",
     "open_controller": "_client.opening",
-    "open_transport": "_serial.serial_port",
+    "open_transport": "_serial.opening",
 }
 
 # Spelt out there, too: as an assignment, type checkers would want it spelt out here.

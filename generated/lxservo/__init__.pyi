@@ -43,7 +43,7 @@ from ._serial.link_errors import PortNotFoundError as PortNotFoundError
 from ._serial.link_errors import PortPermissionError as PortPermissionError
 from ._serial.link_errors import TransportError as TransportError
 from ._serial.link_errors import WriteStuckError as WriteStuckError
-from ._serial.serial_port import open_transport as open_transport
+from ._serial.opening import open_transport as open_transport
 from ._serial.transport import Transport as Transport
 from ._version import __version__ as __version__
 from .device import Device as Device

@@ -16,9 +16,11 @@ from .._client.controller import Controller
 from .._client.exchanges import LIMITS
 from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD
+from .._library import LINK
 from .._serial.hid_devices import hid_devices_at_hand
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
-from .._serial.serial_port import open_transport, serial_ports
+from .._serial.opening import open_transport
+from .._serial.serial_port import serial_ports
 from .console import visible
 from .examples import PROGRAM
 from .exit_codes import LINE_LOST, TERMINATED
@@ -81,7 +83,7 @@ def port_of(arguments: argparse.Namespace) -> str:
     if arguments.port is not None:
         return str(arguments.port)
     ports = serial_ports()
-    only = only_port(ports, hid_devices_at_hand() or [])
+    only = only_port(ports, hid_devices_at_hand(LINK) or [])
     if only is not None:
         return only
     likely = plugged_in(ports) or ports

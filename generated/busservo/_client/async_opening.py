@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from .._frame.protocol import BAUD, LOCAL_ECHO
-from .._serial.serial_port import open_transport
+from .._serial.opening import open_transport
 from .async_controller import AsyncController
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .exchanges import LIMITS

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from os import PathLike
 
 from .._frame.protocol import BAUD, LOCAL_ECHO
-from .._serial.serial_port import open_transport
+from .._serial.opening import open_transport
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .controller import Controller
 from .exchanges import LIMITS

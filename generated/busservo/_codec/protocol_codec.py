@@ -57,6 +57,12 @@ class ProtocolCodec:
         return table_for
 
     @cached_property
+    def claimed(self) -> Callable[[bytes], int]:
+        """The function that returns how large the frame would be that bytes begin; 0 for none."""
+        claimed: Callable[[bytes], int] = self._part("_frame.heads").claimed
+        return claimed
+
+    @cached_property
     def decoder(self) -> type[StreamDecoder]:
         """What decodes a stream of bytes."""
         decoder: type[StreamDecoder] = self._part("_codec.decoder").StreamDecoder

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from functools import partial
 
-from .._log import log
 from .link_errors import ClosedError, DisconnectedError, TransportError, errno_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -13,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import TypeVar
 
+    from .log import Log
     from .transport import Transport
 
     _Result = TypeVar("_Result")
@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 class ErrorMapping:
     """A transport that passes everything on, and turns exceptions into TransportError."""
 
-    def __init__(self, transport: Transport) -> None:
+    def __init__(self, transport: Transport, log: Log) -> None:
         self._transport = transport
+        self._log = log
         self.name = str(getattr(transport, "name", type(transport).__name__))
         self.largest_frame: int | None = getattr(transport, "largest_frame", None)
         # What has a function called when there is something to read, without anybody waiting.
@@ -49,7 +50,7 @@ class ErrorMapping:
         try:
             self._mapped(self._transport.close)
         except TransportError as error:
-            log().debug("%s could not be closed: %s", self.name, error)
+            self._log().debug("%s could not be closed: %s", self.name, error)
 
     @property
     def reopen(self) -> Callable[[], ErrorMapping]:
@@ -57,7 +58,7 @@ class ErrorMapping:
         reopen: Callable[[], Transport] | None = getattr(self._transport, "reopen", None)
         if reopen is None:
             raise TypeError(f"{self.name} has no method reopen(), and cannot be opened again")
-        return lambda: ErrorMapping(self._mapped(reopen))
+        return lambda: ErrorMapping(self._mapped(reopen), self._log)
 
     def _mapped(self, call: Callable[[], _Result]) -> _Result:
         try:
@@ -76,6 +77,6 @@ class ErrorMapping:
             happened = f"the line was lost ({error})"
             return DisconnectedError(self.name, happened, advice, errno_of(error))
         # Whoever waits for the line must hear of it, in whichever thread it happened.
-        log().error("%s failed", self.name, exc_info=error)
+        self._log().error("%s failed", self.name, exc_info=error)
         happened = f"its transport failed ({error!r})"
         return TransportError(self.name, happened, "mend the transport")

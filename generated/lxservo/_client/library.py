@@ -6,9 +6,10 @@ from __future__ import annotations
 import sys
 from functools import cached_property
 
+from .._serial.log import Log
+
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from logging import Logger
     from typing import Any
 
     from .._codec.protocol_codec import ProtocolCodec
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 class Library:
     """What a generated library hands to the runtime.
 
-    `package` is its import name, and `protocol_version` the version of the specification. What
-    takes time to import is imported when it is first asked for.
+    `package` is its import name, and `protocol_version` the version of the specification. `log`
+    returns its logger. What takes time to import is imported when it is first asked for.
     """
 
     def __init__(
@@ -36,6 +37,7 @@ class Library:
         self.protocol_version = protocol_version
         self.link = link
         self.codec = codec
+        self.log = Log(package)
 
     def __repr__(self) -> str:
         return f"<the library {self.package} of protocol version {self.protocol_version}>"
@@ -83,12 +85,6 @@ class Library:
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""
         return self.codec.protocol()
-
-    def log(self) -> Logger:
-        """Return the logger of the library, which is named after its package."""
-        from logging import getLogger
-
-        return getLogger(self.package)
 
     def _part(self, name: str) -> Any:
         # Not importlib, which would have to be imported first.

@@ -8,7 +8,6 @@ import os
 import re
 import sys
 
-from .._frame.protocol import BAUD
 from .link_errors import (
     PortAddressError,
     PortBusyError,
@@ -45,9 +44,17 @@ _SYSTEMS = {"win32": "Windows", "darwin": "macOS", "linux": "Linux"}
 
 
 def not_opened(
-    port: str, error: Exception, listed: Callable[[], str], *, platform: str = sys.platform
+    port: str,
+    error: Exception,
+    listed: Callable[[], str],
+    *,
+    baud: float,
+    platform: str = sys.platform,
 ) -> TransportError:
-    """Return why a port could not be opened, and what to do; `listed` returns all ports."""
+    """Return why a port could not be opened, and what to do.
+
+    `listed` returns all ports, and `baud` is the rate of the protocol.
+    """
     code, low = errno_of(error), str(error).lower()
     # On Windows pyserial gives the system's words instead of an errno.
     denied = code in (errno.EACCES, errno.EPERM) or "permissionerror" in low
@@ -62,15 +69,15 @@ def not_opened(
         return PortNotFoundError(port, _why_absent(port, platform), listed(), code)
     if isinstance(error, OSError) and "expected a string in the form" not in low:
         return _unlike_a_port(port, error, listed)
-    return _no_port(port, error)
+    return _no_port(port, error, baud)
 
 
-def _no_port(port: str, error: Exception) -> TransportError:
+def _no_port(port: str, error: Exception, baud: float) -> TransportError:
     """Return the error for a name that pyserial does not know."""
     low = str(error).lower()
     if "baud rate" in low:
         happened = f"it cannot be set to that rate ({_words_of(error)})"
-        return TransportError(port, happened, f"the protocol's is {BAUD}; see what the adapter has")
+        return TransportError(port, happened, f"the protocol's is {baud}; see what the adapter has")
     if low.startswith("invalid url"):
         scheme = port.partition("://")[0]
         return PortAddressError(port, f"nothing is known that begins with {scheme}://", NAMED)

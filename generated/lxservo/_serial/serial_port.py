@@ -17,7 +17,6 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
-from .._frame.protocol import BAUD, DATA_BITS, PARITY, STOP_BITS
 from .hid_port import HidPort, open_hid
 from .link_errors import (
     ClosedError,
@@ -33,6 +32,9 @@ from .transport import Transport
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
+
+    from .._codec.protocol_codec import ProtocolCodec
+    from .link import Link
 
 
 # pyserial reconfigures the port whenever its timeout changes, so that stays as it is; longer waits
@@ -79,18 +81,12 @@ def serial_ports() -> list[SerialPortSeen]:
     )
 
 
-def open_transport(
-    port: str, *, baud: float = BAUD, exclusive: bool = True
+def open_port(
+    port: str, link: Link, codec: ProtocolCodec, *, baud: float, exclusive: bool
 ) -> SerialPort | HidPort:
-    """Open a port, by the name or the URL that pyserial knows it by, or a device by `hid://`.
-
-    The rest of the line's parameters are the protocol's; a `baud` of math.inf says that the line
-    takes no time, and sets the port to the protocol's rate. With `exclusive`, no other program that
-    also asks for exclusive use can have the port meanwhile. Raises TransportError; ValueError for a
-    `baud` that no port can be set to.
-    """
+    """Open a port, as `open_transport` of each library does, which explains it."""
     if isinstance(port, str) and port.lower().startswith("hid:"):
-        return open_hid(port)
+        return open_hid(port, link, codec)
     import serial
 
     refused = refused_name(port)
@@ -99,16 +95,16 @@ def open_transport(
     # pyserial knows some of its own schemes in small letters only.
     scheme, separator, rest = port.partition("://")
     url = f"{scheme.lower()}://{rest}" if separator else port
-    rate = BAUD if baud == math.inf else baud
+    rate = link.baud if baud == math.inf else baud
     if not 1 <= rate < _FASTER:
         raise ValueError(f"baud is {baud!r}, and must be from 1 to {_FASTER - 1}, or math.inf")
     try:
         opened = serial.serial_for_url(
             url,
             baudrate=int(rate),
-            bytesize=DATA_BITS,
-            parity=PARITY[0].upper(),
-            stopbits=STOP_BITS,
+            bytesize=link.data_bits,
+            parity=link.parity[0].upper(),
+            stopbits=link.stop_bits,
             # pyserial reads a socket byte by byte, unless it must not wait: `select` waits for it.
             timeout=0 if url.startswith(_SOCKET) else _POLL_INTERVAL,
             # pyserial refuses a write timeout for RFC 2217, whose socket gives up after 5 s anyway.
@@ -116,12 +112,13 @@ def open_transport(
             exclusive=exclusive or None,
         )
     except (*_GONE, LookupError, NotImplementedError, StopIteration) as error:
-        raise not_opened(port, error, _listed) from error
+        raise not_opened(port, error, _listed, baud=link.baud) from error
     # pyserial lets a socket collect small writes: the second of two would wait for 40 ms.
     behind = getattr(opened, "_socket", None)
     if behind is not None:
         behind.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return SerialPort(port, opened, partial(open_transport, port, baud=baud, exclusive=exclusive))
+    reopen = partial(open_port, port, link, codec, baud=baud, exclusive=exclusive)
+    return SerialPort(port, opened, reopen)
 
 
 def _refused_by_terminal() -> type[Exception]:

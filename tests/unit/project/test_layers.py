@@ -192,18 +192,37 @@ LIBRARY_LAYERS = [
     {"__init__"},
 ]
 PARTS = sorted(file.relative_to(LIBRARY) for file in LIBRARY.rglob("*.py"))
+TEMPLATES = GENERATOR / "targets" / "python" / "templates"
+# What is made for a protocol, by module; the rest is the same for all.
+MADE = {
+    ".".join(template.relative_to(TEMPLATES).parts).removesuffix(".py.jinja")
+    for template in TEMPLATES.rglob("*.py.jinja")
+}
+
+
+def modules_needed(path: Path) -> Iterator[str]:
+    """Yield the name of every module of the library that one of its modules imports from."""
+    for node in statements(LIBRARY / path):
+        if isinstance(node, ast.ImportFrom) and 0 < node.level <= len(path.parts):
+            room = path.parts[: len(path.parts) - node.level]
+            names = [node.module] if node.module else [alias.name for alias in node.names]
+            yield from (".".join([*room, name]) for name in names)
 
 
 def needed(path: Path) -> Iterator[str]:
-    """Yield every package and module of the library that one of its modules imports."""
-    for node in statements(LIBRARY / path):
-        if isinstance(node, ast.ImportFrom) and node.level == len(path.parts):
-            names = [node.module] if node.module else [alias.name for alias in node.names]
-            yield from (name.partition(".")[0] for name in names)
+    """Yield every part of the library that one of its modules imports from."""
+    return map(part_with, modules_needed(path))
 
 
 def part_of(path: Path) -> str:
-    return path.with_suffix("").parts[0]
+    return part_with(".".join(path.with_suffix("").parts))
+
+
+def part_with(module: str) -> str:
+    """Return the part that a module is in."""
+    # What is made for a protocol to open a port stands on what the library hands over, as clients.
+    on_top = module == "_library" or (module in MADE and module.startswith("_serial."))
+    return "_client" if on_top else module.partition(".")[0]
 
 
 def test_imports_of_a_library_point_downwards() -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo._frame.protocol import BAUD
-from busservo._serial.serial_port import open_transport
+from busservo._serial.opening import open_transport
 from busservo_simulator import VirtualController
 
 from tests.lines.at_board import virtual_board

@@ -24,7 +24,7 @@ from busservo import (
     ServoUnload,
 )
 from busservo._serial.link_errors import TransportError
-from busservo._serial.serial_port import open_transport
+from busservo._serial.opening import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.tcp_end import TcpEnd
 from busservo_simulator.waker import Waker

@@ -17,7 +17,7 @@ from busservo import (
     StreamDecoder,
     strategies,
 )
-from busservo._serial.serial_port import open_transport
+from busservo._serial.opening import open_transport
 from busservo_simulator import Board, VirtualController
 from busservo_simulator.line import Line
 from busservo_simulator.uart import sampled

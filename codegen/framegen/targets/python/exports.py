@@ -58,7 +58,7 @@ HOMES = {
     "decode": "_codec.codec",
     "open_async_controller": "_client.async_opening",
     "open_controller": "_client.opening",
-    "open_transport": "_serial.serial_port",
+    "open_transport": "_serial.opening",
 }
 # What a library exports beside that whose devices have addresses, or one that nobody answers, and
 # one whose devices say what they refuse, or what has failed.

@@ -9,9 +9,11 @@ import time
 from pathlib import Path
 
 from ..._frame.protocol import BAUD, LOCAL_ECHO
+from ..._library import LIBRARY, LINK
 from ..._serial.error_mapping import ErrorMapping
 from ..._serial.hid_devices import hid_devices_at_hand
-from ..._serial.serial_port import open_transport, serial_ports
+from ..._serial.opening import open_transport
+from ..._serial.serial_port import serial_ports
 from .heard import Heard
 from .probe import Probe
 
@@ -29,6 +31,10 @@ if TYPE_CHECKING:
 
 # What pseudo terminals are called: on Linux, and on macOS, whose serial ports have longer names.
 _PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
+
+
+def _hid_devices() -> list[HidDevice] | None:
+    return hid_devices_at_hand(LINK)
 
 
 class Diagnosis:
@@ -52,7 +58,7 @@ class Diagnosis:
         named_by: str = "",
         opener: Callable[[str, float], Transport] | None = None,
         ports: Callable[[], list[SerialPortSeen]] = serial_ports,
-        hid_devices: Callable[[], list[HidDevice] | None] = hid_devices_at_hand,
+        hid_devices: Callable[[], list[HidDevice] | None] = _hid_devices,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.port = port
@@ -111,7 +117,7 @@ class Diagnosis:
             raise AssertionError("no check asks for a port where none was found")
         self.close()
         rate = self.baud if baud is None else baud
-        transport = ErrorMapping(self._open(self.port, rate))
+        transport = ErrorMapping(self._open(self.port, rate), LIBRARY.log)
         self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
             transport,

@@ -29,6 +29,7 @@ from busservo import (
     open_controller,
 )
 from busservo._codec.noise import Noise
+from busservo._library import CODEC, LINK
 from busservo._serial.hid_devices import HidDevice, hid_devices_at_hand, hid_library
 from busservo._serial.hid_port import HidPort, open_hid
 
@@ -168,7 +169,7 @@ def port_on(device: Device) -> HidPort:
         raise NotImplementedError
 
     device.set_nonblocking(1)
-    return HidPort("hid://", device, 64, never)
+    return HidPort("hid://", device, 64, never, CODEC)
 
 
 @in_turn(
@@ -295,7 +296,7 @@ def test_a_board_that_cannot_be_opened_is_reported_with_advice(
     found: list[dict[str, object]], port: str, error: type[Exception], expected: str
 ) -> None:
     with pytest.raises(error, match=expected):
-        open_hid(port, library=Library(*found))
+        open_hid(port, LINK, CODEC, library=Library(*found))
 
 
 def test_permission_comes_with_the_rule_that_gives_it(
@@ -303,7 +304,7 @@ def test_permission_comes_with_the_rule_that_gives_it(
 ) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)
     with pytest.raises(PortPermissionError) as caught:
-        open_hid("hid://", library=Library(plugged(path=b"/dev/busy")))
+        open_hid("hid://", LINK, CODEC, library=Library(plugged(path=b"/dev/busy")))
     rule = 'KERNEL=="hidraw*", ATTRS{idVendor}=="0483", ATTRS{idProduct}=="5750", TAG+="uaccess"'
     assert rule in str(caught.value)
 
@@ -340,14 +341,16 @@ def test_linux_lists_boards_without_the_extra(
 ) -> None:
     for name in ("hid", "hidraw"):
         monkeypatch.setitem(sys.modules, name, None)
-    assert hid_devices_at_hand(tmp_path / "none") is None
-    assert hid_devices_at_hand(tmp_path) == []
+    assert hid_devices_at_hand(LINK, tmp_path / "none") is None
+    assert hid_devices_at_hand(LINK, tmp_path) == []
     board = tmp_path / "0003:0483:5750.0001"
     (board / "hidraw" / "hidraw3").mkdir(parents=True)
     (board / "uevent").write_text("HID_ID=0003\nHID_NAME=LOBOT\nHID_UNIQ=48D7\n")
     # A keyboard, the same ids by Bluetooth, and what is no device.
     for other in ("0003:046D:C31C.0002", "0005:0483:5750.0003", "driver", "a:b:c.1"):
         (tmp_path / other).mkdir()
-    assert hid_devices_at_hand(tmp_path) == [HidDevice(0x0483, 0x5750, "/dev/hidraw3", "LOBOT")]
+    assert hid_devices_at_hand(LINK, tmp_path) == [
+        HidDevice(0x0483, 0x5750, "/dev/hidraw3", "LOBOT")
+    ]
     (tmp_path / "0003:0483:5750.0009").mkdir()
-    assert hid_devices_at_hand(tmp_path)[0] == HidDevice(0x0483, 0x5750, "", "")  # type: ignore[index]
+    assert hid_devices_at_hand(LINK, tmp_path)[0] == HidDevice(0x0483, 0x5750, "", "")  # type: ignore[index]

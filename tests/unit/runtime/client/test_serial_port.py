@@ -29,7 +29,7 @@ from busservo import (
     open_controller,
     open_transport,
 )
-from busservo._serial import serial_port
+from busservo._library import CODEC, LINK
 from busservo._serial.hid_port import HidPort
 from busservo._serial.port_errors import not_opened
 from busservo._serial.serial_port import SerialPort
@@ -210,7 +210,9 @@ def test_a_port_name_of_another_system_is_recognized(
     port: str, platform: str, expected: str
 ) -> None:
     absent = serial.SerialException(2, f"could not open port {port}")
-    error = not_opened(port, absent, lambda: "no serial port is plugged in", platform=platform)
+    error = not_opened(
+        port, absent, lambda: "no serial port is plugged in", baud=9600, platform=platform
+    )
     assert str(error) == f"{port}: {expected}; no serial port is plugged in"
 
 
@@ -236,7 +238,7 @@ def test_a_rate_that_no_port_has_is_refused(baud: float) -> None:
 def test_an_error_has_the_words_of_the_system_and_not_those_of_pyserial(
     error: Exception, expected: str
 ) -> None:
-    refused = str(not_opened("x", error, lambda: "these exist: y"))
+    refused = str(not_opened("x", error, lambda: "these exist: y", baud=9600))
     assert expected in refused
     assert not any(word in refused for word in ("could not", "Could not", "Errno", "Failed"))
 
@@ -530,7 +532,7 @@ class SlowToClose(Driver):
 
 
 def by_hid(driver: Driver) -> HidPort:
-    return HidPort("hid://", driver, 64, lambda: by_hid(driver))
+    return HidPort("hid://", driver, 64, lambda: by_hid(driver), CODEC)
 
 
 @in_turn("made", lambda: [driven_by, by_hid])
@@ -584,6 +586,6 @@ def test_an_unknown_error_at_opening_is_reported_in_its_own_words(
 def test_a_pseudo_terminal_is_opened_though_it_keeps_no_parity(
     board: VirtualController, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(serial_port, "PARITY", "even")
+    monkeypatch.setattr(LINK, "parity", "even")
     with open_controller(board.port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500

@@ -208,7 +208,7 @@ def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
     for words, variable, ports, devices, _ in PORTS:
         monkeypatch.setenv("BUSSERVO_PORT", variable)
         monkeypatch.setattr(link, "serial_ports", lambda ports=ports: ports)
-        monkeypatch.setattr(link, "hid_devices_at_hand", lambda devices=devices: devices)
+        monkeypatch.setattr(link, "hid_devices_at_hand", lambda _link, devices=devices: devices)
         assert main(["send", "ActionGroupStop", *words]) == 2
         errors = capsys.readouterr().err
         found.append(taken.pop() if taken else errors)
@@ -267,14 +267,14 @@ def test_ports_are_listed_and_boards_without_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: devices)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda _link: devices)
     assert called(main, "ports") == (0, output, errors)
 
 
 def test_ports_are_listed_as_json(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: plugged_in()[:1])
     devices = [LOBOT, NAMELESS]
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda: devices)
+    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda _link: devices)
     # Of two boards of a kind, each has an address of its own.
     assert [json.loads(line) for line in called(main, "ports", "--json").out.splitlines()] == [
         {"port": "/dev/ttyUSB0", "usb": "1A86:7523", "description": "USB Serial"},

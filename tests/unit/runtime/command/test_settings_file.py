@@ -61,7 +61,7 @@ def refused_port(monkeypatch: pytest.MonkeyPatch, module: Any = link) -> list[tu
 
     monkeypatch.setattr(module, "open_transport", refuse)
     monkeypatch.setattr(module, "serial_ports", list)
-    monkeypatch.setattr(module, "hid_devices_at_hand", list)
+    monkeypatch.setattr(module, "hid_devices_at_hand", lambda _link: [])
     return opened
 
 

@@ -155,7 +155,7 @@ def test_an_error_for_what_did_not_come_has_no_number_and_no_file(error: OSError
     ],
 )
 def test_the_number_of_the_system_is_kept(number: int, kind: type[TransportError]) -> None:
-    error = not_opened("/dev/ttyUSB0", OSError(number, "the system's words"), str)
+    error = not_opened("/dev/ttyUSB0", OSError(number, "the system's words"), str, baud=9600)
     assert type(error) is kind
     assert error.errno == number
     assert error.filename == "/dev/ttyUSB0"

@@ -6,6 +6,7 @@ import json
 import sys
 
 from .._frame.protocol import HID_DEVICES
+from .._library import LINK
 from .._serial.hid_devices import UNSEEN, hid_devices_at_hand
 from .._serial.serial_port import serial_ports
 from .console import visible
@@ -29,7 +30,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print a line for each port: its name, VID:PID if it has them, what it is."""
     serial = [(each.name, each.usb, each.product) for each in serial_ports()]
-    devices = hid_devices_at_hand()
+    devices = hid_devices_at_hand(LINK)
     for name, usb, about in [*serial, *_by_hid(devices or [])]:
         if arguments.json:
             print(json.dumps({"port": name, "usb": usb or None, "description": about}))

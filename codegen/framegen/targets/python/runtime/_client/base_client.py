@@ -24,6 +24,7 @@ from .._serial.link_errors import (
     NoReportError,
     TransportError,
 )
+from .._serial.log import Log
 from .._serial.transport import Transport
 from .exchanges import EXCHANGES, LIMITS, POSE
 from .limits import Allowed
@@ -79,7 +80,7 @@ class BaseClient:
         addressed = any(each.address.field for each in EXCHANGES.values())
         self._limits = LIMITS.chosen(limits, addressed=addressed)
         self._ids = _chosen_ids(ids)
-        self._transport = ErrorMapping(transport)
+        self._transport = ErrorMapping(transport, Log(PACKAGE))
         self._name = self._transport.name
         self._retries = retries
         self._clock = clock

@@ -9,13 +9,14 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
-from .._frame.protocol import HID_DEVICES
 from .link_errors import TransportError
 
 if TYPE_CHECKING:
     from os import PathLike
     from pathlib import Path
     from typing import Any
+
+    from .link import Link
 
 UNSEEN = "not seen on hardware yet"
 _LINUX = "/sys/bus/hid/devices"
@@ -35,12 +36,6 @@ class HidDevice(NamedTuple):
         return f"{self.vendor:04X}:{self.product_id:04X}"
 
 
-def report_size(vendor: int, product_id: int) -> int | None:
-    """Return the bytes of a report of such a device; None if it is not of this protocol."""
-    sizes = {(vendor, product): size for vendor, product, size in HID_DEVICES}
-    return sizes.get((vendor, product_id))
-
-
 def hid_library(port: str) -> Any:
     """Return the module that speaks USB HID. Raises TransportError if it is not installed."""
     # On Linux one of the two takes the device away from the kernel, and the other does not.
@@ -57,8 +52,8 @@ def hid_library(port: str) -> Any:
     raise TransportError(port, happened, "pip install hidapi")
 
 
-def hid_devices(library: Any) -> list[HidDevice]:
-    """Return the devices of this protocol that are plugged in, as `library` lists them."""
+def hid_devices(link: Link, library: Any) -> list[HidDevice]:
+    """Return the devices of a protocol that are plugged in, as `library` lists them."""
     found = [
         HidDevice(
             each["vendor_id"],
@@ -68,21 +63,22 @@ def hid_devices(library: Any) -> list[HidDevice]:
         )
         for each in library.enumerate()
     ]
-    return sorted(each for each in found if report_size(each.vendor, each.product_id) is not None)
+    known = (each for each in found if link.report_size(each.vendor, each.product_id) is not None)
+    return sorted(known)
 
 
-def hid_devices_at_hand(folder: str | PathLike[str] = _LINUX) -> list[HidDevice] | None:
+def hid_devices_at_hand(link: Link, folder: str | PathLike[str] = _LINUX) -> list[HidDevice] | None:
     """Return the devices that are plugged in without opening any; None if that cannot be known."""
     from pathlib import Path
 
     try:
-        return hid_devices(hid_library("hid://"))
+        return hid_devices(link, hid_library("hid://"))
     except (TransportError, OSError):
         listed = Path(folder)
-        return _as_linux_tells(listed) if listed.is_dir() else None
+        return _as_linux_tells(link, listed) if listed.is_dir() else None
 
 
-def _as_linux_tells(folder: Path) -> list[HidDevice]:
+def _as_linux_tells(link: Link, folder: Path) -> list[HidDevice]:
     """Return the devices that Linux lists: a folder each, such as 0003:0483:5750.0001."""
     found: list[HidDevice] = []
     for device in folder.iterdir():
@@ -91,7 +87,7 @@ def _as_linux_tells(folder: Path) -> list[HidDevice]:
             ids = int(vendor, 16), int(product, 16)
         except ValueError:
             continue
-        if int(bus, 16) == 3 and report_size(*ids) is not None:
+        if int(bus, 16) == 3 and link.report_size(*ids) is not None:
             names = sorted(each.name for each in (device / "hidraw").glob("hidraw*"))
             path = f"/dev/{names[0]}" if names else ""
             found.append(HidDevice(*ids, path, _name_of(device)))

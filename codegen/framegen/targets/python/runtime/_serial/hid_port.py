@@ -14,14 +14,9 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
-from .._codec.codec import table_for
 from .._frame.bytes_like import format_hex
-from .._frame.direction import RECEIVED
 from .._frame.errors import Reason
-from .._frame.heads import claimed
-from .._frame.protocol import HID_DEVICES
-from .._log import log
-from .hid_devices import UNSEEN, hid_devices, hid_library, report_size
+from .hid_devices import UNSEEN, hid_devices, hid_library
 from .link_errors import (
     ClosedError,
     DisconnectedError,
@@ -30,14 +25,16 @@ from .link_errors import (
     PortPermissionError,
     TransportError,
 )
+from .log import Log
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .hid_devices import HidDevice
+    from .link import Link
 
-_PACKAGE = __name__.partition(".")[0]
 SCHEME = "hid:"
 _IDS = re.compile(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})")
 _NAMED = "write hid:// for the one device that is plugged in, hid://VENDOR:PRODUCT or hid://PATH"
@@ -46,7 +43,7 @@ _USUAL_SIZE = 64
 _POLL_INTERVAL = 0.05
 
 
-def open_hid(port: str, *, library: Any = None) -> HidPort:
+def open_hid(port: str, link: Link, codec: ProtocolCodec, *, library: Any = None) -> HidPort:
     """Open a device by USB HID: `hid://`, `hid://0483:5750`, or `hid://` and the system's path.
 
     Raises TransportError. `library` is the module that speaks USB HID; None imports it.
@@ -55,19 +52,20 @@ def open_hid(port: str, *, library: Any = None) -> HidPort:
     if not separator or f"{scheme.lower()}:" != SCHEME:
         raise PortAddressError(port, "it is no address of USB HID", _NAMED)
     hid = hid_library(port) if library is None else library
-    seen = _chosen(port, rest, hid_devices(hid))
+    seen = _chosen(port, rest, link, hid_devices(link, hid))
     device = hid.device()
     try:
         device.open_path(seen.path.encode())
         # Otherwise a read without a timeout would wait for ever.
         device.set_nonblocking(1)
     except (OSError, ValueError) as error:
-        raise _not_opened(port, seen, error) from error
-    size = report_size(seen.vendor, seen.product_id) or _USUAL_SIZE
-    return HidPort(port, device, size, partial(open_hid, port, library=library))
+        raise _not_opened(port, seen, codec.package, error) from error
+    size = link.report_size(seen.vendor, seen.product_id) or _USUAL_SIZE
+    reopen = partial(open_hid, port, link, codec, library=library)
+    return HidPort(port, device, size, reopen, codec)
 
 
-def _chosen(port: str, wanted: str, found: list[HidDevice]) -> HidDevice:
+def _chosen(port: str, wanted: str, link: Link, found: list[HidDevice]) -> HidDevice:
     """Return the one device that the port name selects."""
     ids = _IDS.fullmatch(wanted)
     if ids is not None:
@@ -82,19 +80,19 @@ def _chosen(port: str, wanted: str, found: list[HidDevice]) -> HidDevice:
         raise PortAddressError(port, f"{len(fitting)} devices are plugged in", f"choose: {listed}")
     if found:
         raise PortNotFoundError(port, "there is no such device", f"these exist: {listed}")
-    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
+    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in link.hid_devices)
     happened = f"no USB HID device is plugged in ({known or 'none is known'})"
     raise PortNotFoundError(port, happened, "`ports` lists those that have a serial port")
 
 
-def _not_opened(port: str, seen: HidDevice, error: Exception) -> TransportError:
+def _not_opened(port: str, seen: HidDevice, package: str, error: Exception) -> TransportError:
     """Return the error for a device that is there but cannot be opened: hidapi gives no reason."""
     rule = (
         'KERNEL=="hidraw*", '
         f'ATTRS{{idVendor}}=="{seen.vendor:04x}", ATTRS{{idProduct}}=="{seen.product_id:04x}", '
         'TAG+="uaccess"'
     )
-    remedy = f"as root, put this line into /etc/udev/rules.d/70-{_PACKAGE}.rules: {rule} ; replug"
+    remedy = f"as root, put this line into /etc/udev/rules.d/70-{package}.rules: {rule} ; replug"
     if seen.path.startswith("/dev/") and not os.access(seen.path, os.R_OK | os.W_OK):
         return PortPermissionError(port, f"permission is denied to {seen.path}", remedy)
     advice = f"close the other program that has it; on Linux it may be the permission: {remedy}"
@@ -104,18 +102,25 @@ def _not_opened(port: str, seen: HidDevice, error: Exception) -> TransportError:
 class HidPort:
     """An open USB HID device, as a transport. `reopen` opens the same one anew.
 
-    `device` has the methods of a device of hidapi. No frame of more than `largest_frame` bytes can
-    be sent. In a report that begins with a frame, all that follows the frame is padding, and
-    dropped; in any other, only zeros at its end are.
+    `device` has the methods of a device of hidapi, and `codec` tells where a frame ends. No frame
+    of more than `largest_frame` bytes can be sent. In a report that begins with a frame, all that
+    follows the frame is padding, and dropped; in any other, only zeros at its end are.
     """
 
     def __init__(
-        self, name: str, device: Any, largest_frame: int, reopen: Callable[[], HidPort]
+        self,
+        name: str,
+        device: Any,
+        largest_frame: int,
+        reopen: Callable[[], HidPort],
+        codec: ProtocolCodec,
     ) -> None:
         self.name = name
         self.reopen = reopen
         self.largest_frame = largest_frame
         self._device = device
+        self._codec = codec
+        self._log = Log(codec.package)
         self._closed = False
         # How many bytes of a frame that is longer than a report are still to come.
         self._rest = 0
@@ -151,9 +156,9 @@ class HidPort:
         """Return a report without its padding."""
         end, self._rest = self._rest, 0
         if not end:
-            verdict = table_for(RECEIVED).weigh(report)
+            verdict = self._codec.table_for(self._codec.received).weigh(report)
             begun = verdict.kind is not None or verdict.reason is Reason.TOO_SHORT
-            end = verdict.size if begun else claimed(report)
+            end = verdict.size if begun else self._codec.claimed(report)
             if end > len(report) and not begun:
                 end = 0
         if not end:
@@ -161,7 +166,7 @@ class HidPort:
         self._rest = max(0, end - len(report))
         dropped = report[end:].rstrip(b"\x00")
         if dropped:
-            log().debug(
+            self._log().debug(
                 "%s: padding that is not 0 was dropped | %s", self.name, format_hex(dropped)
             )
         return report[:end]

@@ -30,6 +30,11 @@ class Link:
         self.local_echo = local_echo
         self.hid_devices = hid_devices
 
+    def report_size(self, vendor: int, product: int) -> int | None:
+        """Return the bytes of a report of such a device; None if it is not of this protocol."""
+        sizes = {(each, its): size for each, its, size in self.hid_devices}
+        return sizes.get((vendor, product))
+
     @property
     def bits_per_byte(self) -> int:
         """How many bits a byte takes, its start bit included."""
