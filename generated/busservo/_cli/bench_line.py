@@ -14,6 +14,7 @@ from .._client.wire_time import WireTime
 from .._frame.errors import EncodeError
 from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD
+from .._library import LINK
 from .._serial.link_errors import NoReplyError, what_came
 from . import link
 from .console import visible
@@ -103,7 +104,7 @@ class Trips:
         self._question = question
         self._port = port
         self._baud = baud
-        self._wire = WireTime(baud)
+        self._wire = WireTime(LINK, baud)
         # For each that was answered: the seconds it took, and the size of request and reply.
         self._taken: list[float] = []
         self._sizes: list[int] = []
@@ -138,7 +139,7 @@ class Trips:
             return
         self._taken.append(time.perf_counter() - began)
         self._sizes.append(len(self._question.encode()) + len(reply.encode()))
-        if left_out(self._question, reply)[1]:
+        if left_out(EXCHANGES, self._question, reply)[1]:
             self._failed("incomplete reply")
 
     def _failed(self, kind: str) -> None:

@@ -8,8 +8,8 @@ import time
 from contextlib import closing
 from pathlib import Path
 
-from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
+from .._codec.gap import GAP
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
 from .._library import CODEC

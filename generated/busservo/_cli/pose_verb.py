@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from .._client.exchanges import EXCHANGES
 from .._client.long_question import parts_of
 from .method_verb import MethodVerb
 from .positions import find_present, nobody, stopped_by_hand, the_pose
@@ -29,7 +30,7 @@ class PoseVerb(MethodVerb):
         """Return what to send; nothing where all positions are read."""
         if self.may_be_empty and not getattr(arguments, f"field {the_pose().requested}"):
             ids = arguments.settings.ids
-            return parts_of(self.kind, ids) if ids else []
+            return parts_of(EXCHANGES, self.kind, ids) if ids else []
         return super().messages(arguments)
 
     def without_words(self, controller: Client, /) -> list[Message]:
@@ -38,7 +39,7 @@ class PoseVerb(MethodVerb):
         ids = find_present(controller, pose)
         if not ids:
             raise UsageError(nobody(pose))
-        return parts_of(self.kind, ids)
+        return parts_of(EXCHANGES, self.kind, ids)
 
     def interrupted(self, controller: Client, message: Message, limits: Chosen, /) -> int:
         """Hold what the message moves; return the exit status."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import sys
 
-from .._client.exchanges import POSE
+from .._client.exchanges import EXCHANGES, POSE
 from .._client.holding import Holding
 from .._client.long_question import parts_of
 from .._frame.errors import LimitError
@@ -38,14 +38,16 @@ def the_pose() -> Pose:
 
 def find_present(controller: Client, pose: Pose) -> tuple[int, ...]:
     """Return the numbers of all that are present. Raises NoReplyError."""
-    return pose.present_in(controller.request(each) for each in parts_of(pose.read, pose.ids))
+    return pose.present_in(
+        controller.request(each) for each in parts_of(EXCHANGES, pose.read, pose.ids)
+    )
 
 
 def read_targets(
     controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed
 ) -> list[tuple[int, int]]:
     """Return the current positions, as targets. Raises one of UNREAD unless all are present."""
-    exchanged = [(each, controller.request(each)) for each in parts_of(pose.read, ids)]
+    exchanged = [(each, controller.request(each)) for each in parts_of(EXCHANGES, pose.read, ids)]
     return pose.held(exchanged, limits)
 
 
@@ -54,7 +56,7 @@ def hold_those_there(controller: Client, pose: Pose, ids: Sequence[int], limits:
 
     Of each other it says why it is not held. Raises NoReplyError if nobody answers.
     """
-    holding = Holding(pose, ids, limits)
+    holding = Holding(pose, EXCHANGES, ids, limits)
     for question in holding.questions:
         holding.take(controller.request(question))
     for command in holding.commands():

@@ -13,7 +13,7 @@ from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._library import CODEC
+from .._library import CODEC, LINK
 from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from .._recording.form import FORMS
@@ -168,7 +168,7 @@ def _kinds(found: dict[str, int]) -> str:
 
 def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tuple[Entry, float]]:
     """Yield each entry with its time, in seconds from the first: as recorded, without overlap."""
-    wire = WireTime(baud)
+    wire = WireTime(LINK, baud)
     first: float | None = None
     for entry in entries:
         at = entry.time or 0.0
@@ -178,7 +178,7 @@ def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tupl
 
 def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
     """Print what would be sent, and when."""
-    lines, wire = Lines(sys.stdout), WireTime(baud)
+    lines, wire = Lines(sys.stdout), WireTime(LINK, baud)
     size, ends = 0, 0.0
     for entry, at in timed:
         lines.show(entry.event, entry.direction, at)

@@ -3,8 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import time
+from collections.abc import Callable, Iterable, Mapping
+from os import PathLike
 
+from .._library import LIBRARY, LINK
+from .._serial.transport import Transport
 from ..messages import (
     ActionGroupRun,
     ActionGroupSpeed,
@@ -18,7 +22,9 @@ from ..messages import (
     ServoUnload,
 )
 from .async_client import AsyncClient
-from .exchanges import POSE
+from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
+from .exchanges import LIMITS, POSE
+from .limits import Allowed
 from .motion import AsyncMotion
 from .pose import HOLD_MS
 from .request import Run, Sent
@@ -34,6 +40,41 @@ class AsyncController(AsyncClient):
     wrong, LED2 stays on without blinking, and the buzzer beeps twice. (Bus Servo Controller
     Communication Protocol)
     """
+
+    _library = LIBRARY
+
+    def __init__(
+        self,
+        transport: Transport,
+        *,
+        baud: float = LINK.baud,
+        reply_timeout: float = REPLY_TIMEOUT,
+        retries: int = 0,
+        trace: str | PathLike[str] | None = None,
+        report_limit: int = REPORT_LIMIT,
+        limits: Allowed = LIMITS.usual,
+        ids: Iterable[int] = (),
+        on_exit: str | None = None,
+        background: bool = True,
+        clock: Callable[[], float] = time.monotonic,
+        local_echo: bool = LINK.local_echo,
+        settle: float | None = None,
+    ) -> None:
+        super().__init__(
+            transport,
+            baud=baud,
+            reply_timeout=reply_timeout,
+            retries=retries,
+            trace=trace,
+            report_limit=report_limit,
+            limits=limits,
+            ids=ids,
+            on_exit=on_exit,
+            background=background,
+            clock=clock,
+            local_echo=local_echo,
+            settle=settle,
+        )
 
     async def move_servos(
         self,

@@ -17,7 +17,6 @@ from os import PathLike
 from .._codec.counters import LineCounters
 from .._frame.errors import EncodeError
 from .._frame.message import Message
-from .._log import log
 from .._serial.error_mapping import ErrorMapping
 from .._serial.link_errors import (
     ClosedError,
@@ -25,9 +24,8 @@ from .._serial.link_errors import (
     NoReportError,
     TransportError,
 )
-from .._serial.log import Log
 from .._serial.transport import Transport
-from .exchanges import EXCHANGES, LIMITS, POSE
+from .library import Library
 from .limits import Allowed
 from .long_question import left_out, parts_of
 from .report_filter import ReportFilter
@@ -40,6 +38,9 @@ if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
     from typing import Any, TypeAlias, TypeVar
 
+    import typing_extensions as typing
+
+    from .pose import Pose
     from .report_filter import Kinds
 
     _Result = TypeVar("_Result")
@@ -48,8 +49,9 @@ if TYPE_CHECKING:
     # A request is waited for until it is done; a time is when to go on if nothing changes before.
     Wait: TypeAlias = Request | float | None
     Steps: TypeAlias = Generator[Wait, None, _Result]
+else:
+    from .._frame.typing_later import typing
 
-PACKAGE = __name__.partition(".")[0]
 REPLY_TIMEOUT = 0.25
 REPORT_LIMIT = 1024
 # How long one read may take, so that whoever waits for something else is not delayed.
@@ -61,7 +63,9 @@ _NEVER_CLOSED = "use the client in a `with`, or call close()"
 
 
 class BaseClient:
-    """A session and the line that it is held over."""
+    """A session and the line that it is held over. A library's own client says whose it is."""
+
+    _library: typing.ClassVar[Library]
 
     def __init__(
         self,
@@ -78,17 +82,19 @@ class BaseClient:
         local_echo: bool,
         settle: float | None,
     ) -> None:
-        addressed = any(each.address.field for each in EXCHANGES.values())
-        self._limits = LIMITS.chosen(limits, addressed=addressed)
-        self._ids = _chosen_ids(ids)
-        self._transport = ErrorMapping(transport, Log(PACKAGE))
+        library = self._library
+        addressed = any(each.address.field for each in library.exchanges.values())
+        self._limits = library.limits.chosen(limits, addressed=addressed)
+        self._ids = _chosen_ids(ids, library.pose)
+        self._transport = ErrorMapping(transport, library.log)
         self._name = self._transport.name
         self._retries = retries
         self._clock = clock
         # Whether the clock goes on while a thread sleeps.
         self._real_time = clock is time.monotonic
-        self._trace = Trace(self._name, trace)
+        self._trace = Trace(library.log, self._name, trace)
         self._session = Session(
+            library,
             baud=baud,
             reply_timeout=reply_timeout,
             report_limit=report_limit,
@@ -236,7 +242,7 @@ class BaseClient:
     def _whole_reply(self, message: Message, kind: type[_Reply]) -> Steps[_Reply]:
         """Send a question; give the reply. Raises IncompleteReplyError."""
         reply = yield from self._reply(message, kind)
-        requested, missing, arrived = left_out(message, reply)
+        requested, missing, arrived = left_out(self._library.exchanges, message, reply)
         if missing:
             raise IncompleteReplyError(requested, missing, [reply], arrived)
         return reply
@@ -247,10 +253,10 @@ class BaseClient:
         """Send a question that is too long for one, in parts. Raises IncompleteReplyError."""
         replies: list[_Reply] = []
         requested, missing, arrived = "", [], []
-        for message in parts_of(kind, items):
+        for message in parts_of(self._library.exchanges, kind, items):
             got = yield from self._reply(message, reply)
             replies.append(got)
-            field, left, came = left_out(message, got)
+            field, left, came = left_out(self._library.exchanges, message, got)
             requested = field or requested
             missing += left
             arrived += came
@@ -263,7 +269,7 @@ class BaseClient:
     ) -> Steps[list[tuple[Message, Message]]]:
         """Send a question in parts; give each with its reply, whole or not."""
         exchanged: list[tuple[Message, Message]] = []
-        for message in parts_of(kind, items):
+        for message in parts_of(self._library.exchanges, kind, items):
             reply = yield from self._question(message)
             exchanged.append((message, reply))
         return exchanged
@@ -282,7 +288,7 @@ class BaseClient:
 
     def _report(self, kind: Kinds, timeout: float, fields: Mapping[str, int]) -> Steps[Message]:
         """Wait for a report of a class with these fields."""
-        wanted = ReportFilter(kind, fields)
+        wanted = ReportFilter(self._library.codec.received, kind, fields)
         began = self._clock()
         reports = self._session.reports
         began_at = reports.next_number
@@ -354,20 +360,20 @@ class BaseClient:
             try:
                 callback(report)
             except Exception:
-                logger = log()
+                logger = self._library.log()
                 logger.exception("%r failed on %r", callback, report)
 
 
-def _chosen_ids(given: Iterable[int]) -> tuple[int, ...]:
+def _chosen_ids(given: Iterable[int], pose: Pose | None) -> tuple[int, ...]:
     """Return the ids given as an argument, each once. Raises ValueError for what can be none."""
     try:
         ids = tuple(dict.fromkeys(map(index, given)))
     except TypeError:
         raise ValueError(f"ids is {given!r}, and must be numbers, such as (1, 2)") from None
-    if ids and POSE is None:
+    if ids and pose is None:
         raise ValueError(f"ids is {given!r}, and nothing that is asked here takes a list of ids")
     for each in ids:
-        if POSE is not None and each not in POSE.ids:
-            low, high = POSE.ids[0], POSE.ids[-1]
-            raise ValueError(f"ids has {each}, and a {POSE.noun} is {low}..{high}")
+        if pose is not None and each not in pose.ids:
+            low, high = pose.ids[0], pose.ids[-1]
+            raise ValueError(f"ids has {each}, and a {pose.noun} is {low}..{high}")
     return ids

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from .._frame.errors import EncodeError
-from .._frame.heads import size_of
 from .late_replies import Origin
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.message import Message
 
 
@@ -198,19 +198,21 @@ class Exchange:
         steps: int = getattr(request, name)
         return steps / steps_per_second
 
-    def reply_sizes(self, request: Message) -> tuple[int, int]:
+    def reply_sizes(self, request: Message, codec: ProtocolCodec) -> tuple[int, int]:
         """Return the size in bytes of the smallest and the largest frame that answers `request`.
 
         The smallest is that of an answer in full, where the reply repeats a list.
         """
         if self._sizes is None or self.echoed or self.counted is not UNCOUNTED:
-            sizes = [size for kind in self.kinds for size in self._sizes_of(kind, request)]
+            sizes = [size for kind in self.kinds for size in self._sizes_of(kind, request, codec)]
             self._sizes = min(sizes, default=0), max(sizes, default=0)
         return self._sizes
 
-    def _sizes_of(self, kind: type[Message], request: Message) -> tuple[int, int]:
+    def _sizes_of(
+        self, kind: type[Message], request: Message, codec: ProtocolCodec
+    ) -> tuple[int, int]:
         """Return the least and the largest size of an answer of a class."""
-        items, lengths = kind.SHAPE.items, kind.LENGTHS
+        items, lengths, size_of = kind.SHAPE.items, kind.LENGTHS, codec.size_of
         least, largest = size_of(kind, lengths[0]), size_of(kind, lengths[-1])
         if items is None or kind is not self.reply:
             return least, largest
@@ -229,9 +231,9 @@ class Exchange:
                 return len(column(request, requested))
         return self.counted.asked(request)
 
-    def reply_size(self, request: Message) -> int:
+    def reply_size(self, request: Message, codec: ProtocolCodec) -> int:
         """Return the size in bytes of the largest frame that can answer `request`."""
-        return self.reply_sizes(request)[1]
+        return self.reply_sizes(request, codec)[1]
 
 
 def column(message: Message, path: str) -> list[int]:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from .._frame.message import Message
     from .limits import Allowed
+    from .long_question import Exchanges
     from .pose import Pose
 
 
@@ -25,13 +26,15 @@ class Holding:
 
     __slots__ = ("_limits", "_pose", "_targets", "held", "left", "questions")
 
-    def __init__(self, pose: Pose, ids: Iterable[int], limits: Allowed) -> None:
+    def __init__(
+        self, pose: Pose, exchanges: Exchanges, ids: Iterable[int], limits: Allowed
+    ) -> None:
         self._pose = pose
         self._limits = limits
         self._targets: list[tuple[int, int]] = []
         numbers = tuple(dict.fromkeys(ids))
         asked = [each for each in numbers if each in pose.ids]
-        self.questions = parts_of(pose.read, asked) if asked else []
+        self.questions = parts_of(exchanges, pose.read, asked) if asked else []
         self.held: list[int] = []
         low, high = pose.ids[0], pose.ids[-1]
         self.left = {

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .._serial.link import Link
     from .async_client import AsyncClient
     from .client import Client
-    from .exchange import Exchange
+    from .exchange import Exchange, Unaddressed
     from .limits import Limits
     from .pose import Pose
 
@@ -47,6 +47,22 @@ class Library:
         """What answers each message that a client sends, and the method that sends it."""
         exchanges: dict[type[Message], Exchange] = self._part("_client.exchanges").EXCHANGES
         return exchanges
+
+    @cached_property
+    def answers(self) -> dict[type[Message], Unaddressed]:
+        """The messages that answer anything, each with what tells which device it is from."""
+        return {kind: each.address for each in self.exchanges.values() for kind in each.kinds}
+
+    @cached_property
+    def reports(self) -> frozenset[type[Message]]:
+        """The messages that a device may send without being asked, behind some command."""
+        return frozenset(kind for each in self.exchanges.values() for kind in each.reports)
+
+    @cached_property
+    def acknowledging(self) -> frozenset[type[Message]]:
+        """Those of them that acknowledge a command."""
+        kinds = (each.acknowledged for each in self.exchanges.values())
+        return frozenset(kind for kind in kinds if kind is not None)
 
     @cached_property
     def limits(self) -> Limits:

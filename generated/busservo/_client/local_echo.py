@@ -5,10 +5,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from .._codec.codec import decode
-from .._frame.direction import RECEIVED
 from .._frame.errors import DecodeError
-from .._log import log
 from .._serial.link_errors import EchoError
 
 TYPE_CHECKING = False
@@ -16,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .._codec.counters import LineCounters
+    from .library import Library
     from .request import Request
 
 
@@ -97,7 +95,10 @@ class EchoWatch:
     Only a returned frame that the other end cannot send shows an echo: any other may be a report.
     """
 
-    def __init__(self, name: str, counters: LineCounters) -> None:
+    def __init__(self, library: Library, name: str, counters: LineCounters) -> None:
+        self._decode = library.codec.decode
+        self._received = library.codec.received
+        self._log = library.log
         self._name = name
         self._counters = counters
         # The frame sent last, and the same if it would prove an echo, otherwise nothing.
@@ -111,7 +112,7 @@ class EchoWatch:
             return  # the same question, again and again
         self._sent = frame
         try:
-            decode(frame, RECEIVED)
+            self._decode(frame, self._received)
         except DecodeError:
             self._sign = frame
         else:
@@ -127,7 +128,7 @@ class EchoWatch:
         self._noise = b""
         self._counters.echoes += 1
         if self._counters.echoes == 1:  # said once
-            log().warning(
+            self._log().warning(
                 "%s gives back what is sent: say so (local_echo=True, or --local-echo), or else "
                 "commands that come back look like reports",
                 self._name,

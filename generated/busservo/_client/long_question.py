@@ -3,23 +3,24 @@
 
 from __future__ import annotations
 
-from .exchanges import EXCHANGES
-
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from typing import Any
+    from collections.abc import Iterable, Mapping
+    from typing import Any, TypeAlias
 
     from .._frame.message import Message
+    from .exchange import Exchange
+
+    Exchanges: TypeAlias = Mapping[type[Message], Exchange]
 
 
-def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
+def parts_of(exchanges: Exchanges, kind: type[Message], items: Iterable[Any]) -> list[Message]:
     """Return a request about a list as several, each as long as a reply has room for.
 
     Raises EncodeError, which names the place in the whole list.
     """
     (name,) = kind.__match_args__
-    most = EXCHANGES[kind].most
+    most = exchanges[kind].most
     listed = kind.SHAPE.items
     whole = None if listed is None else listed.listed(items)
     # A value that is no list, or an empty one, is for the message to refuse.
@@ -30,9 +31,11 @@ def parts_of(kind: type[Message], items: Iterable[Any]) -> list[Message]:
     return [kind(**{name: whole[at : at + most]}) for at in range(0, len(whole), most)]
 
 
-def left_out(request: Message, reply: Message) -> tuple[str, list[int], list[Any]]:
+def left_out(
+    exchanges: Exchanges, request: Message, reply: Message
+) -> tuple[str, list[int], list[Any]]:
     """Return the field that a reply answers in part, what is missing in it, and what is there."""
-    found = list(EXCHANGES[type(request)].missing(request, reply))
+    found = list(exchanges[type(request)].missing(request, reply))
     items = reply.SHAPE.items
     arrived = [] if items is None else list(getattr(reply, items.name))
     requested = found[0][0] if found else ""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from os import PathLike
 
-from .._frame.protocol import BAUD, LOCAL_ECHO
+from .._library import LINK
 from .._serial.opening import open_transport
 from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
 from .controller import Controller
@@ -17,7 +17,7 @@ from .limits import Allowed
 def open_controller(
     port: str,
     *,
-    baud: float = BAUD,
+    baud: float = LINK.baud,
     exclusive: bool = True,
     reply_timeout: float = REPLY_TIMEOUT,
     retries: int = 0,
@@ -26,7 +26,7 @@ def open_controller(
     limits: Allowed = LIMITS.usual,
     ids: Iterable[int] = (),
     on_exit: str | None = None,
-    local_echo: bool = LOCAL_ECHO,
+    local_echo: bool = LINK.local_echo,
     settle: float | None = None,
 ) -> Controller:
     """Open the port of a device, to be used in a `with`.

@@ -10,7 +10,7 @@ import weakref
 
 from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
-from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL
+from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL
 from .leaving import LeavingClient
 from .motion import Motion
 from .request import Request
@@ -275,7 +275,7 @@ class ThreadClient(LeavingClient):
     def _listen(self) -> None:
         if self._background:
             step = weakref.WeakMethod(self._listen_once)
-            name = f"{PACKAGE} on {self._name}"
+            name = f"{self._library.package} on {self._name}"
             self._listener = threading.Thread(target=repeat, args=(step,), name=name, daemon=True)
             self._listener.start()
 

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from .._frame.protocol import BITS_PER_BYTE
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .._serial.link import Link
 
 # A UART may run this much faster than its stated rate and still be understood; a reply is called
 # impossible only if even such a line could not have carried it.
@@ -15,10 +17,10 @@ class WireTime:
 
     __slots__ = ("free_at", "free_soonest", "seconds_per_byte")
 
-    def __init__(self, baud: float) -> None:
+    def __init__(self, link: Link, baud: float) -> None:
         if not baud > 0:
             raise ValueError(f"baud is {baud!r}, and must be above 0 (math.inf for a line at once)")
-        self.seconds_per_byte = BITS_PER_BYTE / baud
+        self.seconds_per_byte = link.bits_per_byte / baud
         # When the last byte handed over has left; and when it can have left at the soonest.
         self.free_at = self.free_soonest = float("-inf")
 

@@ -16,10 +16,6 @@ from .decoder import StreamDecoder
 from .event_bytes import bytes_of
 from .noise import Noise
 
-# How many seconds of silence end a frame that has begun: longer than the latency of any adapter,
-# which gathers bytes for up to 16 ms.
-GAP = 0.05
-
 # What begins with no header, or with a single byte as an acknowledgement may, can be anywhere
 # in a frame by chance: there is nothing to doubt by.
 _HEADERS = {each.header for each in ENVELOPES if each.header and each.body_at > 1}

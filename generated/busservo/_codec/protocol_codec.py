@@ -57,6 +57,12 @@ class ProtocolCodec:
         return table_for
 
     @cached_property
+    def size_of(self) -> Callable[[type[Message], int], int]:
+        """The function that returns the size of the frames of a message that have some length."""
+        size_of: Callable[[type[Message], int], int] = self._part("_frame.heads").size_of
+        return size_of
+
+    @cached_property
     def claimed(self) -> Callable[[bytes], int]:
         """The function that returns how large the frame would be that bytes begin; 0 for none."""
         claimed: Callable[[bytes], int] = self._part("_frame.heads").claimed

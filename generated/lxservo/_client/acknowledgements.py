@@ -5,19 +5,17 @@ from __future__ import annotations
 
 from collections import deque
 
-from .._frame.heads import size_of
-from .exchanges import EXCHANGES
 from .request import Run
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from .._frame.message import Message
+    from .library import Library
     from .request import Request, Sent
     from .wire_time import WireTime
 
 # How many commands may wait for a report at once; the oldest beyond that are no longer followed.
 _PENDING = 64
-_KINDS = frozenset(each.acknowledged for each in EXCHANGES.values())
 
 
 class _Pending:
@@ -46,7 +44,9 @@ class Acknowledgements:
     miss one: a device may never send any.
     """
 
-    def __init__(self, wire_time: WireTime, reply_timeout: float) -> None:
+    def __init__(self, library: Library, wire_time: WireTime, reply_timeout: float) -> None:
+        self._kinds = library.acknowledging
+        self._size_of = library.codec.size_of
         self._wire_time = wire_time
         self._reply_timeout = reply_timeout
         self._seen: set[type[Message]] = set()
@@ -72,7 +72,7 @@ class Acknowledgements:
         for each in self._pending:
             if each.until is None:
                 left_at = max(self._wire_time.free_at, now + each.run.duration)
-                size = size_of(each.kind, each.kind.LENGTHS[-1])
+                size = self._size_of(each.kind, each.kind.LENGTHS[-1])
                 each.until = left_at + self._wire_time.seconds(size) + self._reply_timeout
             if each.run is last:
                 return
@@ -85,7 +85,7 @@ class Acknowledgements:
 
     def add(self, report: Message) -> None:
         """Take in a report. It acknowledges the first command that it matches."""
-        if type(report) not in _KINDS:
+        if type(report) not in self._kinds:
             return
         self._seen.add(type(report))
         for each in self._pending:

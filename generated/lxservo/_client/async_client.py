@@ -5,20 +5,15 @@ from __future__ import annotations
 
 import asyncio
 import sys
-import time
-from collections.abc import AsyncIterator, Callable, Iterable
+from collections.abc import AsyncIterator, Callable
 from functools import partial
-from os import PathLike
 from types import TracebackType
 from typing import TYPE_CHECKING, TypeVar, overload
 
 from .._frame.message import Message
-from .._frame.protocol import BAUD, LOCAL_ECHO
 from .._serial.link_errors import ClosedError, TransportError
 from .._serial.transport import Transport
-from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL, REPLY_TIMEOUT, REPORT_LIMIT
-from .exchanges import LIMITS
-from .limits import Allowed
+from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL
 from .loop_client import LoopClient
 from .report_filter import Kinds
 from .request import Sent
@@ -49,38 +44,8 @@ class AsyncClient(LoopClient):
     those of the client for threads.
     """
 
-    def __init__(
-        self,
-        transport: Transport,
-        *,
-        baud: float = BAUD,
-        reply_timeout: float = REPLY_TIMEOUT,
-        retries: int = 0,
-        trace: str | PathLike[str] | None = None,
-        report_limit: int = REPORT_LIMIT,
-        limits: Allowed = LIMITS.usual,
-        ids: Iterable[int] = (),
-        on_exit: str | None = None,
-        background: bool = True,
-        clock: Callable[[], float] = time.monotonic,
-        local_echo: bool = LOCAL_ECHO,
-        settle: float | None = None,
-    ) -> None:
-        super().__init__(
-            transport,
-            baud=baud,
-            reply_timeout=reply_timeout,
-            retries=retries,
-            trace=trace,
-            report_limit=report_limit,
-            limits=limits,
-            ids=ids,
-            on_exit=on_exit,
-            clock=clock,
-            local_echo=local_echo,
-            settle=settle,
-            background=background,
-        )
+    def __init__(self, transport: Transport, **settings: typing.Any) -> None:
+        super().__init__(transport, **settings)
         # Whether the line is being reopened: there is one port, so one task does it for all.
         self._reopening = asyncio.Lock()
         self._ending: asyncio.Future[None] | None = None

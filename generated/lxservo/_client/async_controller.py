@@ -3,7 +3,13 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable, Iterable
+from os import PathLike
+
 from .._frame.message import Message
+from .._library import LIBRARY, LINK
+from .._serial.transport import Transport
 from ..messages import (
     LastMove,
     Led,
@@ -50,6 +56,9 @@ from ..messages import (
 )
 from .async_client import AsyncClient
 from .async_devices import AsyncAllDevices, AsyncOneDevice
+from .base_client import REPLY_TIMEOUT, REPORT_LIMIT
+from .exchanges import LIMITS
+from .limits import Allowed
 from .motion import AsyncMotion
 from .request import Sent
 
@@ -63,6 +72,41 @@ class AsyncController(AsyncClient):
     `servo_id` says which device a message is for: `device(servo_id)` has the methods without it,
     and `broadcast` those that go to all at once.
     """
+
+    _library = LIBRARY
+
+    def __init__(
+        self,
+        transport: Transport,
+        *,
+        baud: float = LINK.baud,
+        reply_timeout: float = REPLY_TIMEOUT,
+        retries: int = 0,
+        trace: str | PathLike[str] | None = None,
+        report_limit: int = REPORT_LIMIT,
+        limits: Allowed = LIMITS.usual,
+        ids: Iterable[int] = (),
+        on_exit: str | None = None,
+        background: bool = True,
+        clock: Callable[[], float] = time.monotonic,
+        local_echo: bool = LINK.local_echo,
+        settle: float | None = None,
+    ) -> None:
+        super().__init__(
+            transport,
+            baud=baud,
+            reply_timeout=reply_timeout,
+            retries=retries,
+            trace=trace,
+            report_limit=report_limit,
+            limits=limits,
+            ids=ids,
+            on_exit=on_exit,
+            background=background,
+            clock=clock,
+            local_echo=local_echo,
+            settle=settle,
+        )
 
     async def move(
         self,

@@ -5,19 +5,13 @@ from __future__ import annotations
 
 import sys
 import threading
-import time
-from collections.abc import Callable, Iterable, Iterator
-from os import PathLike
+from collections.abc import Callable, Iterator
 from types import TracebackType
 
 from .._frame.message import Message
-from .._frame.protocol import BAUD, LOCAL_ECHO
-from .._log import log
 from .._serial.link_errors import TransportError
 from .._serial.transport import Transport
-from .base_client import DRAIN_TIMEOUT, REPLY_TIMEOUT, REPORT_LIMIT
-from .exchanges import LIMITS
-from .limits import Allowed
+from .base_client import DRAIN_TIMEOUT
 from .report_filter import Kinds
 from .request import Sent
 from .thread_client import ThreadClient
@@ -66,38 +60,8 @@ class Client(ThreadClient):
     it; 0 for not at all.
     """
 
-    def __init__(
-        self,
-        transport: Transport,
-        *,
-        baud: float = BAUD,
-        reply_timeout: float = REPLY_TIMEOUT,
-        retries: int = 0,
-        trace: str | PathLike[str] | None = None,
-        report_limit: int = REPORT_LIMIT,
-        limits: Allowed = LIMITS.usual,
-        ids: Iterable[int] = (),
-        on_exit: str | None = None,
-        background: bool = True,
-        clock: Callable[[], float] = time.monotonic,
-        local_echo: bool = LOCAL_ECHO,
-        settle: float | None = None,
-    ) -> None:
-        super().__init__(
-            transport,
-            baud=baud,
-            reply_timeout=reply_timeout,
-            retries=retries,
-            trace=trace,
-            report_limit=report_limit,
-            limits=limits,
-            ids=ids,
-            on_exit=on_exit,
-            clock=clock,
-            local_echo=local_echo,
-            settle=settle,
-            background=background,
-        )
+    def __init__(self, transport: Transport, **settings: typing.Any) -> None:
+        super().__init__(transport, **settings)
         # Held while the line is reopened: there is one port, so one thread does it for all.
         self._reopening = threading.Lock()
         # Which thread closes it, and whether that has been done.
@@ -268,7 +232,7 @@ class Client(ThreadClient):
             if self._failure is None:
                 self._transport.drain(min(left, DRAIN_TIMEOUT) + DRAIN_TIMEOUT)
         except TransportError as error:
-            log().debug("%s could not be drained: %s", self._name, error)
+            self._library.log().debug("%s could not be drained: %s", self._name, error)
         finally:
             # Whatever interrupts the wait, the port is closed.
             self._transport.close()

@@ -136,6 +136,7 @@ class LoopClient(LeavingClient):
         kind = LineThreads if self._background else PolledLine
         session = self._session
         return kind(
+            self._library,
             transport,
             self._clock,
             arrived=self._arrived,

@@ -34,8 +34,6 @@ from __future__ import annotations
 
 from sys import maxsize
 
-from .._log import log
-from .exchanges import EXCHANGES
 from .late_replies import LateReplies, Origin
 from .pace import Pace
 from .request import Step
@@ -48,18 +46,12 @@ if TYPE_CHECKING:
 
     from .._codec.counters import LineCounters
     from .._frame.message import Message
-    from .exchange import Unaddressed
+    from .library import Library
     from .request import Request
     from .wire_time import WireTime
 
     Answer: TypeAlias = tuple[Request, Message]
 
-# The messages that answer anything, each with what tells which device it is from.
-_ADDRESSES: dict[type[Message], Unaddressed] = {
-    kind: each.address for each in EXCHANGES.values() for kind in each.kinds
-}
-# Those of them that a device may also send without being asked.
-_REPORTS = frozenset(kind for each in EXCHANGES.values() for kind in each.reports)
 _NEVER = float("inf")
 # How often a question is asked again because nothing tells which reply is its own.
 _DOUBTS = 2
@@ -76,8 +68,17 @@ class ReplyMatcher:
     """
 
     def __init__(
-        self, wire_time: WireTime, counters: LineCounters, latency: float, name: str, now: float
+        self,
+        library: Library,
+        wire_time: WireTime,
+        counters: LineCounters,
+        latency: float,
+        name: str,
+        now: float,
     ) -> None:
+        self._answers = library.answers
+        self._reporting = library.reports
+        self._log = library.log
         self._wire_time = wire_time
         self._counters = counters
         self._latency = latency
@@ -151,7 +152,7 @@ class ReplyMatcher:
 
     def _may_come(self, kind: type[Message] | None, now: float) -> bool:
         """Return whether a message of a class may come now; None is one that nobody knows."""
-        if kind is None or kind not in _ADDRESSES or kind in _REPORTS:
+        if kind is None or kind not in self._answers or kind in self._reporting:
             return True
         asked = any(kind in each.exchange.kinds for each in self.pending)
         return asked or self.late.awaited(Origin((kind,), None), now)
@@ -165,11 +166,11 @@ class ReplyMatcher:
                 self._unasked.answered(type(message), pending.address, now)
                 self._hold(pending, message, now)
                 return True
-        if type(message) not in _ADDRESSES:
+        if type(message) not in self._answers:
             return False
         origin = self._origin(message)
         by_itself = self._unasked.came(type(message), origin.address, now)
-        if type(message) in _REPORTS:
+        if type(message) in self._reporting:
             self.late.came(origin)
             return False
         if by_itself and not self.late.awaited(origin, now):
@@ -200,7 +201,7 @@ class ReplyMatcher:
         It is none if it came too soon, on a line that keeps to its rate; or if it is an echo.
         """
         kind = type(earlier)
-        if not pending.after_lost and (kind in _REPORTS or self._unasked.comes(kind)):
+        if not pending.after_lost and (kind in self._reporting or self._unasked.comes(kind)):
             # Either is of now, and neither is lost.
             self._reports.append(earlier)
             return
@@ -248,7 +249,7 @@ class ReplyMatcher:
         if not possible and not pending.doubted:
             pending.doubted = True
             self._counters.impossible += 1
-            log().debug("%s: %r came sooner than the wire allows", self._name, reply)
+            self._log().debug("%s: %r came sooner than the wire allows", self._name, reply)
         if pending.is_first and reply.encode() != pending.message.encode():
             # Nobody has asked this device for it before, and it is no echo.
             self.pace.answered_too_soon(pending.address)
@@ -366,7 +367,7 @@ class ReplyMatcher:
 
     def _origin(self, reply: Message) -> Origin:
         kind = type(reply)
-        return Origin((kind,), _ADDRESSES[kind].sender(reply))
+        return Origin((kind,), self._answers[kind].sender(reply))
 
     def _drop_unsolicited(self, message: Message) -> None:
         origin = self._origin(message)
@@ -376,4 +377,4 @@ class ReplyMatcher:
 
     def _drop(self, message: Message, why: str) -> None:
         self._counters.unsolicited += 1
-        log().info("%s: dropped %r: %s", self._name, message, why)
+        self._log().info("%s: dropped %r: %s", self._name, message, why)

@@ -5,10 +5,6 @@ from __future__ import annotations
 
 from .decoder import StreamDecoder
 
-# How many seconds of silence end a frame that has begun: longer than the latency of any adapter,
-# which gathers bytes for up to 16 ms.
-GAP = 0.05
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence

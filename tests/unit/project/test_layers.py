@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from framegen.targets.python.copies import copies
 
 GENERATOR = Path(__file__).parents[3] / "codegen" / "framegen"
 
@@ -58,8 +59,8 @@ def _part(parts: tuple[str, ...]) -> str:
 
 
 @cache
-def statements(file: Path) -> list[ast.Import | ast.ImportFrom]:
-    """Return every import in a module, for typing alone or not, wherever it stands."""
+def statements(file: Path, *, to_run: bool = False) -> list[ast.Import | ast.ImportFrom]:
+    """Return every import in a module, wherever it stands: for typing alone or not, or `to_run`."""
     found: list[ast.Import | ast.ImportFrom] = []
     bodies: list[ast.AST] = [ast.parse(file.read_text(encoding="utf-8"))]
     # An expression holds no statement.
@@ -67,6 +68,8 @@ def statements(file: Path) -> list[ast.Import | ast.ImportFrom]:
         for node in ast.iter_child_nodes(bodies.pop()):
             if isinstance(node, ast.Import | ast.ImportFrom):
                 found.append(node)
+            elif to_run and isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+                bodies += node.orelse
             elif not isinstance(node, ast.expr):
                 bodies.append(node)
     return found
@@ -177,7 +180,6 @@ def test_the_common_runtime_works_wherever_it_is_copied_to() -> None:
 LIBRARY = Path(__file__).parents[3] / "generated" / "busservo"
 # From the bottom up.
 LIBRARY_LAYERS = [
-    {"_log"},
     {"_frame"},
     {"messages", "_explanation"},
     {"_codec"},
@@ -185,6 +187,7 @@ LIBRARY_LAYERS = [
     {"_serial"},
     {"_client"},
     {"_library"},
+    {"line and client of the protocol"},
     {"_version", "recordings", "device", "strategies", "_tables"},
     {"tables"},
     {"_cli"},
@@ -198,11 +201,16 @@ MADE = {
     ".".join(template.relative_to(TEMPLATES).parts).removesuffix(".py.jinja")
     for template in TEMPLATES.rglob("*.py.jinja")
 }
+# The rooms in which what is made for a protocol stands on what is the same for all.
+ON_TOP = ("_client", "_serial")
 
 
-def modules_needed(path: Path) -> Iterator[str]:
-    """Yield the name of every module of the library that one of its modules imports from."""
-    for node in statements(LIBRARY / path):
+def modules_needed(path: Path, *, to_run: bool = False) -> Iterator[str]:
+    """Yield the name of every module of the library that one of its modules imports from.
+
+    `to_run` leaves out what is imported for typing alone.
+    """
+    for node in statements(LIBRARY / path, to_run=to_run):
         if isinstance(node, ast.ImportFrom) and 0 < node.level <= len(path.parts):
             room = path.parts[: len(path.parts) - node.level]
             names = [node.module] if node.module else [alias.name for alias in node.names]
@@ -219,47 +227,44 @@ def part_of(path: Path) -> str:
 
 
 def part_with(module: str) -> str:
-    """Return the part that a module is in."""
-    # What is made for a protocol to open a port stands on what the library hands over, as clients.
-    on_top = module == "_library" or (module in MADE and module.startswith("_serial."))
-    return "_client" if on_top else module.partition(".")[0]
+    """Return the part that a module is in: its room, or what is made for the protocol on top."""
+    room = module.partition(".")[0]
+    return "line and client of the protocol" if module in MADE and room in ON_TOP else room
 
 
 def test_imports_of_a_library_point_downwards() -> None:
     assert upwards(LIBRARY_LAYERS, ((part_of(path), path, needed(path)) for path in PARTS)) == []
 
 
-TEMPLATES = GENERATOR / "targets" / "python" / "templates"
-GENERATED = {
-    file.relative_to(TEMPLATES).as_posix().removesuffix(".py.jinja")
-    for file in TEMPLATES.rglob("*.py.jinja")
+# ------------------------------------------------------------------ rooms that are given all
+
+# The rooms whose code is the same for every protocol and is given what the specification decides,
+# each with what it imports all the same to run: the names that all share.
+GIVEN: dict[str, set[str]] = {
+    "_explanation": set(),
+    "_recording": {"_frame.direction", "_frame.errors"},
+    "_tables": {"_codec.noise", "_frame.errors"},
+    "_client": {"_codec.noise", "_frame.errors", "_frame.message"},
+    "_serial": {"_frame.errors", "_frame.message"},
 }
-# What is the same for every protocol here is given what is generated, and still imports so much.
-GIVEN = ("_explanation", "_recording", "_tables")
-STILL = {"_codec/noise", "_frame/direction", "_frame/errors"}
 
 
-def needed_at_run_time(path: Path) -> Iterator[str]:
-    """Yield every module of the library that one of its modules imports, not for typing alone."""
-    tree = ast.parse((LIBRARY / path).read_text(encoding="utf-8"))
-    for_typing = {
-        inner
-        for node in ast.walk(tree)
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
-        for each in node.body
-        for inner in ast.walk(each)
+@pytest.mark.parametrize("room", GIVEN)
+def test_a_room_that_is_given_the_protocol_imports_nothing_of_it(room: str) -> None:
+    known = {".".join(Path(each).with_suffix("").parts) for each in copies()}
+    modules = {path: ".".join(path.with_suffix("").parts) for path in PARTS}
+    for path, name in modules.items():
+        if path.parts[0] in GIVEN and name not in MADE:
+            known.add(name)
+    imports = {
+        (name, other)
+        for path, name in modules.items()
+        if path.parts[0] == room and name not in MADE
+        for other in modules_needed(path, to_run=True)
     }
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.level and node not in for_typing:
-            above = path.parents[node.level - 1]
-            module = above.joinpath(*(node.module or "").split("."))
-            yield module.as_posix()
-            yield from ((module / alias.name).as_posix() for alias in node.names)
-
-
-def test_what_is_given_the_protocol_imports_nothing_of_it() -> None:
-    found = {each for path in PARTS if path.parts[0] in GIVEN for each in needed_at_run_time(path)}
-    assert found & GENERATED == STILL
+    assert imports
+    assert {each for each in imports if each[1] not in known | GIVEN[room]} == set()
+    assert {other for _, other in imports} >= GIVEN[room]
 
 
 # ------------------------------------------------------------------ the tables of a library

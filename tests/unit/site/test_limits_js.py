@@ -78,6 +78,7 @@ def said_by_the_client(made: ModuleType, frame: bytes, bounds: Any) -> str | Non
     """Return why the client does not send a frame, None if it does."""
     limits = part(made, "_client.exchanges").LIMITS
     session = part(made, "_client.session").Session(
+        part(made, "_library").LIBRARY,
         baud=9600,
         reply_timeout=1.0,
         report_limit=1,

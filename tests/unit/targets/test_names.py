@@ -111,7 +111,9 @@ def variables_in(module: str) -> set[str]:
     """Return the variables of a module's methods, and their arguments that no message gives."""
     tree = ast.parse((PACKAGE / module).read_text(encoding="utf-8"))
     functions = [
-        node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.name != "__init__"
     ]
     stored = {
         node.id

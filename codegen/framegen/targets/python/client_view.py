@@ -203,10 +203,18 @@ class ClientView:
 
     def _imports(self, base_module: str, base: str, methods: list[MethodView]) -> list[str]:
         returned = {method.returns for method in methods}
-        modules: dict[str, set[str]] = {".messages": self._messages, base_module: {base}}
+        modules: dict[str, set[str]] = {
+            "._library": {"LIBRARY", "LINK"},
+            "._serial.transport": {"Transport"},
+            ".messages": self._messages,
+            base_module: {base},
+            "base_client": {"REPLY_TIMEOUT", "REPORT_LIMIT"},
+            "exchanges": {"LIMITS"},
+            "limits": {"Allowed"},
+        }
         modules |= {module: returned.intersection(names) for module, names in _RESULTS.items()}
         if self.pose is not None:
-            modules |= {"exchanges": {"POSE"}, "pose": {"HOLD_MS"}}
+            modules |= {"exchanges": {"LIMITS", "POSE"}, "pose": {"HOLD_MS"}}
         if self.bus is not None:
             prefix = base.removesuffix("Client")
             module = f"{prefix.lower()}_devices" if prefix else "devices"
@@ -290,12 +298,20 @@ class ClientView:
         return names | ({self.pose.element} if self.pose else set())
 
     @property
+    def collections(self) -> str:
+        """The types of arguments that the module of a client imports."""
+        return ", ".join(sorted({"Callable", "Iterable"} | self._lists_taken))
+
+    @property
     def lists_taken(self) -> str:
         """The types that methods take lists as, to be imported; empty where none does."""
+        return ", ".join(sorted(self._lists_taken))
+
+    @property
+    def _lists_taken(self) -> set[str]:
         declared = " ".join(method.signature for method in self.methods)
         needed = {"Iterable"} if self.pose is not None else set()
-        needed |= {name for name in ("Iterable", "Mapping") if f"{name}[" in declared}
-        return ", ".join(sorted(needed))
+        return needed | {name for name in ("Iterable", "Mapping") if f"{name}[" in declared}
 
 
 def _bounds(range_: Range) -> str:

@@ -33,24 +33,25 @@ PYTHON_CLASSES = words(
     TypeError UnboundLocalError UnicodeDecodeError UnicodeEncodeError UnicodeError
     UnicodeTranslateError UnicodeWarning UserWarning ValueError Warning WindowsError
     ZeroDivisionError Any Callable ClassVar Enum Final Iterable Iterator Literal Mapping
-    NamedTuple Protocol Self Sequence Struct StructError SupportsIndex TypeAlias TypeVar Union
+    NamedTuple PathLike Protocol Self Sequence Struct StructError SupportsIndex TypeAlias TypeVar
+    Union
     """
 )
 
 # What the library exports or is built of, whatever the protocol.
 LIBRARY_CLASSES = words(
     """
-    AbsentError Address AllDevices Always AsyncAllDevices AsyncClient AsyncController AsyncMotion
-    AsyncOneDevice Client ClosedError Column Controller Counters Decoded DecodeError Device
-    Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError Event Exchange
-    EXCHANGES F32 F64 FailureError Failures Field HEAD I16 I24 I32 I64 I8 IncompleteReplyError Items
-    Kind LEAST LimitError LIMITS Limits LineCounters LineError List Message MESSAGES MixedElement
-    Motion Noise NoReplyError NoReportError NotHeldError Number OneDevice Optional Packed
-    PortAddressError PortBusyError PortNotFoundError PortPermissionError POSE Pose ProtocolError
-    Reason RECEIVED RefusedError Rejects Report Reserved Run SearchStrategy Sent Shape StreamDecoder
-    SwappedF32 SwappedF64 SwappedI16 SwappedI24 SwappedI32 SwappedI64 SwappedU16 SwappedU24
-    SwappedU32 SwappedU64 Table Text Timed Transport TransportError U16 U24 U32 U64 U8 UNFIT
-    UnknownFrame WriteStuckError
+    AbsentError Address AllDevices Allowed Always AsyncAllDevices AsyncClient AsyncController
+    AsyncMotion AsyncOneDevice Client ClosedError Column Controller Counters Decoded DecodeError
+    Device Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError Event
+    Exchange EXCHANGES F32 F64 FailureError Failures Field HEAD I16 I24 I32 I64 I8
+    IncompleteReplyError Items Kind LEAST LIBRARY LimitError LIMITS Limits LineCounters LineError
+    LINK List Message MESSAGES MixedElement Motion Noise NoReplyError NoReportError NotHeldError
+    Number OneDevice Optional Packed PortAddressError PortBusyError PortNotFoundError
+    PortPermissionError POSE Pose ProtocolError Reason RECEIVED RefusedError Rejects Report Reserved
+    Run SearchStrategy Sent Shape StreamDecoder SwappedF32 SwappedF64 SwappedI16 SwappedI24
+    SwappedI32 SwappedI64 SwappedU16 SwappedU24 SwappedU32 SwappedU64 Table Text Timed Transport
+    TransportError U16 U24 U32 U64 U8 UNFIT UnknownFrame WriteStuckError
     """
 )
 

@@ -27,6 +27,7 @@ from busservo import (
     ServoPositionsRead,
 )
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -48,7 +49,7 @@ OVER = 2 * FRAME + REPLY_TIMEOUT
 
 
 def session() -> Session:
-    return Session(baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+    return Session(LIBRARY, baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16)
 
 
 def seen_one() -> Session:
@@ -184,7 +185,7 @@ def test_a_new_line_knows_nothing_of_runs_on_the_old_one() -> None:
 
 
 def test_more_runs_than_are_followed_do_no_harm() -> None:
-    line = Session(baud=math.inf, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+    line = Session(LIBRARY, baud=math.inf, reply_timeout=REPLY_TIMEOUT, report_limit=16)
     runs = [ran(line, group) for group in range(100)]
     for group in range(100):
         line.receive(ActionGroupStarted(group, 1).encode(), 0.1)

@@ -20,6 +20,7 @@ from busservo import (
 from busservo._client.exchange import Exchange
 from busservo._client.exchanges import EXCHANGES
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
@@ -167,7 +168,7 @@ def say(line: Session, now: float, *voltages: int) -> None:
 
 def prepared(healthy: int, *, lost: bool = False, baud: float = 9600) -> Session:
     """Return a line on which questions were answered in time, and the last was lost perhaps."""
-    line = Session(baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+    line = Session(LIBRARY, baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16)
     for number in range(healthy):
         ask(line, number - 20.0)
         say(line, number - 20.0 + TRIP, 7500)

@@ -26,6 +26,7 @@ from busservo._client.exchanges import EXCHANGES
 from busservo._client.local_echo import LocalEcho
 from busservo._client.request import Request
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -107,7 +108,7 @@ def test_a_report_like_the_command_is_distinguished_from_its_echo() -> None:
 
 
 def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
-    line = Session(baud=9600, reply_timeout=0.25, report_limit=16, local_echo=True)
+    line = Session(LIBRARY, baud=9600, reply_timeout=0.25, report_limit=16, local_echo=True)
     first, second = line.submit(ActionGroupStop()), line.submit(ActionGroupRun(8, 1))
     assert len(line.outgoing(0.0)) == 1
     assert len(line.outgoing(0.01)) == 1
@@ -228,7 +229,7 @@ def test_noise_is_no_echo(message: Message) -> None:
 
 
 def request(message: Message) -> Request:
-    return Request(message, EXCHANGES[type(message)])
+    return Request(message, EXCHANGES[type(message)], LIBRARY.codec)
 
 
 @given(

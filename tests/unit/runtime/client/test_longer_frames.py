@@ -42,7 +42,11 @@ def asked(libraries: Callable[[str], Any], name: str, question: str) -> tuple[An
     """Return a session whose question has just left, the question, and the messages."""
     kinds = libraries(f"{name}.messages")
     line = libraries(f"{name}._client.session").Session(
-        baud=9600, reply_timeout=0.25, report_limit=16, settle=0
+        libraries(f"{name}._library").LIBRARY,
+        baud=9600,
+        reply_timeout=0.25,
+        report_limit=16,
+        settle=0,
     )
     request = line.submit(getattr(kinds, question)(), question=True)
     line.outgoing(0.0)

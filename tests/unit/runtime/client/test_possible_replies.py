@@ -17,6 +17,7 @@ from busservo import (
     ServoPositionsRead,
 )
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 
 from tests.in_turn import in_turn
 
@@ -32,7 +33,7 @@ TOO_SOON, IN_TIME = 0.94 * TRIP, 0.96 * TRIP
 
 
 def session(baud: float = 9600, **settings: float) -> Session:
-    return Session(baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16, **settings)  # type: ignore[arg-type]
+    return Session(LIBRARY, baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16, **settings)  # type: ignore[arg-type]
 
 
 def ask(line: Session, now: float, message: Message | None = None, retries: int = 0) -> Request:
@@ -100,7 +101,7 @@ def test_an_impossible_reply_alone_is_the_answer_once_the_line_has_been_quiet() 
 
 
 def test_a_longer_reply_timeout_is_no_reason_to_hold_a_reply_for_longer() -> None:
-    line = Session(baud=9600, reply_timeout=60, report_limit=16)
+    line = Session(LIBRARY, baud=9600, reply_timeout=60, report_limit=16)
     request = ask(line, 0.0)
     say(line, TOO_SOON, BatteryVoltage(7500))
     line.tick(TRIP + REPLY_TIMEOUT)

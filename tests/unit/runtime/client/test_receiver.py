@@ -33,8 +33,9 @@ def receiver() -> Iterator[None]:
 
 def session() -> tuple[Any, Any]:
     kinds = importlib.import_module("ubx.messages")
+    ours = importlib.import_module("ubx._library").LIBRARY
     made = importlib.import_module("ubx._client.session").Session(
-        baud=9600, reply_timeout=0.25, report_limit=16, settle=0
+        ours, baud=9600, reply_timeout=0.25, report_limit=16, settle=0
     )
     request = made.submit(kinds.MonVerPoll(), question=True)
     made.outgoing(0.0)

@@ -15,6 +15,7 @@ from busservo import (
 from busservo._client.report_filter import ReportFilter
 from busservo._client.session import Session
 from busservo._frame.direction import RECEIVED
+from busservo._library import LIBRARY
 
 from tests.in_turn import in_turn
 
@@ -27,7 +28,7 @@ ENDED = (ActionGroupCompleted, ActionGroupStopped)
 
 def after(story: list[Message]) -> Session:
     """Return a session in which these commands were sent and these reports came, in this order."""
-    line = Session(baud=math.inf, reply_timeout=0.25, report_limit=16)
+    line = Session(LIBRARY, baud=math.inf, reply_timeout=0.25, report_limit=16)
     for message in story:
         if message.DIRECTION is RECEIVED:
             line.receive(message.encode(), 0.0)
@@ -39,7 +40,10 @@ def after(story: list[Message]) -> Session:
 
 def test_a_run_is_the_cause_of_its_reports() -> None:
     log = after([COMPLETED_8, RUN_8, COMPLETED_8, RUN_9]).reports
-    of_8, of_9 = (ReportFilter(ActionGroupCompleted, {"group": group}) for group in (8, 9))
+    of_8, of_9 = (
+        ReportFilter(LIBRARY.codec.received, ActionGroupCompleted, {"group": group})
+        for group in (8, 9)
+    )
     assert log.since(of_8) == 1
     assert log.since(of_9) == 2
     found = log.find(of_8, since=1, began_at=2)
@@ -73,7 +77,7 @@ def test_a_run_is_the_cause_of_its_reports() -> None:
 def test_the_end_of_a_group_is_one_of_two_reports(
     story: list[Message], fields: dict[str, int], found: Message | None
 ) -> None:
-    log, wanted = after(story).reports, ReportFilter(ENDED, fields)
+    log, wanted = after(story).reports, ReportFilter(LIBRARY.codec.received, ENDED, fields)
     since = log.since(wanted)
     assert log.find(wanted, since=since, began_at=log.next_number) == found
     assert log.find(wanted, since=since, began_at=log.next_number) is None
@@ -81,5 +85,5 @@ def test_the_end_of_a_group_is_one_of_two_reports(
 
 def test_what_came_instead_is_counted_but_for_what_is_over() -> None:
     log = after([STOPPED, RUN_8, STARTED_8, COMPLETED_8, COMPLETED_9, STARTED_8]).reports
-    wanted = ReportFilter(ActionGroupCompleted, {"group": 8})
+    wanted = ReportFilter(LIBRARY.codec.received, ActionGroupCompleted, {"group": 8})
     assert log.instead_of(wanted, since=log.since(wanted)) == {STARTED_8: 2, COMPLETED_9: 1}

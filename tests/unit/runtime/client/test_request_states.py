@@ -10,6 +10,7 @@ from busservo import BatteryVoltage, BatteryVoltageRead, ServoMove, TransportErr
 from busservo._client import session
 from busservo._client.request import STATES, Request, State, Step
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -128,14 +129,14 @@ def test_each_step_of_the_table_happens(
         take(request, step)
 
     monkeypatch.setattr(Request, "take", noted)
-    line = Session(baud=9600, reply_timeout=0.5, report_limit=16)
+    line = Session(LIBRARY, baud=9600, reply_timeout=0.5, report_limit=16)
     request = story(line)
     assert (taken[id(request)][-1], request.state) == (last, then)
     assert STATES[last[0]][last[1]] is then
 
 
 def test_a_finished_request_stays_finished() -> None:
-    line = Session(baud=9600, reply_timeout=0.5, report_limit=16)
+    line = Session(LIBRARY, baud=9600, reply_timeout=0.5, report_limit=16)
     request = answered(line)
     for step in Step:
         with pytest.raises(KeyError):
@@ -152,7 +153,7 @@ def test_the_drawing_of_the_session_has_every_state_and_every_step() -> None:
 
 
 def test_a_request_cancelled_between_attempts_may_still_be_answered() -> None:
-    line = Session(baud=9600, reply_timeout=0.5, report_limit=16)
+    line = Session(LIBRARY, baud=9600, reply_timeout=0.5, report_limit=16)
     request = tried_again(line)
     line.cancel(request)
     following = line.submit(BatteryVoltageRead())

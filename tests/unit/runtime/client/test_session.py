@@ -22,6 +22,7 @@ from busservo import (
 )
 from busservo._client.exchange import Exchange
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 
 from tests.in_turn import in_turn
 
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 
 def session(**changed: float) -> Session:
-    return Session(baud=changed.get("baud", 9600), reply_timeout=0.25, report_limit=16)
+    return Session(LIBRARY, baud=changed.get("baud", 9600), reply_timeout=0.25, report_limit=16)
 
 
 def requested(at: Session, message: Message, now: float = 0.0, retries: int = 0) -> Request:
@@ -396,7 +397,7 @@ def test_a_lost_line_ends_everything() -> None:
 def test_invalid_settings_are_refused(wrong: dict[str, float]) -> None:
     good: dict[str, float] = {"baud": 9600, "reply_timeout": 0.25, "report_limit": 16}
     with pytest.raises(ValueError, match="must be"):
-        Session(**(good | wrong))  # type: ignore[arg-type]
+        Session(LIBRARY, **(good | wrong))  # type: ignore[arg-type]
 
 
 # -------------------------------------------------------------------- how long a reply may be
@@ -413,11 +414,11 @@ def test_the_time_for_a_reply_is_that_of_the_largest_that_can_answer() -> None:
         (Exchange("ask", (), reply=ServoPositions, echoed=(("servo_ids", "other"),)), largest),
         (Exchange("tell", ()), 0),
     ):
-        assert exchange.reply_size(question) == size
+        assert exchange.reply_size(question, LIBRARY.codec) == size
     # More than fits in one reply: there is no such frame, and the largest stands for it.
     assert (
         Exchange("ask", (), reply=ServoPositions, echoed=echoed).reply_size(
-            ServoPositionsRead(range(200))
+            ServoPositionsRead(range(200)), LIBRARY.codec
         )
         == largest
     )

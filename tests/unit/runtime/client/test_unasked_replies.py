@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, Controller, ServoPositions
-from busservo._client import reply_matcher
 from busservo._client.session import Session
+from busservo._library import LIBRARY
 
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -65,8 +65,8 @@ STORIES = {
 def test_what_comes_by_itself_is_a_report(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     story = STORIES[name]
     if story.declared:
-        monkeypatch.setattr(reply_matcher, "_REPORTS", frozenset([BatteryVoltage]))
-    line = Session(baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16, now=0.0)
+        monkeypatch.setattr(LIBRARY, "reports", frozenset([BatteryVoltage]))
+    line = Session(LIBRARY, baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16, now=0.0)
     came, asked = [], 0
     for at, step in story.steps:
         while (tick_at := line.tick_at) is not None and tick_at < at:
@@ -121,7 +121,7 @@ def test_a_stream_of_measurements_reaches_who_listens_and_who_asks() -> None:
 
 
 def test_another_line_is_learnt_anew() -> None:
-    line = Session(baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16, now=0.0)
+    line = Session(LIBRARY, baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16, now=0.0)
     line.restart(LONG)
     line.receive(BatteryVoltage(1).encode(), LONG + 0.2)
     assert (line.counters.unsolicited, line.counters.reports) == (1, 0)

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 from unittest import mock
 
 import pytest
-from busservo import BatteryVoltage, Message, ServoPositions
+from busservo import BatteryVoltage, Controller, Message, ServoPositions
 from busservo._cli import bench_line, main
-from busservo._client.client import Client
 from busservo_simulator import Faults, VirtualController
 
 from tests.commands import called
@@ -68,7 +67,7 @@ def test_a_line_that_takes_no_time_allows_any_rate(capsys: Capture) -> None:
 
 def measured(line: VirtualLine, *words: str) -> Ended:
     """Measure the line to a device, in its own time."""
-    client = Client(line, background=False, clock=line.clock, settle=0)
+    client = Controller(line, background=False, clock=line.clock, settle=0)
     with (
         mock.patch.object(bench_line, "open_client", return_value=client),
         mock.patch.object(bench_line, "time", SimpleNamespace(perf_counter=line.clock)),

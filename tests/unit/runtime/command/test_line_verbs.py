@@ -11,14 +11,13 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from busservo import ServoPositions, ServoPositionsRead
+from busservo import Controller, ServoPositions, ServoPositionsRead
 from busservo._cli import link, main, send, simulate
 from busservo._cli.examples import EXAMPLES, VERBS
 from busservo._cli.method_verb import MethodVerb
 from busservo._cli.questions import in_parts
 from busservo._cli.verbs import verb_named
 from busservo._client import session
-from busservo._client.client import Client
 from busservo._serial.hid_devices import HidDevice
 from busservo._serial.link_errors import PortNotFoundError
 from busservo._serial.serial_port import SerialPortSeen
@@ -88,7 +87,7 @@ def test_silence_after_a_part_keeps_what_had_come(
     capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, ServoPositions([(1, 500)]))])
-    client = Client(line, background=False, clock=line.clock)
+    client = Controller(line, background=False, clock=line.clock)
     monkeypatch.setattr(send, "open_client", lambda *_, **__: client)
     words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(1, 87)))}"]
     assert main(["send", "--port", "COM7", *words]) == 1

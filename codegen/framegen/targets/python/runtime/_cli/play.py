@@ -10,6 +10,7 @@ from pathlib import Path
 
 from .._client.wire_time import WireTime
 from .._frame.pluralize import pluralize
+from .._library import LINK
 from . import link
 from .exit_codes import DONE
 from .limits import add_limits, limits_of
@@ -95,7 +96,7 @@ class _Step:
         self.number = number
         self.ids = tuple(recorded.positions)
         self.seconds = time_ms / 1000 + pause
-        self.wire = WireTime(arguments.baud).seconds(len(self.message.encode()))
+        self.wire = WireTime(LINK, arguments.baud).seconds(len(self.message.encode()))
 
     def line(self, at: float) -> str:
         """Return the line that is printed for it."""

@@ -7,9 +7,9 @@ import sys
 import threading
 import time
 
-from .._codec.careful_decoder import GAP
 from .._codec.decoder import StreamDecoder
 from .._codec.event_bytes import bytes_of
+from .._codec.gap import GAP
 from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
 from .._serial.link_errors import TransportError

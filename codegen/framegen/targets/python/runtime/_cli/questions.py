@@ -38,6 +38,6 @@ def in_parts(name: str, words: list[str]) -> list[Message]:
     if len(requested) <= exchange.most:
         return [message_from_text(kind, words)]
     try:
-        return parts_of(kind, requested)
+        return parts_of(EXCHANGES, kind, requested)
     except EncodeError as error:
         raise UsageError(str(error)) from None

@@ -95,7 +95,7 @@ def exchanged(controller: Client, messages: list[Message], arguments: Namespace)
         for reply in replies:
             lines.show(Entry(reply, reply.DIRECTION.sender, 0))
             sys.stdout.flush()
-            requested, left, _ = left_out(message, reply)
+            requested, left, _ = left_out(EXCHANGES, message, reply)
             missing.setdefault(requested, []).extend(left)
     for requested, values in missing.items():
         if values:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, TypeVar
 
-from .._log import log
 from .._serial.link_errors import TransportError
 
 if TYPE_CHECKING:
@@ -13,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .._serial.error_mapping import ErrorMapping
+    from .library import Library
     from .request import Request
 
 _Result = TypeVar("_Result")
@@ -28,6 +28,7 @@ class AsyncLine:
 
     def __init__(
         self,
+        library: Library,
         transport: ErrorMapping,
         clock: Callable[[], float],
         *,
@@ -35,6 +36,7 @@ class AsyncLine:
         written: Callable[[Request, float], None],
         lost: Callable[[AsyncLine, TransportError], None],
     ) -> None:
+        self._library = library
         self.transport = transport
         self._clock = clock
         self._arrived = weakref.WeakMethod(arrived)
@@ -77,6 +79,6 @@ class AsyncLine:
             if drain:
                 self.transport.drain(drain)
         except TransportError as error:
-            log().debug("%s could not be drained: %s", self.transport.name, error)
+            self._library.log().debug("%s could not be drained: %s", self.transport.name, error)
         finally:
             self.transport.close()

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from copy import copy
 
-from .._codec.careful_decoder import GAP, CarefulDecoder
+from .._codec.gap import GAP
 from .._codec.noise import Noise
-from .._frame.direction import RECEIVED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import TypeAlias
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.message import Message
 
     Events: TypeAlias = Sequence[Message | Noise]
@@ -25,8 +25,9 @@ class FrameReader:
     in the middle of a frame, the rest of that frame is lost; see CarefulDecoder.
     """
 
-    def __init__(self) -> None:
-        self._decoder = CarefulDecoder(RECEIVED)
+    def __init__(self, codec: ProtocolCodec) -> None:
+        self._codec = codec
+        self._decoder = codec.careful_decoder(codec.received)
         self.received_at = float("-inf")
         # When the message came that the decoder is in doubt of.
         self._doubted_at = float("-inf")
@@ -95,5 +96,5 @@ class FrameReader:
 
     def restart(self) -> None:
         """Begin anew on another line."""
-        self._decoder = CarefulDecoder(RECEIVED)
+        self._decoder = self._codec.careful_decoder(self._codec.received)
         self.received_at = float("-inf")

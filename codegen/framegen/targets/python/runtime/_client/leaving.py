@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from .._frame.errors import ProtocolError
-from .._log import log
 from .._serial.link_errors import NotHeldError, TransportError
 from .._serial.transport import Transport
 from .base_client import BaseClient
-from .exchanges import POSE
 from .holding import Holding
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -37,7 +35,7 @@ class LeavingClient(BaseClient):
     def __init__(
         self, transport: Transport, *, on_exit: str | None, **settings: typing.Any
     ) -> None:
-        self._on_exit = _chosen(on_exit)
+        self._on_exit = _chosen(on_exit, self._library.pose)
         # Those that it is about; of these, until somebody is told, those that were not reached, and
         # why; and the error behind that.
         self._leaving: tuple[int, ...] = ()
@@ -53,14 +51,15 @@ class LeavingClient(BaseClient):
     def _leave(self) -> Steps[None]:
         """Hold them, or let go of them. By now, nobody else can send anything any more."""
         self._leaving = self._to_leave()
-        if POSE is None or not self._leaving:
+        pose = self._library.pose
+        if pose is None or not self._leaving:
             return
         self._leave_by = self._clock() + EXIT_TIMEOUT
         try:
             if self._on_exit == _HOLD:
-                commands = yield from self._holds(POSE)
+                commands = yield from self._holds(pose)
             else:
-                commands = self._releases(POSE)
+                commands = self._releases(pose)
             for command in commands:
                 yield from self._by_then(command)
         except TimeoutError:
@@ -73,7 +72,7 @@ class LeavingClient(BaseClient):
 
         What is not answered keeps none of the others from being held.
         """
-        holding = Holding(pose, self._leaving, self._limits)
+        holding = Holding(pose, self._library.exchanges, self._leaving, self._limits)
         self._left = holding.left
         for question in holding.questions:
             try:
@@ -123,24 +122,25 @@ class LeavingClient(BaseClient):
         An exception that is under way goes on instead, with a note.
         """
         left, self._left = self._left, {}
-        if POSE is None or not left:
+        pose = self._library.pose
+        if pose is None or not left:
             return
         done = "held" if self._on_exit == _HOLD else "released"
-        error = NotHeldError(f"{POSE.noun}s not {done}", left)
+        error = NotHeldError(f"{pose.noun}s not {done}", left)
         if under_way is None:
             raise error from self._cause
-        log().warning("%s: %s", self._name, error)
+        self._library.log().warning("%s: %s", self._name, error)
         if hasattr(under_way, "add_note"):  # as from Python 3.11
             under_way.add_note(str(error))
 
 
-def _chosen(given: str | None) -> str | None:
+def _chosen(given: str | None, pose: Pose | None) -> str | None:
     """Return what is done on leaving, as an argument. Raises ValueError for what can be none."""
     if given is None:
         return None
-    if POSE is None:
+    if pose is None:
         raise ValueError(f"on_exit is {given!r}, and this protocol has no positions to hold")
-    if given not in {_HOLD, POSE.releasing}:
-        choices = f"{_HOLD!r}, {POSE.releasing!r} or None"
+    if given not in {_HOLD, pose.releasing}:
+        choices = f"{_HOLD!r}, {pose.releasing!r} or None"
         raise ValueError(f"on_exit is {given!r}, and must be {choices}")
     return given

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from .._serial.link_errors import TransportError
 from .async_line import AsyncLine
-from .base_client import DRAIN_TIMEOUT, PACKAGE, POLL_INTERVAL
+from .base_client import DRAIN_TIMEOUT, POLL_INTERVAL
 from .request import Request
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class LineThreads(AsyncLine):
             for run in (self._run_reader, self._run_writer)
         ]
         for thread in self._threads:
-            thread.name = f"{PACKAGE} on {self.transport.name}"
+            thread.name = f"{self._library.package} on {self.transport.name}"
             thread.start()
 
     def write(self, frames: list[bytes], question: Request | None) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .._frame.direction import RECEIVED
 from .._frame.message import Message
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -10,19 +9,21 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import TypeAlias
 
+    from .._frame.direction import Direction
+
 Kinds: TypeAlias = type[Message] | tuple[type[Message], ...]
 
 
 class ReportFilter:
     """Reports of one class, or of any of a tuple of them, with these values in these fields.
 
-    A field that a class lacks is not compared. Raises TypeError for a class that never comes to
-    this end, and for a field that none of the classes has.
+    A field that a class lacks is not compared. Raises TypeError for a class that is not `received`
+    at this end, and for a field that none of the classes has.
     """
 
     __slots__ = ("fields", "kinds")
 
-    def __init__(self, kinds: Kinds, fields: Mapping[str, int]) -> None:
+    def __init__(self, received: Direction, kinds: Kinds, fields: Mapping[str, int]) -> None:
         self.kinds = kinds if isinstance(kinds, tuple) else (kinds,)
         self.fields = dict(fields)
         if not self.kinds:
@@ -30,7 +31,7 @@ class ReportFilter:
         for kind in self.kinds:
             if not (isinstance(kind, type) and issubclass(kind, Message)):
                 raise TypeError(f"{kind!r} is no class of messages")
-            if getattr(kind, "DIRECTION", None) is not RECEIVED:
+            if getattr(kind, "DIRECTION", None) is not received:
                 raise TypeError(f"{kind.__name__} is no message that comes to this end")
         for name in self.fields:
             if not any(name in kind.__match_args__ for kind in self.kinds):

@@ -22,11 +22,9 @@ from collections import deque
 from .._codec.counters import LineCounters
 from .._codec.noise import Noise
 from .._frame.errors import EncodeError
-from .._log import log
 from .._serial.link_errors import DoubtfulReplyError, NoReplyError
 from .acknowledgements import Acknowledgements
 from .commanded import Commanded
-from .exchanges import EXCHANGES, LIMITS
 from .frame_reader import FrameReader
 from .local_echo import EchoWatch, LocalEcho, echo_error
 from .reply_matcher import ReplyMatcher
@@ -42,6 +40,7 @@ if TYPE_CHECKING:
 
     from .._frame.message import Message
     from .exchange import Unaddressed
+    from .library import Library
     from .limits import Allowed
     from .reply_matcher import Answer
     from .trace import Trace
@@ -58,15 +57,16 @@ _WRITING = 1.5
 class Session:
     """One end of a line. Times are seconds on any clock that never goes back.
 
-    `reply_timeout` is how long the device may take for a reply, beyond the time on the wire, and
-    `limits` the lowest and the highest value that is sent in fields that have limits, for all or
-    by number. `local_echo`
-    says that the line returns what is sent; `settle` is for how many seconds no question is sent on
-    a line that has just been opened, None for one reply time if that may matter.
+    `library` says what the messages are and what answers them. `reply_timeout` is how long the
+    device may take for a reply, beyond the time on the wire, and `limits` the lowest and the
+    highest value that is sent in fields that have limits, for all or by number. `local_echo` says
+    that the line returns what is sent; `settle` is for how many seconds no question is sent on a
+    line that has just been opened, None for one reply time if that may matter.
     """
 
     def __init__(
         self,
+        library: Library,
         *,
         baud: float,
         reply_timeout: float,
@@ -80,11 +80,14 @@ class Session:
     ) -> None:
         if not reply_timeout > 0:
             raise ValueError(f"reply_timeout is {reply_timeout!r}, and must be above 0 seconds")
-        self.wire_time = WireTime(baud)
+        self._exchanges = library.exchanges
+        self._codec = library.codec
+        self._log = library.log
+        self.wire_time = WireTime(library.link, baud)
         self.counters = LineCounters()
         self.reports = ReportLog(report_limit)
-        self.acknowledgements = Acknowledgements(self.wire_time, reply_timeout)
-        self.commanded = Commanded()
+        self.acknowledgements = Acknowledgements(library, self.wire_time, reply_timeout)
+        self.commanded = Commanded(library.pose)
         # Reports for callbacks, to be taken out by the driver of the session.
         self.callback_queue: deque[Message] = deque(maxlen=report_limit)
         # The longest frame that the line carries; None for any.
@@ -92,15 +95,16 @@ class Session:
         self._reply_timeout = reply_timeout
         # How long a device takes at most until it begins to answer.
         self._latency = min(reply_timeout, _LATENCY)
+        self._usual_limits = library.limits
         self._limits = limits
         self._name = name
         self._trace = trace
         self._settling = Settling(settle, now)
         self._echo = LocalEcho() if local_echo else None
-        self._echo_watch = EchoWatch(name, self.counters)
+        self._echo_watch = EchoWatch(library, name, self.counters)
         self._frames_sent = 0
-        self._reader = FrameReader()
-        matcher = ReplyMatcher(self.wire_time, self.counters, self._latency, name, now)
+        self._reader = FrameReader(library.codec)
+        matcher = ReplyMatcher(library, self.wire_time, self.counters, self._latency, name, now)
         self._matcher = matcher
         self._queue = RequestQueue(self.wire_time, self._settling, matcher, self._latency)
 
@@ -127,7 +131,7 @@ class Session:
         `question`, TypeError is raised if that is not whether it has a reply. With `within`, the
         replies of all who answer in so many seconds are gathered.
         """
-        exchange = EXCHANGES.get(type(message))
+        exchange = self._exchanges.get(type(message))
         if exchange is None:
             raise TypeError(f"{message!r} is nothing that this end sends")
         silence = exchange.address.silence(message)
@@ -138,9 +142,11 @@ class Session:
         if question is True and silence and within is None:
             raise _nobody_answers(exchange.address, message)
         exchange.check(message)
-        LIMITS.check(message, self._limits, exchange.address)
-        check_room(message, self.largest_frame)
-        request = Request(message, exchange, retries=retries, latest=latest, within=within)
+        self._usual_limits.check(message, self._limits, exchange.address)
+        check_room(message, self.largest_frame, self._codec)
+        request = Request(
+            message, exchange, self._codec, retries=retries, latest=latest, within=within
+        )
         self._settling.submitted(question=request.question)
         for replaced in self._queue.add(request):
             self.counters.replaced += 1
@@ -447,7 +453,7 @@ class Session:
         if request in self._matcher.pending:
             self._give_up(request, request.deadline)
         elif request.latest:
-            log().warning("%s (%r)", error, request.message)  # nobody waits for it
+            self._log().warning("%s (%r)", error, request.message)  # nobody waits for it
         if not request.done:
             request.finish(error=error)
 

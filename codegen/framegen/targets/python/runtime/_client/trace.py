@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from .._codec.noise import Noise
 from .._frame.bytes_like import format_hex
-from .._log import log, shows_frames
 from .._recording.file import NOISE, RecordingFile
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -12,15 +11,17 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from .._frame.message import Message
+    from .._serial.log import Log
 
 
 class Trace:
-    """A trace that logs each frame at level DEBUG, and records it in the file `trace`.
+    """A trace that puts each frame in `log`, at level DEBUG, and records it in the file `trace`.
 
     Raises OSError if that cannot be written: FileExistsError if it holds a recording.
     """
 
-    def __init__(self, name: str, trace: str | PathLike[str] | None = None) -> None:
+    def __init__(self, log: Log, name: str, trace: str | PathLike[str] | None = None) -> None:
+        self._log = log
         self._name = name
         self._trace = None if trace is None else RecordingFile(trace)
         self._began: float | None = None
@@ -42,8 +43,8 @@ class Trace:
             self._trace.quiet()
 
     def _tell(self, way: str, who: str, what: Message | str, data: bytes, now: float) -> None:
-        if shows_frames():
-            log().debug("%s %s %s | %s", self._name, way, what, format_hex(data))
+        if self._log.shows_frames():
+            self._log().debug("%s %s %s | %s", self._name, way, what, format_hex(data))
         if self._trace is None:
             return
         if self._began is None:

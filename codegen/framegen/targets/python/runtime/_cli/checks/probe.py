@@ -7,6 +7,7 @@ import math
 from ..._client.exchanges import EXCHANGES
 from ..._client.wire_time import WireTime
 from ..._codec.noise import Noise
+from ..._library import CODEC, LINK
 from .heard import PAUSE, Heard
 from .trip import Trip
 
@@ -45,7 +46,7 @@ class Probe:
     ) -> None:
         self.baud = baud
         self.reply_timeout = reply_timeout
-        self.wire_time = WireTime(baud)
+        self.wire_time = WireTime(LINK, baud)
         self.largest_frame: int | None = getattr(transport, "largest_frame", None)
         self._transport = transport
         self._clock = clock
@@ -58,7 +59,7 @@ class Probe:
         sent_at = self._clock()
         self._log.append((sent_at, question.DIRECTION.sender, frame, repr(question)))
         self._transport.write(frame)
-        size = len(frame) + EXCHANGES[type(question)].reply_size(question)
+        size = len(frame) + EXCHANGES[type(question)].reply_size(question, CODEC)
         until = sent_at + self.wire_time.seconds(size) + self.reply_timeout + extra
 
         def made_of(pieces: Pieces) -> Trip:
