@@ -11,12 +11,11 @@ from argparse import BooleanOptionalAction
 from contextlib import contextmanager
 
 from .._client.base_client import REPLY_TIMEOUT
-from .._client.client import Client
 from .._client.controller import Controller
 from .._client.exchanges import LIMITS
 from .._frame.pluralize import pluralize
 from .._frame.protocol import BAUD
-from .._library import LINK
+from .._library import LIBRARY, LINK
 from .._serial.hid_devices import hid_devices_at_hand
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
 from .._serial.opening import open_transport
@@ -34,6 +33,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator, Sequence
 
+    from .._client.client import Client
     from .._client.limits import Allowed
     from .._serial.hid_devices import HidDevice
     from .._serial.serial_port import SerialPortSeen
@@ -154,7 +154,7 @@ def open_client(
     settle: float | None = None,
 ) -> Client:
     """Open a client as open_line does, with the times that the arguments give."""
-    logger = logging.getLogger(Client.__module__.rpartition(".")[0])
+    logger = LIBRARY.log()
     if not any(isinstance(each, _Warnings) for each in logger.handlers):
         logger.addHandler(_Warnings(logging.WARNING))
     return Controller(

@@ -102,9 +102,10 @@ def test_silence_after_a_part_keeps_what_had_come(
 def test_retries_ask_again(capsys: Capture) -> None:
     words = ["--retries", "2", "--timeout", "0.01"]
     assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
-    errors = capsys.readouterr().err
-    assert errors.startswith("no BatteryVoltage came within ")
-    assert "to 3 requests of BatteryVoltageRead()" in errors
+    warning, error = capsys.readouterr().err.split("\n", 1)
+    assert "loop:// gives back what is sent" in warning
+    assert error.startswith("no BatteryVoltage came within ")
+    assert "to 3 requests of BatteryVoltageRead()" in error
 
 
 # `stats` has no port: it is told the rate of a line that was recorded.
@@ -225,6 +226,12 @@ def test_a_local_echo_is_expected_where_it_was_said(
     output, errors = capsys.readouterr()
     assert (status, "7500 mV" in output) == ((0, True) if echoes else (2, False))
     assert ("leave out local_echo" in errors) == (not echoes)
+
+
+def test_a_local_echo_that_was_not_said_is_told_as_all_else_is(capsys: Capture) -> None:
+    with VirtualController("tcp", local_echo=True) as board:
+        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
+    assert capsys.readouterr().err.startswith(f"busservo: {board.port} gives back what is sent: ")
 
 
 def test_ports_lists_or_says_that_there_are_none(capsys: Capture) -> None:
