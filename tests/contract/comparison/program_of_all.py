@@ -306,9 +306,15 @@ def made_by_name(name: str, values: Mapping[str, Any]) -> str:
 
 
 def usual_values(kind: Any) -> dict[str, Any]:
-    """Return a value for each argument of a message; None for what no frame of it has room for."""
+    """Return a value for each argument of a message; None for what no frame of it has room for.
+
+    No two are the same where their fields allow it, so that each is known wherever it stands.
+    """
     given = inspect.signature(kind).parameters
-    values = {each: next(_values(kind, each, at)) for at, each in enumerate(given)}
+    values: dict[str, Any] = {}
+    for at, each in enumerate(given):
+        usual = [next(_values(kind, each, at + more)) for more in range(len(given))]
+        values[each] = next((one for one in usual if one not in values.values()), usual[0])
     for each in reversed(given):
         if not fails(run("kind(**values)", {"kind": kind, "values": values})):
             break
