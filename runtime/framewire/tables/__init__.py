@@ -1,1 +1,1 @@
-"""Captures as tables: what `tables` is made of. Only here are NumPy and PyArrow imported."""
+"""Captures as tables: what `tables` is made of. What is in here imports NumPy and PyArrow."""
