@@ -20,7 +20,7 @@ class Reason(Enum):
     BAD_TRAILER = "bad trailer"
 
 
-_PACKAGE = __name__.partition("._frame")[0]
+_PACKAGE = __name__.partition(".")[0]
 
 
 class ProtocolError(Exception):
@@ -30,7 +30,7 @@ class ProtocolError(Exception):
 
     def __init_subclass__(cls) -> None:
         # A traceback names it as it is imported: by the package, not by a module inside.
-        if cls.__module__.startswith(f"{_PACKAGE}._"):
+        if cls.__module__.startswith(f"{_PACKAGE}."):
             cls.__module__ = _PACKAGE
 
 
