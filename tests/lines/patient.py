@@ -5,8 +5,9 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.checks import checks_of, examine
 from busservo._cli.checks.diagnosis import Diagnosis
+from busservo._cli.examples import PROGRAM
 from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualClock, VirtualController
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from busservo._cli.checks.result import Result
     from busservo_simulator import Faults
 
+CHECKS = checks_of(PROGRAM.library)
 PORT = "virtual board"
 ADAPTER = SerialPortSeen(PORT, "1A86:7523", "USB Serial", "A50285BI")
 # What the doctor takes at most of the board's time, whatever happens.
@@ -39,7 +41,13 @@ def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:
         "hid_devices": list,
         "clock": board.clock.now,
     }
-    return Diagnosis(**(given | more))
+    return diagnosis_at(**(given | more))
+
+
+def diagnosis_at(port: str | None, **more: Any) -> Diagnosis:
+    """Return a diagnosis of a port, on a line as the protocol has it."""
+    link = PROGRAM.library.link
+    return Diagnosis(PROGRAM, port, **({"baud": link.baud, "local_echo": link.local_echo} | more))
 
 
 def examined(diagnosis: Diagnosis) -> dict[str, Result]:

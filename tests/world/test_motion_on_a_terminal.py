@@ -48,7 +48,7 @@ def test_recorded_poses_are_kept_however_teach_ends(
         teach.type(key)
         assert teach.end() == status
     assert re.search("1 pose recorded; servo 1 (is limp|held)\r\n", teach.shown)
-    assert [each.positions for each in read_poses(file, POSE)] == [{1: 500}]
+    assert [each.positions for each in read_poses(file, POSE, "busservo")] == [{1: 500}]
 
 
 def test_ctrl_c_in_a_play_holds_what_moves(board: VirtualController, tmp_path: Path) -> None:

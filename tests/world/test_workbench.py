@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import recordings
 from busservo._cli.entries import EntryLines
+from busservo._library import CODEC
 
 from tests.factories import in_larger_unit, vectors_of
 from tests.unit.site.browser import (
@@ -436,7 +437,7 @@ def test_a_capture_is_saved_as_the_command_prints_it(bench: Tab, name: str, form
     with bench.expect_download() as found:
         bench.get_by_role("button", name=name).click()
     screen = io.StringIO()
-    lines = EntryLines(screen, form)
+    lines = EntryLines(screen, form, CODEC)
     for entry in recordings.read(io.BytesIO(text.encode())):
         lines.show(entry)
     assert Path(found.value.path()).read_text("utf-8") == screen.getvalue()

@@ -23,6 +23,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from .._codec.protocol_codec import ProtocolCodec
+    from .program import Program
+
 ENDS = {NOT_ALL: "there was noise, and --strict was given"}
 ABOUT = """\
 FILE is what `monitor --log` or the `trace` of a client recorded, or hex, or raw bytes. A recording
@@ -31,9 +34,9 @@ says who has sent what, and when: each of its lines is decoded as its sender's.
 --parquet and --arrow take the extra `tables`."""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
-    add_capture(parser)
+    add_capture(parser, program.library.codec)
     parser.add_argument(
         "-t",
         choices=TIMES,
@@ -67,20 +70,20 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--strict", action="store_true", help="exit with 1 if there was any noise")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print every message and all noise, or write tables; and the totals on the error stream."""
-    seen = Counters(0, 0, 0, 0)
+    codec, seen = program.library.codec, Counters(0, 0, 0, 0)
     targets = arguments.csv_tables, arguments.parquet, arguments.arrow
     if any(target is not None for target in targets):
         if arguments.time is not None:
             raise UsageError("-t is for what is printed; tables hold every time")
-        begun = imported("table_files").write_tables(arguments, seen)
+        begun = imported("table_files", codec.package).write_tables(arguments, seen, codec)
     else:
         _refuse_folder(arguments)
-        begun = _print(arguments, seen)
+        begun = _print(arguments, seen, codec)
     print(totals(seen), file=sys.stderr)
     if 2 * seen.noise > seen.fed:
-        hint(begun)
+        hint(begun, codec)
     return NOT_ALL if arguments.strict and seen.noise else DONE
 
 
@@ -109,13 +112,14 @@ def _refuse_folder(arguments: Namespace) -> None:
         )
 
 
-def _print(arguments: Namespace, seen: Counters) -> bytes:
+def _print(arguments: Namespace, seen: Counters, codec: ProtocolCodec) -> bytes:
     """Print every event, and count it; return how the bytes begin."""
     form = "json" if arguments.json else "csv" if arguments.csv else "text"
-    lines = EntryLines(sys.stdout, form, arguments.time)
+    lines = EntryLines(sys.stdout, form, codec, arguments.time)
     begun = b""
-    with opened_capture(arguments) as (recording, holds):
-        for entry in counted(recording.entries(holds, direction_in(arguments)), seen):
+    with opened_capture(arguments, codec) as (recording, holds):
+        entries = recording.entries(holds, direction_in(arguments, codec))
+        for entry in counted(entries, seen):
             lines.show(entry)
             if len(begun) < ENOUGH:
                 begun += bytes_of(entry.event)

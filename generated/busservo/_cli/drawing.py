@@ -8,7 +8,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .._library import CODEC
 from .._recording.layout import layouts_of
 from .._tables.stats.plot import drawing
 from .usage_error import UsageError
@@ -16,12 +15,15 @@ from .usage_error import UsageError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._tables.stats.traces import Traces
 
 
-def drawn(traces: Traces, file: Path, name: str, baud: float) -> Iterator[str]:
+def drawn(
+    traces: Traces, file: Path, name: str, baud: float, codec: ProtocolCodec
+) -> Iterator[str]:
     """Draw into a file, and yield what was left out, in words. Raises UsageError."""
-    title = f"{Path(name).name}: {layouts_of(CODEC).described.title}"
+    title = f"{Path(name).name}: {layouts_of(codec).described.title}"
     try:
         data, left_out = drawing(traces, file.suffix.lower(), title, baud)
     except ValueError as error:

@@ -6,7 +6,6 @@ from __future__ import annotations
 import sys
 
 from .._frame.bytes_like import format_hex
-from ..messages import MESSAGES
 from .console import visible
 from .usage_error import UsageError
 from .values import message_from_text
@@ -15,10 +14,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.message import Message
+    from .program import Program
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, _program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("message", metavar="MESSAGE", help="its name, as in Python")
     parser.add_argument(
@@ -27,9 +28,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--raw", action="store_true", help="write the bytes themselves, not hex")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print the frame in hex, or write its bytes with --raw."""
-    kind = message_named(arguments.message)
+    kind = message_named(arguments.message, program.library.codec)
     frame = message_from_text(kind, arguments.fields).encode()
     note_deprecated(kind)
     if arguments.raw:
@@ -45,14 +46,14 @@ def note_deprecated(kind: type[Message]) -> None:
         print(visible(f"note: {kind.__name__} is deprecated: {kind.DEPRECATED}"), file=sys.stderr)
 
 
-def message_named(name: str) -> type[Message]:
+def message_named(name: str, codec: ProtocolCodec) -> type[Message]:
     """Return the message of that name, however its words are joined."""
-    for kind in MESSAGES:
+    for kind in codec.messages:
         if _folded(kind.__name__) == _folded(name):
             return kind
     from difflib import get_close_matches  # only for those who mistype
 
-    names = [kind.__name__ for kind in MESSAGES]
+    names = [kind.__name__ for kind in codec.messages]
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
     raise UsageError(f"there is no message {name[:40]!r}; {hint}")

@@ -5,14 +5,11 @@ from __future__ import annotations
 
 import json
 
-from .._codec.codec import table_for, twins
 from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
 from .._frame.free_name import freely_named
 from .._frame.pluralize import pluralize
-from .._library import CODEC
-from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from .values import fields_as_text, fields_in_json
 
@@ -22,56 +19,65 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._codec.counters import Counters
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .._frame.message import Message
     from .._recording.entry import Entry
 
 # Noise that has the shape of a frame.
 UNKNOWN = "unknown"
-KINDS = [*ends_of(CODEC).senders, EITHER, NOISE, UNKNOWN]
 # What is said of an unknown frame beside its numbers: behind them, and all of it as JSON.
 _PARAMETERS = "parameters"
 _NOISE_KEYS = ["offset", "time", "from", "noise", "reason", _PARAMETERS]
 
 
-def names_of(event: Message | Noise, direction: Direction | None) -> list[str]:
+def kinds(codec: ProtocolCodec) -> list[str]:
+    """Return what an event may be called, whatever message it is: by who sent it, or noise."""
+    return [*codec.senders, EITHER, NOISE, UNKNOWN]
+
+
+def names_of(
+    event: Message | Noise, direction: Direction | None, codec: ProtocolCodec
+) -> list[str]:
     """Return the names of the messages that it may be; none for noise."""
     if isinstance(event, Noise):
         return []
     name = type(event).__name__
-    return [name, *(kind.__name__ for kind in twins(event))] if direction is None else [name]
+    return [name, *(kind.__name__ for kind in codec.twins(event))] if direction is None else [name]
 
 
-def sender_of(event: Message | Noise, direction: Direction | None) -> str:
+def sender_of(event: Message | Noise, direction: Direction | None, codec: ProtocolCodec) -> str:
     """Return who sent it; `either` if that is unknown; or that it is noise."""
     if isinstance(event, Noise):
         return UNKNOWN if isinstance(event, UnknownFrame) else NOISE
-    return origin_of(event, direction)[0]
+    return origin_of(event, direction, codec)[0]
 
 
-def origin_of(event: Message | Noise, direction: Direction | None) -> tuple[str, list[str]]:
+def origin_of(
+    event: Message | Noise, direction: Direction | None, codec: ProtocolCodec
+) -> tuple[str, list[str]]:
     """Return who sent it, noise or not, `either` if that is unknown; and the messages it may be."""
     if isinstance(event, Noise):
         return EITHER if direction is None else direction.sender, []
-    names = names_of(event, direction)
+    names = names_of(event, direction, codec)
     return EITHER if len(names) > 1 else event.DIRECTION.sender, names
 
 
-def in_words(event: Message | Noise, direction: Direction | None) -> str:
+def in_words(event: Message | Noise, direction: Direction | None, codec: ProtocolCodec) -> str:
     """Return the name and the fields with their units; for noise, why it is noise."""
     if isinstance(event, UnknownFrame):
         parameters = format_hex(event.parameters) or "none"
         said = freely_named(event.numbers, [_PARAMETERS]) | {_PARAMETERS: parameters}
         return " ".join(f"{name}={value}" for name, value in said.items())
     if isinstance(event, Noise):
-        return _why(event, direction)
-    name = " or ".join(names_of(event, direction))
+        return _why(event, direction, codec)
+    name = " or ".join(names_of(event, direction, codec))
     return " ".join(part for part in (name, fields_as_text(event)) if part)
 
 
-def in_json(event: Message | Noise, direction: Direction | None) -> str:
+def in_json(event: Message | Noise, direction: Direction | None, codec: ProtocolCodec) -> str:
     """Return the text of a JSON object: who sent it, noise or not, and what it holds."""
-    sender, names = origin_of(event, direction)
+    sender, names = origin_of(event, direction, codec)
     if isinstance(event, Noise):
         record: dict[str, Any] = {"from": sender, "noise": format_hex(event.data)}
         record["reason"] = event.reason.value
@@ -111,9 +117,9 @@ def totals(seen: Counters) -> str:
     return f"{totals}, {pluralize(seen.noise, 'byte')} of noise{unknown}"
 
 
-def _why(noise: Noise, direction: Direction | None) -> str:
+def _why(noise: Noise, direction: Direction | None, codec: ProtocolCodec) -> str:
     """Return the reason, and what was expected, if the bytes show it."""
-    table = table_for(direction)
+    table = codec.table_for(direction)
     verdict = table.weigh(noise.data)
     if verdict.kind is None and verdict.reason is noise.reason:
         return f"{noise.reason.value}: {table.error(noise.data, verdict).problem}"

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-PROGRAM = "busservo"
+from .program import Program
+
 SUMMARY = "Send, read and replay frames of: Hiwonder bus servo controller."
 
 VERBS = {
@@ -216,3 +217,16 @@ EXAMPLES = {
         ),
     ),
 }
+
+PROGRAM = Program(
+    "busservo",
+    __name__.rpartition("._cli.")[0],
+    summary=SUMMARY,
+    verbs=VERBS,
+    examples=EXAMPLES,
+    methods=METHODS,
+    pose_methods=POSE_METHODS,
+    long=LONG,
+    stop_message=STOP_MESSAGE,
+)
+"""What the command is made of."""

@@ -7,8 +7,6 @@ import time
 
 from .._codec.event_bytes import bytes_of
 from .._frame.bytes_like import format_hex
-from .._library import CODEC
-from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from .colour import painted, takes_colour
 from .console import visible, write_as_it_is
@@ -19,16 +17,13 @@ if TYPE_CHECKING:
     from typing import TextIO
 
     from .._codec.noise import Noise
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .._frame.message import Message
 
 TIMES = ("absolute", "delta", "zero")
-_COLOURS = {
-    **dict(zip(ends_of(CODEC).senders, ("cyan", "green"), strict=False)),
-    EITHER: "yellow",
-    UNKNOWN: "magenta",
-    NOISE: "red",
-}
+_OF_SENDERS = ("cyan", "green")
+_COLOURS = {EITHER: "yellow", UNKNOWN: "magenta", NOISE: "red"}
 
 
 class Lines:
@@ -38,12 +33,16 @@ class Lines:
     any clock for the others.
     """
 
-    def __init__(self, screen: TextIO, times: str = "zero", *, as_json: bool = False) -> None:
+    def __init__(
+        self, screen: TextIO, codec: ProtocolCodec, times: str = "zero", *, as_json: bool = False
+    ) -> None:
         self._screen = screen
+        self._codec = codec
         self._times = times
         self._began = self._last = 0.0
         self._json = as_json
         self._colour = takes_colour(screen) and not as_json
+        self._colours = dict(zip(codec.senders, _OF_SENDERS, strict=False)) | _COLOURS
         self.count = 0
 
     def begin(self, now: float) -> None:
@@ -64,19 +63,19 @@ class Lines:
 
     def _as_text(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
         when = time_of_day(at) if self._times == "absolute" else f"{at:12.6f}"
-        line = in_line(event, direction)
+        line = in_line(event, direction, self._codec)
         if self._colour:
-            who = sender_of(event, direction)
-            line = painted(f"{who:10}", _COLOURS[who]) + line[max(10, len(who)) :]
+            who = sender_of(event, direction, self._codec)
+            line = painted(f"{who:10}", self._colours[who]) + line[max(10, len(who)) :]
         return f"{when:>12}  {line}"
 
     def _as_json(self, event: Message | Noise, direction: Direction | None, at: float) -> str:
-        return f'{{"time": {round(at, 6)}, {in_json(event, direction)[1:]}'
+        return f'{{"time": {round(at, 6)}, {in_json(event, direction, self._codec)[1:]}'
 
 
-def in_line(event: Message | Noise, direction: Direction | None) -> str:
+def in_line(event: Message | Noise, direction: Direction | None, codec: ProtocolCodec) -> str:
     """Return the text of an event, behind its time or place: sender, meaning and bytes."""
-    who, what = sender_of(event, direction), in_words(event, direction)
+    who, what = sender_of(event, direction, codec), in_words(event, direction, codec)
     return f"{who:10}  {visible(what)} | {format_hex(bytes_of(event))}"
 
 

@@ -11,21 +11,14 @@ from argparse import BooleanOptionalAction
 from contextlib import contextmanager
 
 from .._client.base_client import REPLY_TIMEOUT
-from .._client.controller import Controller
-from .._client.exchanges import LIMITS
 from .._frame.pluralize import pluralize
-from .._frame.protocol import BAUD
-from .._library import LIBRARY, LINK
 from .._serial.hid_devices import hid_devices_at_hand
 from .._serial.link_errors import ClosedError, DisconnectedError, TransportError, WriteStuckError
-from .._serial.opening import open_transport
-from .._serial.serial_port import serial_ports
+from .._serial.serial_port import open_port, serial_ports
 from .console import visible
-from .examples import PROGRAM
 from .exit_codes import LINE_LOST, TERMINATED
 from .numerals import above_zero, at_least
 from .progress_thread import shown_progress
-from .settings import FILE, VARIABLE
 from .usage_error import LineLostError, UsageError
 
 TYPE_CHECKING = False
@@ -34,10 +27,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from .._client.client import Client
+    from .._client.library import Library
     from .._client.limits import Allowed
     from .._serial.hid_devices import HidDevice
     from .._serial.serial_port import SerialPortSeen
     from .._serial.transport import Transport
+    from .program import Program
 
 ENDS = {
     LINE_LOST: "the line was lost: a cable pulled, a device gone, the other end hung up",
@@ -47,17 +42,18 @@ ENDS = {
 _LONGEST = 3600.0
 
 
-def add_port(parser: argparse.ArgumentParser, *, client: bool = True) -> None:
+def add_port(parser: argparse.ArgumentParser, program: Program, *, client: bool = True) -> None:
     """Declare the options that name the port and describe its line.
 
     What is not given, `settings` fills in. `client` is whether a client is opened on it; only a
     client handles a local echo.
     """
+    variable, file = program.port_variable, program.settings_file
     parser.add_argument(
         "--port",
         metavar="PORT",
         help="such as /dev/ttyUSB0, COM7 or socket://HOST:PORT; `ports` lists them "
-        f"(default: the environment variable {VARIABLE}, else {FILE} in this folder or the user's, "
+        f"(default: the environment variable {variable}, else {file} in this folder or the user's, "
         "else the only port on USB)",
     )
     parser.add_argument(
@@ -65,7 +61,7 @@ def add_port(parser: argparse.ArgumentParser, *, client: bool = True) -> None:
         type=_rate,
         metavar="BAUD",
         help=f"the rate of the line; inf: bytes take no time, as over TCP "
-        f"(default: of {FILE}, else {BAUD})",
+        f"(default: of {file}, else {program.library.link.baud})",
     )
     if client:
         parser.add_argument(
@@ -75,7 +71,7 @@ def add_port(parser: argparse.ArgumentParser, *, client: bool = True) -> None:
         )
 
 
-def port_of(arguments: argparse.Namespace) -> str:
+def port_of(arguments: argparse.Namespace, program: Program) -> str:
     """Return the port that is named, or the only one that is plugged in by USB.
 
     Raises UsageError where there are several, or none.
@@ -83,17 +79,19 @@ def port_of(arguments: argparse.Namespace) -> str:
     if arguments.port is not None:
         return str(arguments.port)
     ports = serial_ports()
-    only = only_port(ports, hid_devices_at_hand(LINK) or [])
+    only = only_port(ports, hid_devices_at_hand(program.library.link) or [])
     if only is not None:
         return only
     likely = plugged_in(ports) or ports
     if not likely:
         advice = "plug in the device, or name a port: --port PORT"
-        advice += f", {VARIABLE}=PORT, or `port` in {FILE}"
-        raise UsageError(f"no port is plugged in; {advice}; `{PROGRAM} doctor` looks closer")
+        advice += f", {program.port_variable}=PORT, or `port` in {program.settings_file}"
+        raise UsageError(f"no port is plugged in; {advice}; `{program.name} doctor` looks closer")
     width = max(len(each.name) for each in likely)
     choices = [f"--port {each.name:<{width}}  {each.product or 'not USB'}" for each in likely]
-    choices.append(f"{PROGRAM} doctor --port PORT --save  keeps one in {FILE}")
+    choices.append(
+        f"{program.name} doctor --port PORT --save  keeps one in {program.settings_file}"
+    )
     if plugged_in(ports):
         several = pluralize(len(likely), "port")
         raise UsageError(f"{several} are plugged in by USB; name the one that is meant:", choices)
@@ -134,31 +132,32 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def open_line(port: str, baud: float = BAUD) -> Transport:
+def open_line(port: str, baud: float, library: Library) -> Transport:
     """Open a port, and show that while it takes long: an address may be far away.
 
     Raises UsageError for a rate that no port can be set to.
     """
     try:
         with shown_progress(lambda waited: f"opening {port}, {waited:.0f} s"):
-            return open_transport(port, baud=baud)
+            return open_port(port, library.link, library.codec, baud=baud, exclusive=True)
     except ValueError as error:
         raise UsageError(str(error)) from None
 
 
 def open_client(
     arguments: argparse.Namespace,
+    program: Program,
     *,
+    limits: Allowed,
     retries: int = 0,
-    limits: Allowed = LIMITS.usual,
     settle: float | None = None,
 ) -> Client:
     """Open a client as open_line does, with the times that the arguments give."""
-    logger = LIBRARY.log()
+    logger = program.library.log()
     if not any(isinstance(each, _Warnings) for each in logger.handlers):
-        logger.addHandler(_Warnings(logging.WARNING))
-    return Controller(
-        open_line(port_of(arguments), arguments.baud),
+        logger.addHandler(_Warnings(program.name))
+    return program.library.client(
+        open_line(port_of(arguments, program), arguments.baud, program.library),
         baud=arguments.baud,
         reply_timeout=arguments.timeout,
         retries=retries,
@@ -171,8 +170,12 @@ def open_client(
 class _Warnings(logging.Handler):
     """A log handler that prints the library's warnings as the command prints everything else."""
 
+    def __init__(self, program: str) -> None:
+        super().__init__(logging.WARNING)
+        self._program = program
+
     def emit(self, record: logging.LogRecord) -> None:
-        print(f"{PROGRAM}: {visible(record.getMessage())}", file=sys.stderr)
+        print(f"{self._program}: {visible(record.getMessage())}", file=sys.stderr)
 
 
 @contextmanager

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._library import CODEC, LINK
 from .._recording.excerpt import ExcerptError
 from .._tables.stats.statistics import Statistics, statistics
 from .._tables.stats.traces import Traces
@@ -16,25 +15,26 @@ from .usage_error import UsageError
 if TYPE_CHECKING:
     from argparse import Namespace
 
+    from .._serial.link import Link
     from .recording import Recording
 
 
 def measured(
-    recording: Recording, form: str, arguments: Namespace
+    recording: Recording, form: str, arguments: Namespace, link: Link
 ) -> tuple[Statistics, Traces | None]:
     """Return what a recording holds, and the traces of its readings if they are to be drawn.
 
     Raises UsageError.
     """
-    traces = None
+    codec, traces = recording.codec, None
     if arguments.plot is not None:
-        traces = Traces(LINK.bits_per_byte / arguments.baud, CODEC.received)
+        traces = Traces(link.bits_per_byte / arguments.baud, codec.received)
     try:
         found = statistics(
-            CODEC,
+            codec,
             recording,
             form=form,
-            direction=direction_in(arguments),
+            direction=direction_in(arguments, codec),
             traces=traces,
             excerpt=excerpt_of(arguments),
             ids=arguments.ids,

@@ -8,18 +8,12 @@ import time
 from contextlib import closing
 from pathlib import Path
 
-from .._codec.decoder import StreamDecoder
 from .._codec.gap import GAP
-from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._library import CODEC
-from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
-from ..messages import MESSAGES
 from . import link
 from .encode import message_named
-from .events import KINDS, UNKNOWN, names_of, sender_of, totals
-from .examples import VERBS
+from .events import UNKNOWN, kinds, names_of, sender_of, totals
 from .exit_codes import DONE, INTERRUPTED
 from .lines import TIMES, Lines
 from .link import add_port, failures_reported, open_line, port_of
@@ -35,29 +29,32 @@ if TYPE_CHECKING:
     from typing import TextIO
 
     from .._codec.noise import Noise
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.message import Message
     from .._serial.transport import Transport
+    from .program import Program
 
 ENDS = link.ENDS
 ABOUT = """\
 One line for each frame and each piece of noise: the time, who sent it, what it says, its bytes.
 Ctrl-C ends it, and the totals follow on the error stream. Colours are shown on terminals only, and
 not where NO_COLOR is set."""
-_READERS = "`decode` and `replay`" if "replay" in VERBS else "`decode`"
 # How long one read may take, so that Ctrl-C is noticed on every system.
 _POLL_INTERVAL = 0.25
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
-    add_port(parser, client=False)
+    codec = program.library.codec
+    add_port(parser, program, client=False)
     # If nothing is sent to a client in this protocol, a monitor looks at what a client sends.
-    comes = any(kind.DIRECTION is RECEIVED for kind in MESSAGES)
-    received = next(name for name, way in ends_of(CODEC).named.items() if way is RECEIVED)
+    comes = any(kind.DIRECTION is codec.received for kind in codec.messages)
+    received = next(name for name, way in codec.named.items() if way is codec.received)
     usual = received if comes else "any"
+    readers = "`decode` and `replay`" if "replay" in program.verbs else "`decode`"
     parser.add_argument(
         "--direction",
-        choices=[*ends_of(CODEC).named, "any"],
+        choices=[*codec.named, "any"],
         default=usual,
         help=f"who sends on this line; any: both ends do, and what both may have sent is shown as "
         f"`either` (default: {usual})",
@@ -74,7 +71,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help=f"show only this: a message, {', '.join(KINDS)}; may be given several times",
+        help=f"show only this: a message, {', '.join(kinds(codec))}; may be given several times",
     )
     parser.add_argument(
         "--hide",
@@ -87,7 +84,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--log",
         type=Path,
         metavar="FILE",
-        help=f"record all of it, shown or not, for {_READERS}; a FILE that holds anything is never "
+        help=f"record all of it, shown or not, for {readers}; a FILE that holds anything is never "
         "overwritten",
     )
     parser.add_argument("-n", type=at_least(1), metavar="N", help="end after so many lines")
@@ -98,15 +95,16 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print until Ctrl-C, -n or the loss of the line, and then the totals."""
     # Names are checked before a port is opened or a file begun.
-    monitor = Monitor(arguments, sys.stdout)
-    port = port_of(arguments)
+    codec = program.library.codec
+    monitor = Monitor(arguments, sys.stdout, codec)
+    port = port_of(arguments, program)
     with (
         failures_reported(arguments),
-        closing(open_line(port, arguments.baud)) as line,
-        Recorder(arguments.log) as recorder,
+        closing(open_line(port, arguments.baud, program.library)) as line,
+        Recorder(arguments.log, codec) as recorder,
     ):
         recorder.begin(port, time.monotonic())
         try:
@@ -123,6 +121,7 @@ class Monitor:
         self,
         arguments: Namespace,
         screen: TextIO,
+        codec: ProtocolCodec,
         *,
         clock: Callable[[], float] = time.monotonic,
         day: Callable[[], float] = time.time,
@@ -131,12 +130,13 @@ class Monitor:
         self._day = day
         self._absolute = arguments.time == "absolute"
         self._left: int | None = arguments.n
-        self._only = {_filter(name) for name in arguments.only}
-        self._hidden = {_filter(name) for name in arguments.hide}
-        self._direction = ends_of(CODEC).named.get(arguments.direction)
-        self._decoder = StreamDecoder(self._direction)
+        self._only = {_filter(name, codec) for name in arguments.only}
+        self._hidden = {_filter(name, codec) for name in arguments.hide}
+        self._codec = codec
+        self._direction = codec.named.get(arguments.direction)
+        self._decoder = codec.decoder(self._direction)
         self._progress = Progress(sys.stderr)
-        self._lines = Lines(screen, arguments.time, as_json=arguments.json)
+        self._lines = Lines(screen, codec, arguments.time, as_json=arguments.json)
 
     def watch(self, line: Transport, recorder: Recorder) -> None:
         """Read and print, up to the given number of lines; the totals come in any case."""
@@ -177,10 +177,10 @@ class Monitor:
                     self._left -= 1
 
     def _wanted(self, event: Message | Noise) -> bool:
-        who = sender_of(event, self._direction)
-        names = {who, *names_of(event, self._direction)}
+        who = sender_of(event, self._direction, self._codec)
+        names = {who, *names_of(event, self._direction, self._codec)}
         # An unknown frame counts as noise, too, and an event of either end as one of both.
-        wider = names | {UNKNOWN: {NOISE}, EITHER: {*ends_of(CODEC).senders}}.get(who, set())
+        wider = names | {UNKNOWN: {NOISE}, EITHER: {*self._codec.senders}}.get(who, set())
         return (not self._only or bool(wider & self._only)) and not names & self._hidden
 
     def _so_far(self, waited: float) -> str:
@@ -194,10 +194,11 @@ class Monitor:
         return totals(self._decoder.counters) + (filtered if self._only or self._hidden else "")
 
 
-def _filter(name: str) -> str:
-    if name in KINDS:
+def _filter(name: str, codec: ProtocolCodec) -> str:
+    known = kinds(codec)
+    if name in known:
         return name
     try:
-        return message_named(name).__name__
+        return message_named(name, codec).__name__
     except UsageError as error:
-        raise UsageError(f"{error}; besides messages, there are {', '.join(KINDS)}") from None
+        raise UsageError(f"{error}; besides messages, there are {', '.join(known)}") from None

@@ -8,10 +8,8 @@ import sys
 import threading
 import time
 
-from .._codec.decoder import StreamDecoder
 from .._codec.event_bytes import bytes_of
 from .._codec.gap import GAP
-from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
 from .._serial.link_errors import TransportError
 from .events import totals
@@ -24,6 +22,7 @@ if TYPE_CHECKING:
     from typing import TextIO
 
     from .._codec.noise import Noise
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.message import Message
     from .._recording.entry import Entry
     from .._serial.transport import Transport
@@ -37,10 +36,11 @@ _POLL_INTERVAL = 0.1
 class Playback:
     """One replay, on a given screen."""
 
-    def __init__(self, screen: TextIO) -> None:
-        self._lines = Lines(screen)
+    def __init__(self, screen: TextIO, codec: ProtocolCodec) -> None:
+        self._lines = Lines(screen, codec)
         self._progress = Progress(sys.stderr)
-        self._decoder = StreamDecoder(RECEIVED)
+        self._way = codec.received
+        self._decoder = codec.decoder(codec.received)
         # What the listener has received: bytes, or the error that ended it; and when.
         self._received: queue.SimpleQueue[tuple[bytes | TransportError, float]] = (
             queue.SimpleQueue()
@@ -109,4 +109,4 @@ class Playback:
     def _show(self, events: Sequence[Message | Noise], now: float) -> None:
         for event in events:
             self._progress.clear()
-            self._lines.show(event, RECEIVED, now)
+            self._lines.show(event, self._way, now)

@@ -6,8 +6,6 @@ from __future__ import annotations
 import json
 import sys
 
-from .._frame.protocol import HID_DEVICES
-from .._library import LINK
 from .._serial.hid_devices import UNSEEN, hid_devices_at_hand
 from .._serial.serial_port import serial_ports
 from .console import visible
@@ -18,20 +16,21 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .._serial.hid_devices import HidDevice
+    from .program import Program
 
     # The name of a port, VID:PID, and what it is.
     Row = tuple[str, str, str]
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, _program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("--json", action="store_true", help="print each port as a line of JSON")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print a line for each port: its name, VID:PID if it has them, what it is."""
     serial = [(each.name, each.usb, each.product) for each in serial_ports()]
-    devices = hid_devices_at_hand(LINK)
+    devices = hid_devices_at_hand(program.library.link)
     for name, usb, about in [*serial, *_by_hid(devices or [])]:
         if arguments.json:
             print(json.dumps({"port": name, "usb": usb or None, "description": about}))
@@ -39,8 +38,9 @@ def run(arguments: Namespace) -> int:
             print(visible(f"{name:16}  {usb or '-':9}  {about}".rstrip()))
     if not serial:
         print("no serial port is plugged in", file=sys.stderr)
-    if devices is None and HID_DEVICES and not any(usb for _, usb, _ in serial):
-        known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
+    boards = program.library.link.hid_devices
+    if devices is None and boards and not any(usb for _, usb, _ in serial):
+        known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in boards)
         hint = f"USB HID devices ({known}) have no serial port, and are not listed without"
         print(f"{hint} hidapi: pip install hidapi", file=sys.stderr)
     return 0

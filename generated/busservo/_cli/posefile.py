@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from .._frame.errors import EncodeError
-from .examples import PROGRAM
 from .usage_error import UsageError
 from .whole_file import write_whole
 
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from .._client.pose import Pose
     from .limits import Chosen
 
-FORMAT = f"{PROGRAM} poses"
 VERSION = 1
 # The longest pause that a motion may be followed by.
 LONGEST_PAUSE = 3600.0
@@ -40,8 +38,11 @@ class Recorded:
     pause_s: float | None = None
 
 
-def read_poses(path: Path, pose: Pose) -> list[Recorded]:
-    """Return all poses of a file, proven sendable. Raises UsageError with the place."""
+def read_poses(path: Path, pose: Pose, program: str) -> list[Recorded]:
+    """Return all poses of a file, proven sendable. Raises UsageError with the place.
+
+    `program` is the command whose file it has to be.
+    """
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -54,14 +55,14 @@ def read_poses(path: Path, pose: Pose) -> list[Recorded]:
         raise UsageError(f"{path}, {where}: it is not JSON: {error.msg}") from None
     except (ValueError, RecursionError) as error:
         raise UsageError(f"{path}: {error}") from None
-    return _Reader(path, pose).poses(data)
+    return _Reader(path, pose, _format(program)).poses(data)
 
 
-def write_poses(path: Path, poses: Sequence[Recorded]) -> None:
+def write_poses(path: Path, poses: Sequence[Recorded], program: str) -> None:
     """Write the poses, one a line, and leave no half file behind. Raises UsageError."""
     lines = ",\n".join(f"    {json.dumps(_plain(each))}" for each in poses)
     text = (
-        f'{{\n  "format": {json.dumps(FORMAT)},\n  "version": {VERSION},\n  "poses": [\n'
+        f'{{\n  "format": {json.dumps(_format(program))},\n  "version": {VERSION},\n  "poses": [\n'
         f"{lines}\n  ]\n}}\n"
     )
     write_whole(path, text.encode())
@@ -77,6 +78,11 @@ def check_limits(path: Path, poses: Iterable[Recorded], pose: Pose, limits: Chos
                 owner = f"{pose.noun} {number}" if each_its_own else ""
                 place = f"{path}: poses[{at}].positions.{number}"
                 raise limits.outside(place, position, bounds, owner)
+
+
+def _format(program: str) -> str:
+    """Return what the files of a command say of themselves."""
+    return f"{program} poses"
 
 
 def _plain(pose: Recorded) -> dict[str, Any]:
@@ -101,14 +107,15 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 class _Reader:
     """A reader of the file's objects, with errors that name the place."""
 
-    def __init__(self, path: Path, pose: Pose) -> None:
+    def __init__(self, path: Path, pose: Pose, form: str) -> None:
         self._path = path
         self._pose = pose
+        self._form = form
 
     def poses(self, data: Any) -> list[Recorded]:
         self._object(data, "", ["format", "version", "poses"], needed=3)
-        if data["format"] != FORMAT:
-            raise self._wrong("format", f"{_shown(data['format'])} is not {FORMAT!r}")
+        if data["format"] != self._form:
+            raise self._wrong("format", f"{_shown(data['format'])} is not {self._form!r}")
         if data["version"] != VERSION or isinstance(data["version"], bool):
             problem = f"{_shown(data['version'])} is not a version known here, which is {VERSION}"
             raise self._wrong("version", problem)

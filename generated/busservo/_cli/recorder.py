@@ -10,7 +10,6 @@ from contextlib import contextmanager, suppress
 
 from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
-from .._frame.direction import RECEIVED
 from .._recording.file import EITHER, NOISE, RecordingFile
 from .events import names_of, sender_of
 from .usage_error import UsageError
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .._frame.message import Message
 
@@ -30,8 +30,9 @@ if TYPE_CHECKING:
 class Recorder:
     """A recording in progress, or none at all; to be used in a `with`. Raises UsageError."""
 
-    def __init__(self, path: Path | None) -> None:
+    def __init__(self, path: Path | None, codec: ProtocolCodec) -> None:
         self._path = path
+        self._codec = codec
         self._file: RecordingFile | None = None
         self._began = 0.0
         if path is not None:
@@ -66,12 +67,13 @@ class Recorder:
         if self._file is None:
             return
         for event in events:
-            who, what = sender_of(event, direction), " or ".join(names_of(event, direction))
+            who = sender_of(event, direction, self._codec)
+            what = " or ".join(names_of(event, direction, self._codec))
             if isinstance(event, Noise):
                 # Frames of the device are never sent to it, noise or not; all others are marked as
                 # received.
                 sender = EITHER if direction is None else direction.sender
-                who = NOISE if direction is RECEIVED else f"{sender} {NOISE}"
+                who = NOISE if direction is self._codec.received else f"{sender} {NOISE}"
                 what = event.reason.value
             elif who != EITHER:
                 what = repr(event)

@@ -8,7 +8,6 @@ from .._explanation.pattern import pattern
 from .._explanation.protocol import listed
 from .._explanation.text import to_hex
 from .._frame.pluralize import describe_range, pluralize
-from .examples import PROGRAM
 from .reference_topics import erratum_lines, unknown_line
 
 TYPE_CHECKING = False
@@ -26,10 +25,14 @@ _MOST_DOTS = 8
 
 
 def message_list(
-    sheet: Sheet, model: Protocol, messages: Sequence[Message], *, all_of_them: bool
+    sheet: Sheet, model: Protocol, messages: Sequence[Message], *, command: str = ""
 ) -> None:
-    """Print a line for each message, those of each direction together."""
-    if all_of_them:
+    """Print a line for each message, those of each direction together.
+
+    `command` is the name of the command where these are all messages: what concerns all of them is
+    printed as well.
+    """
+    if command:
         sheet.heading(model.title)
         sheet.paragraph(model.said["summary"])
         sheet.paragraphs(model.said["description"])
@@ -50,12 +53,12 @@ def message_list(
         if rows:
             sheet.heading(direction)
             sheet.columns(rows)
-    if all_of_them:
+    if command:
         _reserved(sheet, model)
         sheet.line()
         sheet.paragraph(
-            f"`{PROGRAM} docs MESSAGE` prints the page of one, `{PROGRAM} docs WORD` lists those "
-            f"that speak of something, `{PROGRAM} docs errata` and `{PROGRAM} docs lookalikes` "
+            f"`{command} docs MESSAGE` prints the page of one, `{command} docs WORD` lists those "
+            f"that speak of something, `{command} docs errata` and `{command} docs lookalikes` "
             f"say what else is known."
         )
 

@@ -7,14 +7,10 @@ import sys
 from contextlib import closing
 from pathlib import Path
 
-from .._client.exchanges import EXCHANGES
 from .._client.wire_time import WireTime
 from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise
-from .._frame.direction import RECEIVED
 from .._frame.pluralize import pluralize
-from .._library import CODEC, LINK
-from .._recording.ends import ends_of
 from .._recording.file import EITHER, NOISE
 from .._recording.form import FORMS
 from . import link
@@ -33,7 +29,10 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterable, Iterator
 
+    from .._client.library import Library
+    from .._codec.protocol_codec import ProtocolCodec
     from .._recording.entry import Entry
+    from .program import Program
 
 ENDS = link.ENDS
 ABOUT = """\
@@ -47,10 +46,10 @@ The device does at once what is sent, within the limits of `send` or beyond them
 room, and look at --dry-run first."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording; - is standard input")
-    add_port(parser, client=False)
+    add_port(parser, program, client=False)
     parser.add_argument(
         "--speed",
         type=above_zero(),
@@ -61,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dry-run", action="store_true", help="print what would be sent, and when")
     parser.add_argument(
         "--direction",
-        choices=[*ends_of(CODEC).named, "any"],
+        choices=[*program.library.codec.named, "any"],
         default="any",
         help="who sent the bytes, where the file does not say (default: any)",
     )
@@ -83,79 +82,93 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace, program: Program) -> int:
     """Send the chosen entries, or only print them."""
-    port = "" if arguments.dry_run else port_of(arguments)
-    direction = ends_of(CODEC).named.get(arguments.direction)
-    with opened(arguments.file) as given, rereadable(given) as recording:
+    port = "" if arguments.dry_run else port_of(arguments, program)
+    codec = program.library.codec
+    direction = codec.named.get(arguments.direction)
+    with opened(arguments.file, codec) as given, rereadable(given) as recording:
         # All of it is checked before any of it is sent.
-        count = _survey(recording.entries(arguments.format, direction), recording.name, arguments)
-        entries = (
-            entry
-            for entry in recording.entries(arguments.format, direction)
-            if _is_chosen(entry, recording.name, arguments)
-        )
-        timed = _timed(entries, arguments.speed, arguments.baud)
+        choice = _Choice(arguments, recording.name, program.library)
+        count = choice.survey(recording.entries(arguments.format, direction))
+        entries = filter(choice.has, recording.entries(arguments.format, direction))
+        wire = WireTime(program.library.link, arguments.baud)
+        timed = _timed(entries, arguments.speed, wire)
         if arguments.dry_run:
-            _show(timed, arguments.baud)
+            _show(timed, wire, codec)
             return DONE
-        with failures_reported(arguments), closing(open_line(port, arguments.baud)) as line:
+        with (
+            failures_reported(arguments),
+            closing(open_line(port, arguments.baud, program.library)) as line,
+        ):
             try:
-                Playback(sys.stdout).play(line, timed, count)
+                Playback(sys.stdout, codec).play(line, timed, count)
             except KeyboardInterrupt:
                 return INTERRUPTED
     return DONE
 
 
-def _survey(entries: Iterable[Entry], name: str, arguments: argparse.Namespace) -> int:
-    """Return how many entries are sent. Raises UsageError for a bad one, or if there is none."""
-    before = 0.0
-    chosen = 0
-    left: dict[str, int] = {}
-    for entry in entries:
-        # A client may record late what it has received, as when it has reopened a line.
-        if entry.time is not None and entry.sender != RECEIVED.sender:
-            if entry.time < before:
-                raise UsageError(
-                    f"{name}, {entry.place}: {entry.time:.6f} s is before {before:.6f} s in a line "
-                    "above; play the recordings one by one, or put their times in order"
-                )
-            before = entry.time
-        if _is_chosen(entry, name, arguments):
-            chosen += 1
-        else:
-            kind = NOISE if isinstance(entry.event, Noise) else entry.sender or EITHER
-            left[kind] = left.get(kind, 0) + 1
-    if not chosen:
-        raise UsageError(f"{arguments.file} holds nothing to send; it holds {_kinds(left)}")
-    if left:
-        print(f"left out: {_kinds(left)}", file=sys.stderr)
-    return chosen
+class _Choice:
+    """What of a recording is sent."""
 
+    def __init__(self, arguments: argparse.Namespace, name: str, library: Library) -> None:
+        self._arguments = arguments
+        self._name = name
+        self._codec = library.codec
+        self._received = library.codec.received.sender
+        self._own = {kind.DIRECTION.sender for kind in library.exchanges}
 
-def _is_chosen(entry: Entry, name: str, arguments: argparse.Namespace) -> bool:
-    """Return whether an entry is sent. Raises UsageError if that is undecided."""
-    own = {kind.DIRECTION.sender for kind in EXCHANGES}
-    if arguments.raw:
-        return True
-    if entry.sender not in {*own, None}:
-        return False
-    what = in_words(entry.event, entry.direction)
-    if isinstance(entry.event, Noise):
-        if not arguments.skip_noise:
+    def survey(self, entries: Iterable[Entry]) -> int:
+        """Return how many are sent. Raises UsageError for a bad one, or if there is none."""
+        before = 0.0
+        chosen = 0
+        left: dict[str, int] = {}
+        for entry in entries:
+            # A client may record late what it has received, as when it has reopened a line.
+            if entry.time is not None and entry.sender != self._received:
+                if entry.time < before:
+                    raise UsageError(
+                        f"{self._name}, {entry.place}: {entry.time:.6f} s is before {before:.6f} s "
+                        "in a line above; play the recordings one by one, or put their times in "
+                        "order"
+                    )
+                before = entry.time
+            if self.has(entry):
+                chosen += 1
+            else:
+                kind = NOISE if isinstance(entry.event, Noise) else entry.sender or EITHER
+                left[kind] = left.get(kind, 0) + 1
+        if not chosen:
             raise UsageError(
-                f"{name}, {entry.place}: it is no frame ({what}); "
-                "--skip-noise leaves out what is none, --raw sends every byte"
+                f"{self._arguments.file} holds nothing to send; it holds {_kinds(left)}"
             )
-        return False
-    if entry.sender is None and arguments.either is None:
-        names = [name for name, way in ends_of(CODEC).named.items() if way.sender in own]
-        raise UsageError(
-            f"{name}, {entry.place}: it is {what}, and nothing shows who sent it; --either send "
-            "sends such frames, --either skip leaves them out, and of a file that names no senders "
-            f"--direction {' or '.join(names)} says that all of it is from here"
-        )
-    return entry.sender is not None or arguments.either == "send"
+        if left:
+            print(f"left out: {_kinds(left)}", file=sys.stderr)
+        return chosen
+
+    def has(self, entry: Entry) -> bool:
+        """Return whether an entry is sent. Raises UsageError if that is undecided."""
+        if self._arguments.raw:
+            return True
+        if entry.sender not in {*self._own, None}:
+            return False
+        what = in_words(entry.event, entry.direction, self._codec)
+        if isinstance(entry.event, Noise):
+            if not self._arguments.skip_noise:
+                raise UsageError(
+                    f"{self._name}, {entry.place}: it is no frame ({what}); "
+                    "--skip-noise leaves out what is none, --raw sends every byte"
+                )
+            return False
+        if entry.sender is None and self._arguments.either is None:
+            names = [name for name, way in self._codec.named.items() if way.sender in self._own]
+            raise UsageError(
+                f"{self._name}, {entry.place}: it is {what}, and nothing shows who sent it; "
+                "--either send sends such frames, --either skip leaves them out, and of a file "
+                f"that names no senders --direction {' or '.join(names)} says that all of it is "
+                "from here"
+            )
+        return entry.sender is not None or self._arguments.either == "send"
 
 
 def _kinds(found: dict[str, int]) -> str:
@@ -166,9 +179,8 @@ def _kinds(found: dict[str, int]) -> str:
     return ", ".join(kinds) or "nothing at all"
 
 
-def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tuple[Entry, float]]:
+def _timed(entries: Iterable[Entry], speed: float, wire: WireTime) -> Iterator[tuple[Entry, float]]:
     """Yield each entry with its time, in seconds from the first: as recorded, without overlap."""
-    wire = WireTime(LINK, baud)
     first: float | None = None
     for entry in entries:
         at = entry.time or 0.0
@@ -176,9 +188,9 @@ def _timed(entries: Iterable[Entry], speed: float, baud: float) -> Iterator[tupl
         yield entry, wire.take(len(bytes_of(entry.event)), (at - first) / speed)
 
 
-def _show(timed: Iterable[tuple[Entry, float]], baud: float) -> None:
+def _show(timed: Iterable[tuple[Entry, float]], wire: WireTime, codec: ProtocolCodec) -> None:
     """Print what would be sent, and when."""
-    lines, wire = Lines(sys.stdout), WireTime(LINK, baud)
+    lines = Lines(sys.stdout, codec)
     size, ends = 0, 0.0
     for entry, at in timed:
         lines.show(entry.event, entry.direction, at)

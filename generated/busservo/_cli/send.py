@@ -6,7 +6,6 @@ from __future__ import annotations
 import sys
 
 from .._client.exchange import UNFAILING
-from .._client.exchanges import EXCHANGES
 from .._client.long_question import left_out
 from .._frame.errors import EncodeError, LimitError, ProtocolError
 from .._recording.entry import Entry
@@ -28,30 +27,35 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._client.client import Client
+    from .._client.library import Library
     from .._client.request import Sent
     from .._frame.message import Message
     from .limits import Chosen
-
-_NOT_ALL = "no reply came in time, or it reported less than was requested"
-if any(each.failures is not UNFAILING for each in EXCHANGES.values()):
-    _NOT_ALL += ", or the device refused or failed"
-ENDS = link.ENDS | {NOT_ALL: _NOT_ALL}
+    from .program import Program
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def ends(program: Program) -> dict[int, str]:
+    """Return what its exit statuses mean, besides those of every verb."""
+    not_all = "no reply came in time, or it reported less than was requested"
+    if any(each.failures is not UNFAILING for each in program.library.exchanges.values()):
+        not_all += ", or the device refused or failed"
+    return link.ENDS | {NOT_ALL: not_all}
+
+
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
-    add_port(parser)
+    add_port(parser, program)
     parser.add_argument("message", metavar="MESSAGE", help="its name, as in Python")
     parser.add_argument(
         "fields", nargs="*", metavar="FIELD=VALUE", help="numbers, names of values, or lists"
     )
-    add_sending(parser)
+    add_sending(parser, program)
 
 
-def add_sending(parser: ArgumentParser, *, answered: bool = True) -> None:
+def add_sending(parser: ArgumentParser, program: Program, *, answered: bool = True) -> None:
     """Declare the options of whatever sends a message, `answered` or not."""
     add_timeout(parser)
-    add_limits(parser)
+    add_limits(parser, program)
     if not answered:
         return
     parser.add_argument(
@@ -64,30 +68,32 @@ def add_sending(parser: ArgumentParser, *, answered: bool = True) -> None:
     parser.add_argument("--json", action="store_true", help="print the reply as a line of JSON")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Send the message, and print the reply."""
-    messages = in_parts(arguments.message, arguments.fields)
+    messages = in_parts(arguments.message, arguments.fields, program.library)
     note_deprecated(type(messages[0]))
     with (
         failures_reported(arguments),
         open_client(
-            arguments, retries=arguments.retries, limits=limits_of(arguments).allowed
+            arguments, program, retries=arguments.retries, limits=limits_of(arguments).allowed
         ) as controller,
     ):
-        return exchanged(controller, messages, arguments)
+        return exchanged(controller, messages, arguments, program.library)
 
 
-def exchanged(controller: Client, messages: list[Message], arguments: Namespace) -> int:
+def exchanged(
+    controller: Client, messages: list[Message], arguments: Namespace, library: Library
+) -> int:
     """Send messages, one after the other, and print the replies; return the exit status."""
     if len(messages) > 1:
         note = f"sent in {len(messages)} requests: one reply has no room for so much"
         print(note, file=sys.stderr)
-    lines = EntryLines(sys.stdout, "json" if arguments.json else "text")
+    lines = EntryLines(sys.stdout, "json" if arguments.json else "text", library.codec)
     missing: dict[str, list[int]] = {}
     unanswered: ProtocolError | None = None
     for message in messages:
         try:
-            replies = _answers(controller, message, arguments)
+            replies = _answers(controller, message, arguments, library)
         except TransportError:
             raise
         except ProtocolError as error:
@@ -96,7 +102,7 @@ def exchanged(controller: Client, messages: list[Message], arguments: Namespace)
         for reply in replies:
             lines.show(Entry(reply, reply.DIRECTION.sender, 0))
             sys.stdout.flush()
-            requested, left, _ = left_out(EXCHANGES, message, reply)
+            requested, left, _ = left_out(library.exchanges, message, reply)
             missing.setdefault(requested, []).extend(left)
     for requested, values in missing.items():
         if values:
@@ -117,12 +123,14 @@ def commanded(controller: Client, message: Message, limits: Chosen) -> Sent:
         raise UsageError(str(error)) from None
 
 
-def _answers(controller: Client, message: Message, arguments: Namespace) -> list[Message]:
+def _answers(
+    controller: Client, message: Message, arguments: Namespace, library: Library
+) -> list[Message]:
     """Return the reply to a request, and of one to all whatever comes in time; none to a command.
 
     Raises UsageError for what is not sent.
     """
-    exchange = EXCHANGES[type(message)]
+    exchange = library.exchanges[type(message)]
     reply = exchange.reply
     try:
         if reply is None:

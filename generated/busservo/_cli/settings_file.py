@@ -9,7 +9,6 @@ import re
 import sys
 from difflib import get_close_matches
 
-from .._client.exchanges import EXCHANGES, LIMITS, POSE
 from .limits import ANY, Chosen
 from .numerals import whole
 from .settings import Settings
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
+    from .._client.library import Library
     from .._client.limits import Bounds
 
 # Where the reader of TOML says that an error is.
@@ -38,9 +38,9 @@ _HINTS = {
 _MARK = b"\xef\xbb\xbf"  # that it is UTF-8, as some editors of Windows begin a file
 
 
-def parsed(path: Path, data: bytes) -> Settings:
+def parsed(path: Path, data: bytes, library: Library) -> Settings:
     """Return the settings in the bytes of a file. Raises UsageError that names path and key."""
-    return _Reader(path, text_of(path, data)).settings()
+    return _Reader(path, text_of(path, data), library).settings()
 
 
 def text_of(path: Path, data: bytes) -> str:
@@ -70,9 +70,11 @@ def table_of(path: Path, text: str) -> dict[str, Any]:
 class _Reader:
     """A reader of one file, with errors that name its path, the line and the key."""
 
-    def __init__(self, path: Path, text: str) -> None:
+    def __init__(self, path: Path, text: str, library: Library) -> None:
         self._path = path
         self._text = text
+        self._library = library
+        self._pose = library.pose
         self._table = table_of(path, text)
 
     def settings(self) -> Settings:
@@ -108,33 +110,34 @@ class _Reader:
         raise self._wrong(["local_echo"], f"{_shown(echo)} is neither true nor false")
 
     def _ids(self) -> tuple[int, ...]:
-        ids = self._table.get("ids", [])
-        if "ids" in self._table and POSE is None:
+        ids, pose = self._table.get("ids", []), self._pose
+        if "ids" in self._table and pose is None:
             raise self._wrong(["ids"], "nothing that is asked here takes a list of ids; remove it")
         if not isinstance(ids, list) or not all(map(_is_whole, ids)):
             raise self._wrong(["ids"], f"{_shown(ids)} is no list of numbers, such as [1, 2, 3]")
         for each in ids:
-            if POSE is not None and each not in POSE.ids:
-                bounds = f"{POSE.ids[0]}..{POSE.ids[-1]}"
-                raise self._wrong(["ids"], f"{each} is outside {bounds}, which a {POSE.noun} has")
+            if pose is not None and each not in pose.ids:
+                bounds = f"{pose.ids[0]}..{pose.ids[-1]}"
+                raise self._wrong(["ids"], f"{each} is outside {bounds}, which a {pose.noun} has")
         return tuple(dict.fromkeys(ids))
 
     def _limits(self) -> Chosen | None:
         given = self._table.get("limits")
         if given is None:
             return None
-        if LIMITS.usual is None:
+        limits = self._library.limits
+        if limits.usual is None:
             raise self._wrong(["limits"], "nothing that is sent here has limits; remove it")
         if not isinstance(given, dict):
-            return Chosen(self._bounds(given, ["limits"]), str(self._path))
+            return Chosen(self._bounds(given, ["limits"]), limits, str(self._path))
         each = {self._number(key): self._bounds(given[key], ["limits", key]) for key in given}
-        addressed = any(exchange.address.field for exchange in EXCHANGES.values())
+        addressed = any(exchange.address.field for exchange in self._library.exchanges.values())
         try:
-            allowed = LIMITS.chosen(each, addressed=addressed)
+            allowed = limits.chosen(each, addressed=addressed)
         except ValueError:
             problem = "nothing that has limits here has a number: write one pair for all"
-            raise self._wrong(["limits"], f"{problem}, such as {_usual()}") from None
-        return Chosen(allowed, str(self._path))
+            raise self._wrong(["limits"], f"{problem}, such as {self._usual()}") from None
+        return Chosen(allowed, limits, str(self._path))
 
     def _number(self, key: str) -> int:
         try:
@@ -143,21 +146,25 @@ class _Reader:
             number = -1
         if number < 0 or str(number) != key:
             raise self._wrong(["limits", key], f"{key[:40]!r} is not a number, such as 1")
-        if POSE is not None and not POSE.item.low <= number <= POSE.item.high:
-            bounds = f"{POSE.item.low}..{POSE.item.high}"
-            raise self._wrong(["limits", key], f"{key} is outside {bounds} of a {POSE.noun}")
+        if self._pose is not None and not self._pose.item.low <= number <= self._pose.item.high:
+            bounds = f"{self._pose.item.low}..{self._pose.item.high}"
+            raise self._wrong(["limits", key], f"{key} is outside {bounds} of a {self._pose.noun}")
         return number
 
     def _bounds(self, given: Any, keys: list[str]) -> Bounds | None:
         if given == ANY:
             return None
         if not isinstance(given, list) or len(given) != 2 or not all(map(_is_whole, given)):
-            problem = f'no pair like {_usual()}, nor "{ANY}" for anything'
+            problem = f'no pair like {self._usual()}, nor "{ANY}" for anything'
             raise self._wrong(keys, f"{_shown(given)} is {problem}")
         low, high = given
         if low > high:
             raise self._wrong(keys, f"{_shown(given)} has the higher value first")
         return low, high
+
+    def _usual(self) -> str:
+        """Return the usual limits, as an example."""
+        return str([*(self._library.limits.usual or ())])
 
     def _wrong(self, keys: list[str], what: str) -> UsageError:
         """Return the error about a key, with its line if there is just one that begins with it."""
@@ -170,10 +177,6 @@ class _Reader:
 
 def _is_whole(value: object) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
-
-
-def _usual() -> str:
-    return str([*(LIMITS.usual or ())])
 
 
 def _shown(value: object) -> str:

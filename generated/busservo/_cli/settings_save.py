@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import TypeAlias
 
+    from .program import Program
+
     Value: TypeAlias = str | float | bool | list[int]
 
 # A key and its value at the beginning of a line: text, a list without comments, or one word.
@@ -26,12 +28,12 @@ _TABLE = re.compile(r"^[ \t]*\[", re.MULTILINE)
 _ANY_KEY = re.compile(rf"{_KEY.format('[A-Za-z_]+')}{_VALUE}[^\n]*(?:\n|\Z)", re.MULTILINE)
 
 
-def save(path: Path | None, values: Mapping[str, Value]) -> tuple[Path, str]:
+def save(path: Path | None, values: Mapping[str, Value], program: Program) -> tuple[Path, str]:
     """Put values in the file in use, or in the user's, and return its path and their lines.
 
     Raises UsageError, and leaves the file as it was, where one cannot be put in by itself.
     """
-    path = path or user_file()
+    path = path or user_file(program)
     if path is None:
         raise UsageError("nothing saved: there is no home folder for settings")
     lines = [f"{key} = {_written(value)}" for key, value in values.items()]

@@ -5,9 +5,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from .examples import PROGRAM
 from .usage_error import UsageError
-from .verbs import SIMULATOR
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -15,33 +13,36 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
 
+    from .program import Program
 
-def hand_over(words: Sequence[str]) -> int:
+
+def hand_over(words: Sequence[str], program: Program) -> int:
     """Run the simulator's own command line."""
-    code: int = _simulator().main(list(words), program=f"{PROGRAM} simulate")
+    code: int = _simulator(program).main(list(words), program=f"{program.name} simulate")
     return code
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the simulator's own arguments, if it tells them, to complete them."""
-    declare = getattr(_simulator(), "add_arguments", None)
+    declare = getattr(_simulator(program), "add_arguments", None)
     if declare is not None:
         declare(parser)
 
 
-def _simulator() -> Any:
-    module = f"{SIMULATOR}.cli"
+def _simulator(program: Program) -> Any:
+    package = program.simulator
+    module = f"{package}.cli"
     try:
         return import_module(module)
     except ModuleNotFoundError as error:
-        if error.name not in {SIMULATOR, module}:
+        if error.name not in {package, module}:
             raise
         raise UsageError(
-            f"the package {SIMULATOR} is not installed here: install it, or build a virtual "
-            f"device on {PROGRAM}.Device"
+            f"the package {package} is not installed here: install it, or build a virtual "
+            f"device on {program.name}.Device"
         ) from None
     except ImportError as error:
         raise UsageError(
-            f"the package {SIMULATOR} does not work with this {PROGRAM}: {error}; update it, or "
-            f"build a virtual device on {PROGRAM}.Device"
+            f"the package {package} does not work with this {program.name}: {error}; update it, or "
+            f"build a virtual device on {program.name}.Device"
         ) from None

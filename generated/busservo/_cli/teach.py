@@ -10,20 +10,19 @@ from .._client.pose import HOLD_MS
 from .._frame.pluralize import pluralize
 from .._serial.link_errors import NoReplyError
 from . import link
-from .examples import PROGRAM
 from .exit_codes import DONE, INTERRUPTED, NOT_ALL
 from .limits import add_limits, limits_of
 from .link import add_port, add_timeout, failures_reported, open_client
 from .posefile import Recorded, read_poses, write_poses
 from .positions import (
-    SEVERAL,
     UNREAD,
     find_present,
     in_options,
     listed,
     nobody,
-    numbers,
+    numbers_of,
     read_targets,
+    several,
     the_pose,
 )
 from .usage_error import UsageError
@@ -33,8 +32,10 @@ if TYPE_CHECKING:
     import argparse
 
     from .._client.client import Client
+    from .._client.library import Library
     from .._client.pose import Pose
     from .limits import Chosen
+    from .program import Program
 
 ENDS = link.ENDS | {
     NOT_ALL: "no reply came in time, nothing was there to switch off, or nothing was recorded"
@@ -46,15 +47,15 @@ Ctrl-D, end the recording; Ctrl-C ends it at once. Each pose is saved as soon as
 FILE is JSON, and can be edited. An existing file is left alone unless an option says otherwise."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="where the poses go")
-    add_port(parser)
+    add_port(parser, program)
     parser.add_argument(
         "--ids",
-        type=numbers,
+        type=numbers_of(the_pose(program.library)),
         metavar="1-6,9",
-        help=f"which to switch off and to record (default: {SEVERAL})",
+        help=f"which to switch off and to record (default: {several(program)})",
     )
     kept = parser.add_mutually_exclusive_group()
     kept.add_argument("--append", action="store_true", help="add to the poses of FILE")
@@ -63,18 +64,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--hold", action="store_true", help="at the end, hold everything there without asking"
     )
-    add_limits(parser)
+    add_limits(parser, program)
     add_timeout(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace, program: Program) -> int:
     """Record as long as somebody presses Enter."""
-    pose = the_pose()
-    kept = _kept(arguments, pose)
+    pose = the_pose(program.library)
+    kept = _kept(arguments, pose, program.name)
     limits = limits_of(arguments)
-    with failures_reported(arguments), open_client(arguments, limits=limits.allowed) as controller:
+    with (
+        failures_reported(arguments),
+        open_client(arguments, program, limits=limits.allowed) as controller,
+    ):
         try:
-            ids = arguments.ids or arguments.settings.ids or find_present(controller, pose)
+            ids = (
+                arguments.ids or arguments.settings.ids or find_present(controller, program.library)
+            )
         except NoReplyError as error:
             print(error, file=sys.stderr)
             return NOT_ALL
@@ -84,7 +90,9 @@ def run(arguments: argparse.Namespace) -> int:
         if len(ids) > pose.room:
             problem = f"{len(ids)} {pose.noun}s are too many: one motion moves up to {pose.room}"
             raise UsageError(f"{problem}; choose some with --ids")
-        lesson = _Lesson(controller, pose, ids, arguments.file, kept, limits)
+        lesson = _Lesson(
+            controller, program.library, ids, arguments.file, kept, limits, program.name
+        )
         if not arguments.yes and not _agreed(
             f"{listed(pose, ids)} will go limp, and what they hold up falls: support it. Go on?"
         ):
@@ -99,19 +107,22 @@ class _Lesson:
     def __init__(
         self,
         controller: Client,
-        pose: Pose,
+        library: Library,
         ids: tuple[int, ...],
         path: Path,
         poses: list[Recorded],
         limits: Chosen,
+        program: str,
     ) -> None:
         self._controller = controller
-        self._pose = pose
+        self._library = library
+        self._pose = the_pose(library)
         self._ids = ids
         self._path = path
         self._poses = poses
         self._before = len(poses)
         self._limits = limits
+        self._program = program
 
     def give(self, *, hold_after: bool) -> int:
         """Release, and record until the user ends it; report in any case what is limp then."""
@@ -130,7 +141,7 @@ class _Lesson:
             recorded = len(self._poses) - self._before
             print(f"{pluralize(recorded, 'pose')} recorded; {left}", file=sys.stderr)
             if recorded:
-                hint = f"`{PROGRAM} play {self._path} --dry-run` shows what would be sent"
+                hint = f"`{self._program} play {self._path} --dry-run` shows what would be sent"
                 print(hint, file=sys.stderr)
         return DONE if recorded else NOT_ALL
 
@@ -152,7 +163,7 @@ class _Lesson:
                 print(f"nothing recorded: {in_options(error, self._limits)}", file=sys.stderr)
                 continue
             pose = Recorded(dict(targets))
-            write_poses(self._path, [*self._poses, pose])
+            write_poses(self._path, [*self._poses, pose], self._program)
             self._poses.append(pose)
             shown = ",".join(f"{number}:{position}" for number, position in targets)
             print(f"pose {len(self._poses)}  {shown}", flush=True)
@@ -169,16 +180,16 @@ class _Lesson:
 
     def _targets(self) -> list[tuple[int, int]]:
         """Return the current positions, as targets. Raises one of UNREAD unless all are present."""
-        return read_targets(self._controller, self._pose, self._ids, self._limits.allowed)
+        return read_targets(self._controller, self._library, self._ids, self._limits.allowed)
 
 
-def _kept(arguments: argparse.Namespace, pose: Pose) -> list[Recorded]:
+def _kept(arguments: argparse.Namespace, pose: Pose, program: str) -> list[Recorded]:
     """Return the poses that are kept. Raises UsageError if a file would be lost."""
     path: Path = arguments.file
     if path.exists() and not path.is_file():
         raise UsageError(f"{path} is not a regular file, as poses need one: name another")
     if arguments.append and path.exists():
-        return read_poses(path, pose)
+        return read_poses(path, pose, program)
     if path.exists() and not arguments.force:
         raise UsageError(
             f"{path} exists already; --append adds to its poses, --force replaces them"

@@ -14,25 +14,19 @@ if TYPE_CHECKING:
 class Ends:
     """The ends of a protocol.
 
-    `senders` are their names, and `ways` the directions in which each sends: several where it talks
-    to several others. `only` is the direction of whoever sends in one alone, and None for others,
-    and for None. `named` are the directions as they are asked for: by the sender alone where that
-    is enough.
+    `ways` are the directions in which each sends: several where it talks to several others. `only`
+    is the direction of whoever sends in one alone, and None for others, and for None.
     """
 
-    __slots__ = ("codec", "named", "only", "senders", "ways")
+    __slots__ = ("codec", "only", "ways")
 
     def __init__(self, codec: ProtocolCodec) -> None:
         self.codec = codec
         every = list(codec.directions)
-        self.senders = list(dict.fromkeys(way.sender for way in every))
-        self.ways = {who: [way for way in every if way.sender == who] for who in self.senders}
+        self.ways = {who: [way for way in every if way.sender == who] for who in codec.senders}
         self.only: dict[str | None, Direction | None] = {None: None}
         for who, ways in self.ways.items():
             self.only[who] = ways[0] if len(ways) == 1 else None
-        self.named = {
-            way.value if self.only[way.sender] is None else way.sender: way for way in every
-        }
 
 
 @cache

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._library import CODEC
 from .._recording.layout import NOISE
 from .._tables.files.arrow_file import arrow_written, names_in, refuse_target
 from .._tables.files.parquet import parquet_written
@@ -28,8 +27,8 @@ def write_parquet(
 ) -> dict[str, int]:
     """Write a folder of tables, and return the rows of each file. Raises OSError."""
     with recording.from_the_beginning():
-        made = _counted(batches(CODEC, recording, form, direction), seen)
-        rows = parquet_written(schemas_of(CODEC).layouts.names, made, folder)
+        made = _counted(batches(recording.codec, recording, form, direction), seen)
+        rows = parquet_written(schemas_of(recording.codec).layouts.names, made, folder)
     return {str(folder / f"{name}.parquet"): count for name, count in rows.items()}
 
 
@@ -42,10 +41,10 @@ def write_arrow(
     with rereadable(recording) as twice:
         twice.is_quiet = True
         with twice.from_the_beginning():
-            names = names_in(CODEC, twice, form, direction)
+            names = names_in(twice.codec, twice, form, direction)
         with twice.from_the_beginning():
-            made = _counted(batches(CODEC, twice, form, direction), seen)
-            return arrow_written(schemas_of(CODEC), made, file, names)
+            made = _counted(batches(twice.codec, twice, form, direction), seen)
+            return arrow_written(schemas_of(twice.codec), made, file, names)
 
 
 def _counted(made: Iterator[Batches], seen: Counters) -> Iterator[Batches]:

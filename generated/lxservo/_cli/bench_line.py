@@ -8,13 +8,10 @@ import math
 import time
 from statistics import median
 
-from .._client.exchanges import EXCHANGES
 from .._client.long_question import left_out
 from .._client.wire_time import WireTime
 from .._frame.errors import EncodeError
 from .._frame.pluralize import pluralize
-from .._frame.protocol import BAUD
-from .._library import LINK
 from .._serial.link_errors import NoReplyError, what_came
 from . import link
 from .console import visible
@@ -32,7 +29,9 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._client.client import Client
+    from .._client.library import Library
     from .._frame.message import Message
+    from .program import Program
 
 ENDS = link.ENDS | {NOT_ALL: "not every question was answered, or not in full"}
 ABOUT = """\
@@ -40,10 +39,10 @@ Asks the same question again and again, one at a time, and compares the round tr
 bytes of question and answer take on the wire. Questions change nothing."""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
-    add_port(parser)
-    usual = _usual()
+    add_port(parser, program)
+    usual = _usual(program.library)
     default = "" if usual is None else f" (default: {usual.__name__})"
     parser.add_argument("message", metavar="MESSAGE", nargs="?", help=f"the question{default}")
     parser.add_argument(
@@ -56,12 +55,16 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print the result as a line of JSON")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Send the requests, and print the result, also when it ended early."""
-    question = _question(arguments)
-    arguments.port = port_of(arguments)
-    trips = Trips(question, arguments.port, arguments.baud)
-    with failures_reported(arguments), open_client(arguments, settle=0) as client:
+    limits = program.library.limits.usual
+    question = _question(arguments, program.library)
+    arguments.port = port_of(arguments, program)
+    trips = Trips(question, arguments.port, arguments.baud, program.library)
+    with (
+        failures_reported(arguments),
+        open_client(arguments, program, limits=limits, settle=0) as client,
+    ):
         try:
             trips.make(client, arguments.n)
         except KeyboardInterrupt:
@@ -72,21 +75,22 @@ def run(arguments: Namespace) -> int:
     return NOT_ALL if trips.errors else DONE
 
 
-def _usual() -> type[Message] | None:
+def _usual(library: Library) -> type[Message] | None:
     """Return the default request: the first that needs no fields."""
-    questions = (kind for kind, exchange in EXCHANGES.items() if exchange.reply is not None)
+    questions = (kind for kind, exchange in library.exchanges.items() if exchange.reply is not None)
     return next((kind for kind in questions if not kind.__match_args__), None)
 
 
-def _question(arguments: Namespace) -> Message:
-    usual = _usual()
+def _question(arguments: Namespace, library: Library) -> Message:
+    usual = _usual(library)
     if arguments.message is None and usual is not None:
         return usual()
-    questions = [kind.__name__ for kind, each in EXCHANGES.items() if each.reply is not None]
+    exchanges = library.exchanges.items()
+    questions = [kind.__name__ for kind, each in exchanges if each.reply is not None]
     known = f"questions are {', '.join(questions) or 'unknown to this protocol'}"
     if arguments.message is None:
         raise UsageError(f"name the question to measure; {known}")
-    kind, exchange = exchange_named(arguments.message)
+    kind, exchange = exchange_named(arguments.message, library)
     if exchange.reply is None:
         raise UsageError(f"nothing answers {kind.__name__}, so it cannot be timed; {known}")
     question = message_from_text(kind, arguments.fields)
@@ -100,11 +104,12 @@ def _question(arguments: Namespace) -> Message:
 class Trips:
     """Round trips of one request on a port, as many as were made."""
 
-    def __init__(self, question: Message, port: str, baud: float = BAUD) -> None:
+    def __init__(self, question: Message, port: str, baud: float, library: Library) -> None:
         self._question = question
+        self._exchanges = library.exchanges
         self._port = port
         self._baud = baud
-        self._wire = WireTime(LINK, baud)
+        self._wire = WireTime(library.link, baud)
         # For each that was answered: the seconds it took, and the size of request and reply.
         self._taken: list[float] = []
         self._sizes: list[int] = []
@@ -139,7 +144,7 @@ class Trips:
             return
         self._taken.append(time.perf_counter() - began)
         self._sizes.append(len(self._question.encode()) + len(reply.encode()))
-        if left_out(EXCHANGES, self._question, reply)[1]:
+        if left_out(self._exchanges, self._question, reply)[1]:
             self._failed("incomplete reply")
 
     def _failed(self, kind: str) -> None:

@@ -8,8 +8,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from .._codec.hextext import HexError, is_hex, read_hex
-from .._library import CODEC
-from .._recording.ends import ends_of
 from .._recording.form import FORMS, log_lines
 from .recording import Recording, opened
 from .usage_error import UsageError
@@ -19,10 +17,11 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Iterator
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
 
 
-def add_capture(parser: ArgumentParser) -> None:
+def add_capture(parser: ArgumentParser, codec: ProtocolCodec) -> None:
     """Declare the arguments that name a capture and describe what it holds."""
     parser.add_argument(
         "input",
@@ -33,7 +32,7 @@ def add_capture(parser: ArgumentParser) -> None:
     parser.add_argument("--file", type=Path, metavar="FILE", help="a file, even if its name is hex")
     parser.add_argument(
         "--direction",
-        choices=[*ends_of(CODEC).named, "any"],
+        choices=[*codec.named, "any"],
         default="any",
         help="who sent the bytes, where they do not say so themselves (default: any)",
     )
@@ -45,13 +44,13 @@ def add_capture(parser: ArgumentParser) -> None:
     )
 
 
-def direction_in(arguments: Namespace) -> Direction | None:
+def direction_in(arguments: Namespace, codec: ProtocolCodec) -> Direction | None:
     """Return who sent the bytes, None for either."""
-    return ends_of(CODEC).named.get(arguments.direction)
+    return codec.named.get(arguments.direction)
 
 
 @contextmanager
-def opened_capture(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
+def opened_capture(arguments: Namespace, codec: ProtocolCodec) -> Iterator[tuple[Recording, str]]:
     """Open the input, and return it with its form. Raises UsageError."""
     words: list[str] = arguments.input
     file: Path | None = arguments.file
@@ -62,7 +61,8 @@ def opened_capture(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
     if file is None and words and words != ["-"]:
         text = " ".join(words)
         if log_lines(text) is not None:
-            yield Recording(io.BytesIO(text.encode(errors="replace")), "the command line"), "hex"
+            stream = io.BytesIO(text.encode(errors="replace"))
+            yield Recording(stream, "the command line", codec), "hex"
             return
         try:
             data = read_hex(text)
@@ -70,9 +70,9 @@ def opened_capture(arguments: Namespace) -> Iterator[tuple[Recording, str]]:
             _refuse_files(words)
             other = f", and there is no file {words[0]!r}" if len(words) == 1 else ""
             raise UsageError(f"{error}{other}") from None
-        yield Recording(io.BytesIO(data), "the command line"), "raw"
+        yield Recording(io.BytesIO(data), "the command line", codec), "raw"
         return
-    with opened(file or Path("-")) as recording:
+    with opened(file or Path("-"), codec) as recording:
         yield recording, arguments.format
 
 

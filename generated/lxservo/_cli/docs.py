@@ -6,8 +6,6 @@ from __future__ import annotations
 import json
 import sys
 
-from .._library import LIBRARY
-from .examples import PROGRAM
 from .exit_codes import DONE
 from .reference_page import message_list, message_page
 from .reference_search import find, folded, near
@@ -21,13 +19,14 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._explanation.protocol import Message, Protocol
+    from .program import Program
 
 ABOUT = """\
 Prints the page of a message, which is named as here, as by the vendor, or by its number if no other
 has that. For any other word, it lists the messages whose names or texts have that word."""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, _program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument(
         "words",
@@ -38,14 +37,15 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print a line of JSON for each")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print the page of a message, or a list of messages."""
-    model, words = LIBRARY.protocol(), " ".join(arguments.words)
+    model, words = program.library.protocol(), " ".join(arguments.words)
     topic = next((name for name in TOPICS if folded(words) == name), "")
     found = [] if topic else find(model, words)
     if not topic and not found:
         names = near(model, words)
-        hint = f"similar: {', '.join(names)}" if names else f"`{PROGRAM} docs` lists all messages"
+        usual = f"`{program.name} docs` lists all messages"
+        hint = f"similar: {', '.join(names)}" if names else usual
         raise UsageError(f"no message is called {words[:40]!r} or mentions it; {hint}")
     if arguments.json:
         for entry in _entries(model, topic, found):
@@ -53,11 +53,11 @@ def run(arguments: Namespace) -> int:
         return DONE
     sheet = Sheet(sys.stdout)
     if topic:
-        TOPICS[topic](sheet, model)
+        TOPICS[topic](sheet, model, program.library.codec)
     elif len(found) == 1:
         message_page(sheet, model, found[0])
     else:
-        message_list(sheet, model, found, all_of_them=not words)
+        message_list(sheet, model, found, command="" if words else program.name)
     return DONE
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import json
 import sys
+from functools import partial
 
-from .._client.exchanges import EXCHANGES, POSE
 from .._frame.bytes_like import format_hex
 from .._frame.errors import EncodeError
 from . import link
-from .checks.checks import CHECKS, examine
+from .checks.checks import checks_of, examine
 from .checks.diagnosis import Diagnosis
 from .checks.keep import worth_keeping
 from .checks.move import STEP, move_check
@@ -24,7 +24,6 @@ from .link import add_port, add_timeout, failures_reported, open_line
 from .numerals import at_least
 from .plain_text import plain_text
 from .progress_thread import shown_progress
-from .settings import FILE
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
@@ -33,36 +32,41 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
+    from .._client.library import Library
     from .._client.pose import Pose
     from .._frame.message import Message
     from .._serial.transport import Transport
     from .checks.check import Check
     from .checks.result import Result
+    from .program import Program
     from .settings import Settings
 
 ENDS = link.ENDS | {NOT_ALL: "a check has failed"}
-ABOUT = f"""\
-Makes these checks, one after the other:
-{", ".join(check.id for check in CHECKS)}.
-Each line says `passed`, `failed` or `unknown`, what was seen, the bytes that show it, and what to
-do next. It only reads."""
-ABOUT += "" if POSE is None else " --move asks before it moves anything."
-# The address of a device, where there are several.
-_ADDRESS = address_field()
-_OPTION = f"--{_ADDRESS.replace('_', '-')}"
 _COLOURS = {PASSED: "green", FAILED: "red", UNKNOWN: "yellow"}
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def about(program: Program) -> str:
+    """Return what it does, in full."""
+    checks = ", ".join(check.id for check in checks_of(program.library))
+    moves = "" if program.library.pose is None else " --move asks before it moves anything."
+    return f"""\
+Makes these checks, one after the other:
+{checks}.
+Each line says `passed`, `failed` or `unknown`, what was seen, the bytes that show it, and what to
+do next. It only reads.{moves}"""
+
+
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
-    add_port(parser)
+    add_port(parser, program)
     add_timeout(parser)
-    if _ADDRESS:
-        about = "the address of the device that is asked (default: the likeliest)"
-        parser.add_argument(_OPTION, type=at_least(0), dest="address", metavar="N", help=about)
-    if POSE is not None:
-        about = f"also move this {POSE.noun} by {STEP} steps and back; asks first"
-        parser.add_argument("--move", type=at_least(0), metavar="ID", help=about)
+    option, pose = _option(program.library), program.library.pose
+    if option:
+        which = "the address of the device that is asked (default: the likeliest)"
+        parser.add_argument(option, type=at_least(0), dest="address", metavar="N", help=which)
+    if pose is not None:
+        which = f"also move this {pose.noun} by {STEP} steps and back; asks first"
+        parser.add_argument("--move", type=at_least(0), metavar="ID", help=which)
         parser.add_argument("--yes", action="store_true", help="do not ask before --move")
     parser.add_argument(
         "--report", metavar="FILE", help="write a recording of everything, to send to others"
@@ -70,28 +74,32 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--model", default="", metavar="TEXT", help="what the device is, for the report"
     )
-    saved = "port, rate and ids" if POSE is not None else "port and rate"
+    saved = "port, rate and ids" if pose is not None else "port and rate"
     parser.add_argument(
-        "--save", action="store_true", help=f"if no check fails, keep {saved} in {FILE}"
+        "--save",
+        action="store_true",
+        help=f"if no check fails, keep {saved} in {program.settings_file}",
     )
     parser.add_argument("--json", action="store_true", help="print each check as a line of JSON")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Run the checks, print each result, and write the report."""
-    checks = [*CHECKS]
-    if POSE is not None and arguments.move is not None:
-        _confirm(arguments, POSE)
-        checks.append(move_check(arguments.move, POSE))
+    library = program.library
+    checks = [*checks_of(library)]
+    if library.pose is not None and arguments.move is not None:
+        _confirm(arguments, library.pose)
+        checks.append(move_check(arguments.move, library.pose))
     report = None if arguments.report is None else _report(arguments.report)
     diagnosis = Diagnosis(
+        program,
         arguments.port,
         baud=arguments.baud,
         reply_timeout=arguments.timeout,
         local_echo=arguments.local_echo,
-        question=_question(arguments.address) if _ADDRESS else None,
+        question=_question(arguments.address, library) if _option(library) else None,
         named_by=arguments.port_from,
-        opener=_open,
+        opener=partial(_open, program.library),
     )
     findings: list[tuple[Check, Result]] = []
     with failures_reported(arguments):
@@ -109,13 +117,13 @@ def run(arguments: Namespace) -> int:
     totals = ", ".join(f"{states.count(each)} {each}" for each in STATES)
     print(totals, file=sys.stderr)
     if arguments.save:
-        _save(diagnosis, arguments.settings, failed=FAILED in states)
+        _save(diagnosis, arguments.settings, program, failed=FAILED in states)
     if diagnosis.lost:
         return LINE_LOST
     return NOT_ALL if FAILED in states else DONE
 
 
-def _save(diagnosis: Diagnosis, before: Settings, *, failed: bool) -> None:
+def _save(diagnosis: Diagnosis, before: Settings, program: Program, *, failed: bool) -> None:
     """Keep what the checks were made with, and found; or say why not."""
     values = {} if failed else worth_keeping(diagnosis, before)
     if not values:
@@ -125,18 +133,24 @@ def _save(diagnosis: Diagnosis, before: Settings, *, failed: bool) -> None:
     # Reads TOML, which only this needs.
     from .settings_save import save
 
-    path, lines = save(before.path, values)
+    path, lines = save(before.path, values, program)
     print(f"saved in {path}: {lines}", file=sys.stderr)
 
 
-def _question(address: int | None) -> Message | None:
+def _option(library: Library) -> str:
+    """Return the option for the address of a device; empty where there is but one device."""
+    address = address_field(library)
+    return address and f"--{address.replace('_', '-')}"
+
+
+def _question(address: int | None, library: Library) -> Message | None:
     """Return the question for the device at an address. Raises UsageError where none can be."""
     try:
-        question = harmless_question(address)
+        question = harmless_question(library, address)
     except EncodeError as error:
-        raise UsageError(f"{_OPTION}: {error.problem}") from None
-    if question is not None and EXCHANGES[type(question)].address.silence(question):
-        raise UsageError(f"{_OPTION}: no device answers at {address}")
+        raise UsageError(f"{_option(library)}: {error.problem}") from None
+    if question is not None and library.exchanges[type(question)].address.silence(question):
+        raise UsageError(f"{_option(library)}: no device answers at {address}")
     return question
 
 
@@ -146,8 +160,8 @@ def _next(found: Iterator[tuple[Check, Result]]) -> tuple[Check, Result] | None:
         return next(found, None)
 
 
-def _open(port: str, baud: float) -> Transport:
-    return open_line(port, baud)
+def _open(library: Library, port: str, baud: float) -> Transport:
+    return open_line(port, baud, library)
 
 
 def _confirm(arguments: Namespace, pose: Pose) -> None:

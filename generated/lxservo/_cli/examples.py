@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-PROGRAM = "lxservo"
+from .program import Program
+
 SUMMARY = "Send, read and replay frames of: LX-16A servo bus."
 
 VERBS = {
@@ -362,3 +363,16 @@ EXAMPLES = {
     ),
     "read-led-errors": (("lxservo read-led-errors 1", "Ask at which faults the LED blinks."),),
 }
+
+PROGRAM = Program(
+    "lxservo",
+    __name__.rpartition("._cli.")[0],
+    summary=SUMMARY,
+    verbs=VERBS,
+    examples=EXAMPLES,
+    methods=METHODS,
+    pose_methods=POSE_METHODS,
+    long=LONG,
+    stop_message=STOP_MESSAGE,
+)
+"""What the command is made of."""

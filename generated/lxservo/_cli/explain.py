@@ -5,14 +5,11 @@ from __future__ import annotations
 
 import json
 
-from .._codec.codec import decode
 from .._codec.hextext import HexError, read_hex
 from .._explanation.carried_model import classes
 from .._explanation.explanation import Judgement, explain
 from .._explanation.text import as_json, as_text
-from .._frame.direction import Direction
 from .._frame.errors import DecodeError
-from .._library import LIBRARY
 from .._recording.form import LogError, without_log
 from .exit_codes import DONE, NOT_ALL
 from .usage_error import UsageError
@@ -21,14 +18,15 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._explanation.explanation import Explanation
     from .._explanation.protocol import Protocol
+    from .program import Program
 
 ENDS = {NOT_ALL: "the bytes are no frame"}
-_SENDERS = list(dict.fromkeys(direction.sender for direction in Direction))
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument(
         "bytes",
@@ -36,11 +34,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="HEX",
         help="bytes in hex: spaced or glued, with 0x and commas or without",
     )
-    parser.add_argument("--direction", choices=_SENDERS, help="only what this end sends")
+    senders = program.library.codec.senders
+    parser.add_argument("--direction", choices=senders, help="only what this end sends")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print the explanation."""
     try:
         data = read_hex(without_log(" ".join(arguments.bytes)))
@@ -48,19 +47,22 @@ def run(arguments: Namespace) -> int:
         raise UsageError(str(error)) from None
     if not data:
         raise UsageError("there are no bytes to explain: give them in hex")
-    explanation = explained(LIBRARY.protocol(), data, arguments.direction)
+    library = program.library
+    explanation = explained(library.protocol(), data, library.codec, arguments.direction)
     print(json.dumps(as_json(explanation)) if arguments.json else as_text(explanation))
     return DONE if explanation.readings else NOT_ALL
 
 
-def explained(model: Protocol, data: bytes, sender: str | None = None) -> Explanation:
-    """Explain bytes as this library decodes them; as sent by one end alone, if it is given."""
-    ways = {text: Direction(model.said["members"][text]) for text in model.directions}
+def explained(
+    model: Protocol, data: bytes, codec: ProtocolCodec, sender: str | None = None
+) -> Explanation:
+    """Explain bytes as the library decodes them; as sent by one end alone, if it is given."""
+    ways = {text: codec.directions(model.said["members"][text]) for text in model.directions}
     names = {kind: name for name, kind in classes(model).items()}
 
     def judge(direction: str, frame: bytes) -> Judgement:
         try:
-            message = decode(frame, ways[direction])
+            message = codec.decode(frame, ways[direction])
         except DecodeError as error:
             return Judgement(None, error.reason.value, error.offset)
         return Judgement(names[type(message).__name__])

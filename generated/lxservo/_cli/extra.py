@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from .._library import CODEC
 from .._tables.extra import need
 from .usage_error import UsageError
 
@@ -17,11 +16,11 @@ if TYPE_CHECKING:
 _BROUGHT = {"tables": ("numpy", "pyarrow"), "plots": ("matplotlib",)}
 
 
-def imported(name: str, *extras: str) -> Any:
-    """Import a module of this folder. Raises UsageError where an extra that it needs is missing."""
+def imported(name: str, package: str, *extras: str) -> Any:
+    """Import a module of this folder. Raises UsageError where an extra of `package` is missing."""
     try:
         for extra in extras:
-            need(*_BROUGHT[extra], library=CODEC.package, extra=extra)
+            need(*_BROUGHT[extra], library=package, extra=extra)
         return import_module(f".{name}", __package__)
     except ImportError as error:
         raise UsageError(str(error)) from None

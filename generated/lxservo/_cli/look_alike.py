@@ -6,11 +6,11 @@ from __future__ import annotations
 import sys
 
 from .._codec.event_bytes import bytes_of
-from .._codec.lookalikes import recognise
 from .plain_text import plain_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .recording import Recording
 
@@ -29,9 +29,9 @@ def beginning(recording: Recording, form: str, direction: Direction | None) -> b
     return begun
 
 
-def hint(begun: bytes) -> None:
+def hint(begun: bytes, codec: ProtocolCodec) -> None:
     """Say on the error stream which protocol the bytes look like, or that they are text."""
-    found = recognise(begun)
+    found = codec.recognise(begun)
     text = plain_text(begun)
     if found is not None:
         title = found.removeprefix("The ")

@@ -22,21 +22,26 @@ if TYPE_CHECKING:
     import argparse
 
     from .._client.client import Client
+    from .._client.library import Library
     from .._frame.message import Message
     from .limits import Chosen
+    from .program import Program
 
 
 class MethodVerb:
     """A verb that sends a message of this end."""
 
-    ENDS = send.ENDS
-
-    def __init__(self, message: str) -> None:
-        self.kind, self._exchange = exchange_named(message)
+    def __init__(self, message: str, library: Library) -> None:
+        self._library = library
+        self.kind, self._exchange = exchange_named(message, library)
         self._lasts, self._steps = self._exchange.lasts or ("", 1)
         address = self._exchange.address.field
         names = [*([address] if address else []), *self._exchange.arguments]
         self._names = [name for name in names if name != self._lasts]
+
+    def ends(self, program: Program) -> dict[int, str]:
+        """Return what its exit statuses mean, besides those of every verb."""
+        return send.ends(program)
 
     @property
     def may_be_empty(self) -> bool:
@@ -44,7 +49,7 @@ class MethodVerb:
         items = self.kind.SHAPE.items
         return items is not None and 0 in items.counts
 
-    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+    def add_arguments(self, parser: argparse.ArgumentParser, program: Program) -> None:
         """Declare the arguments of the verb."""
         optional = dict(self.kind.DEFAULTS)
         for name in self._names:
@@ -67,8 +72,8 @@ class MethodVerb:
             parser.add_argument(
                 "--no-wait", action="store_true", help="end as soon as it is sent, not when over"
             )
-        add_port(parser)
-        send.add_sending(parser, answered=self._exchange.reply is not None)
+        add_port(parser, program)
+        send.add_sending(parser, program, answered=self._exchange.reply is not None)
 
     @property
     def _longest(self) -> int:
@@ -76,7 +81,7 @@ class MethodVerb:
         high: int = getattr(self.kind, self._lasts).high
         return high
 
-    def run(self, arguments: argparse.Namespace) -> int:
+    def run(self, arguments: argparse.Namespace, program: Program) -> int:
         """Send the message; print the reply, or wait until its effect is over."""
         messages = self.messages(arguments)
         note_deprecated(self.kind)
@@ -84,11 +89,11 @@ class MethodVerb:
         limits = limits_of(arguments)
         with (
             failures_reported(arguments),
-            open_client(arguments, retries=retries, limits=limits.allowed) as controller,
+            open_client(arguments, program, retries=retries, limits=limits.allowed) as controller,
         ):
             messages = messages or self.without_words(controller)
             if self._exchange.reply is not None:
-                return send.exchanged(controller, messages, arguments)
+                return send.exchanged(controller, messages, arguments, self._library)
             return self._commanded(controller, messages[0], arguments)
 
     def messages(self, arguments: argparse.Namespace) -> list[Message]:
@@ -102,7 +107,7 @@ class MethodVerb:
                 words.append(f"{name}={given}")
         if self._lasts:
             words.append(f"{self._lasts}={arguments.within}")
-        return in_parts(self.kind.__name__, words)
+        return in_parts(self.kind.__name__, words, self._library)
 
     def without_words(self, _controller: Client, /) -> list[Message]:
         """Return what to send where no values are given."""

@@ -11,9 +11,6 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from .._client.exchanges import LIMITS
-from .._frame.protocol import BAUD, LOCAL_ECHO
-from .examples import PROGRAM
 from .limits import Chosen
 from .usage_error import UsageError
 
@@ -21,9 +18,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import Namespace
 
-# The environment variable that names the port where no option does.
-VARIABLE = f"{PROGRAM.upper()}_PORT"
-FILE = f"{PROGRAM}.toml"
+    from .program import Program
 
 
 class Settings(NamedTuple):
@@ -37,40 +32,45 @@ class Settings(NamedTuple):
     limits: Chosen | None = None
 
 
-def fill_in(arguments: Namespace) -> None:
+def fill_in(arguments: Namespace, program: Program) -> None:
     """Give the arguments of a verb with a port the values that no option has given.
 
     `settings` is what the file says, and `port_from` what names the port, if it is no option.
     Raises UsageError for a file that cannot be used, even where nothing of it is needed.
     """
-    arguments.settings = settings = read_settings()
-    variable = os.environ.get(VARIABLE)
+    arguments.settings = settings = read_settings(program)
+    file, variable = program.settings_file, os.environ.get(program.port_variable)
     arguments.port_from = ""
     if arguments.port is None and variable:
-        arguments.port, arguments.port_from = variable, VARIABLE
+        arguments.port, arguments.port_from = variable, program.port_variable
     elif arguments.port is None and settings.port is not None:
         # Not by its path, which holds a user's name: reports of `doctor` show this to others.
-        whose = "this folder" if settings.path == Path(FILE) else "the user's folder"
-        arguments.port, arguments.port_from = settings.port, f"{FILE} in {whose}"
-    usual = {"baud": BAUD, "local_echo": LOCAL_ECHO, "limits": Chosen(LIMITS.usual)}
+        whose = "this folder" if settings.path == Path(file) else "the user's folder"
+        arguments.port, arguments.port_from = settings.port, f"{file} in {whose}"
+    link, limits = program.library.link, program.library.limits
+    usual = {
+        "baud": link.baud,
+        "local_echo": link.local_echo,
+        "limits": Chosen(limits.usual, limits),
+    }
     for name, value in usual.items():
         if getattr(arguments, name, value) is None:
             said = getattr(settings, name)
             setattr(arguments, name, value if said is None else said)
 
 
-def read_settings() -> Settings:
+def read_settings(program: Program) -> Settings:
     """Return what the file in this folder says, else the user's; nothing where there is none.
 
     Raises UsageError for a file that cannot be used.
     """
-    for path in (Path(FILE), user_file()):
+    for path in (Path(program.settings_file), user_file(program)):
         data = None if path is None else read_bytes(path)
         if path is not None and data is not None:
             # Imported by those alone who have such a file: reading TOML takes some milliseconds.
             from .settings_file import parsed
 
-            return parsed(path, data)
+            return parsed(path, data, program.library)
     return Settings()
 
 
@@ -85,10 +85,10 @@ def read_bytes(path: Path) -> bytes | None:
         raise UsageError(f"{path} cannot be read: {error.strerror or error}; {advice}") from None
 
 
-def user_file() -> Path | None:
+def user_file(program: Program) -> Path | None:
     """Return the path of the user's file, there or not; None for a user without a home."""
     try:
-        return _user_folder() / PROGRAM / FILE
+        return _user_folder() / program.name / program.settings_file
     except RuntimeError:
         return None
 

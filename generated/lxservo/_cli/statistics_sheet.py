@@ -9,7 +9,6 @@ from datetime import datetime, timezone
 
 from .._frame.free_name import freely_named
 from .._frame.pluralize import pluralize
-from .._frame.protocol import BITS_PER_BYTE, LOCAL_ECHO
 from .._recording.file import EITHER
 from .sheet import Sheet
 
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from .._frame.direction import Direction
+    from .._serial.link import Link
     from .._tables.stats.extremes import Extremes
     from .._tables.stats.statistics import Span, Statistics
 
@@ -28,20 +28,20 @@ _MOST_KEYS = 16
 _SILENCES = 3
 
 
-def as_json(found: Statistics, baud: float) -> str:
+def as_json(found: Statistics, baud: float, link: Link) -> str:
     """Return all of it as a line of JSON, with times in seconds and shares from 0 to 1."""
     return json.dumps(
         {
             "bytes": found.size,
             "baud": baud,
-            "wire_seconds": _wire(found.size, baud),
+            "wire_seconds": _wire(found.size, baud, link),
             "span": _span_in_json(found.span),
             "sent": [
                 {
                     "from": _sender(direction),
                     "bytes": size,
                     "share": _share(size, found.size),
-                    "load": _load(size, found.span, baud),
+                    "load": _load(size, found.span, baud, link),
                 }
                 for direction, size in found.sent.items()
             ],
@@ -98,7 +98,7 @@ def as_json(found: Statistics, baud: float) -> str:
     )
 
 
-def show(found: Statistics, name: str, baud: float) -> None:
+def show(found: Statistics, name: str, baud: float, link: Link) -> None:
     """Print it on a screen."""
     sheet = Sheet(sys.stdout)
     count, noise = pluralize(found.message_count, "message"), pluralize(found.noise_size, "byte")
@@ -106,9 +106,9 @@ def show(found: Statistics, name: str, baud: float) -> None:
     sheet.heading(f"{name}: {pluralize(found.size, 'byte')}, {count}, {noise} of noise{share}")
     if not found.size:
         return
-    sheet.paragraph(_when(found, baud))
+    sheet.paragraph(_when(found, baud, link))
     sheet.heading("who sent it")
-    sheet.columns(_aligned(("", "bytes", "share", "load"), _sent(found, baud)))
+    sheet.columns(_aligned(("", "bytes", "share", "load"), _sent(found, baud, link)))
     if found.messages:
         sheet.heading("messages")
         head = "", "count", "share", "bytes", "share", "per second", "median gap", "longest gap"
@@ -129,11 +129,11 @@ def show(found: Statistics, name: str, baud: float) -> None:
         sheet.columns(ranges)
 
 
-def _when(found: Statistics, baud: float) -> str:
+def _when(found: Statistics, baud: float, link: Link) -> str:
     """Return in words how long it is, or why that is not known."""
     span = found.span
     if span is None:
-        wire = _duration(_wire(found.size, baud))
+        wire = _duration(_wire(found.size, baud, link))
         return f"No times in this capture. At {baud:g} baud, its bytes take {wire}."
     said = f"{_duration(span.seconds)} from the first event to the last"
     if span.clock is not None:
@@ -144,13 +144,13 @@ def _when(found: Statistics, baud: float) -> str:
     return f"{said}."
 
 
-def _sent(found: Statistics, baud: float) -> Iterator[tuple[str, ...]]:
+def _sent(found: Statistics, baud: float, link: Link) -> Iterator[tuple[str, ...]]:
     for direction, size in found.sent.items():
-        load = _percent(_load(size, found.span, baud))
+        load = _percent(_load(size, found.span, baud, link))
         yield _sender(direction), str(size), _percent(_share(size, found.size)), load
-    if LOCAL_ECHO and len(found.sent) > 1:
+    if link.local_echo and len(found.sent) > 1:
         # Both ends share one wire.
-        load = _percent(_load(found.size, found.span, baud))
+        load = _percent(_load(found.size, found.span, baud, link))
         yield "the line", str(found.size), _percent(1.0), load
 
 
@@ -245,14 +245,14 @@ def _percent(share: float | None) -> str:
     return _NONE if share is None else f"{share:.1%}"
 
 
-def _wire(size: int, baud: float) -> float:
+def _wire(size: int, baud: float, link: Link) -> float:
     """Return how many seconds bytes take on the wire."""
-    return size * BITS_PER_BYTE / baud
+    return size * link.bits_per_byte / baud
 
 
-def _load(size: int, span: Span | None, baud: float) -> float | None:
+def _load(size: int, span: Span | None, baud: float, link: Link) -> float | None:
     """Return the share of the time in which bytes were on the wire."""
-    return None if span is None or not span.seconds else _wire(size, baud) / span.seconds
+    return None if span is None or not span.seconds else _wire(size, baud, link) / span.seconds
 
 
 def _rate(count: int, span: Span | None) -> float | None:

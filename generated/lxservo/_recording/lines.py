@@ -157,11 +157,11 @@ def _sender(
     if is_noise := last == NOISE:
         # A line without a sender came to this end: what a client sends is never noise.
         who = whose or ends.codec.received.sender
-    if who in ends.senders:
+    if who in ends.ways:
         return who, is_noise
     if who == EITHER:
         return (None if direction is None else direction.sender), is_noise
-    known = ", ".join([*ends.senders, EITHER, NOISE])
+    known = ", ".join([*ends.ways, EITHER, NOISE])
     raise RecordingError(f"line {number}: {who!r} is none of those who send: {known}")
 
 

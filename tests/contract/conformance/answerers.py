@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -13,6 +12,7 @@ from framegen.site.scripts.javascript_module import javascript_module
 from framegen.site.site import Site
 
 from tests.factories import library, library_files
+from tests.handed import answers_of
 from tests.unit.conformance.harness import run
 from tests.unit.site.reference import NODE
 
@@ -32,7 +32,7 @@ def of_libraries(asked: Sequence[tuple[Compiled, list[str]]], _folder: Path) -> 
     answers = []
     for compiled, questions in asked:
         with library(library_files(compiled)) as module:
-            answer = import_module(f"{module.__name__}._cli.answer").answer
+            answer = answers_of(module.__name__)
             answers += [answer(question) for question in questions]
     return answers
 

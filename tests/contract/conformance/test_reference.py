@@ -4,7 +4,6 @@ questioned through the line language, to the reference."""
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from functools import cache
-from importlib import import_module
 from typing import TypeAlias
 
 import pytest
@@ -21,6 +20,7 @@ from tests import oracle
 from tests.contract.conformance.strategies import lines_of, parts_of
 from tests.factories import BUSSERVO, DEMO, compiled_file, data_of, files_of, layout_of, library
 from tests.few_each import few_each
+from tests.handed import answers_of
 from tests.strategies import directions, lines, oracles
 
 SERVO = compiled_file(BUSSERVO).model
@@ -76,12 +76,12 @@ OTHERS = ["demo", "blinds", "lamp", "weather"]
 
 @pytest.fixture(scope="module")
 def answers() -> Iterator[Answers]:
-    found: Answers = {"busservo": import_module("busservo._cli.answer").answer}
+    found: Answers = {"busservo": answers_of("busservo")}
     with ExitStack() as libraries:
         for name in OTHERS:
             files = files_of(data_of(DEMO.with_name(f"{name}.yaml")))
             module = libraries.enter_context(library(files))
-            found[name] = import_module(f"{module.__name__}._cli.answer").answer
+            found[name] = answers_of(module.__name__)
         yield found
 
 

@@ -30,6 +30,7 @@ from framegen.targets.python.names import names_of
 from hypothesis import given
 
 from tests.factories import library, library_files
+from tests.handed import answers_of, explanations_of
 from tests.lines.every_method import converse
 from tests.protocols.libraries import direction_of, values_in
 from tests.unit.runtime.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
@@ -115,7 +116,7 @@ def _answers(model: Model, asked: Asked, answer: Callable[[str], Sequence[str]])
 def _of_library(crossed: Crossed, asked: Asked, chance: random.Random) -> Iterator[str]:
     model = crossed.compiled.model
     with library(library_files(crossed.compiled)) as made:
-        answer = import_module(f"{made.__name__}._cli.answer").answer
+        answer = answers_of(made.__name__)
         looks: dict[str, Callable[[], Iterator[str]]] = {
             "answers": lambda: _answers(model, asked, answer),
             "messages": lambda: _Messages(made, model).faults(),
@@ -193,9 +194,8 @@ class _Messages:
             yield f"is another behind repr: {message!r}"
         yield from self._in_a_notebook(message)
         frame = message.encode()
-        explained = import_module(f"{self.made.__name__}._cli.explain").explained
-        carried = import_module(f"{self.made.__name__}._library").CODEC.protocol()
-        here, there = explain(self.model, frame, self.model.directions), explained(carried, frame)
+        here = explain(self.model, frame, self.model.directions)
+        there = explanations_of(self.made.__name__)(frame)
         if repr(here) != repr(there):
             yield f"is explained as {there}, not {here}"
 

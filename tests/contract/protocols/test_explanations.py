@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 import pytest
@@ -16,6 +15,7 @@ from framewire.explain.checksum import checksum
 from framewire.explain.text import as_json, as_text
 
 from tests.factories import compiled_of, library, library_files
+from tests.handed import explanations_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of, model_of
 from tests.rows import each_protocol
@@ -112,11 +112,10 @@ def rows_begin(rows: tuple[Row, ...], data: bytes) -> bool:
 @pytest.mark.parametrize("name", each_protocol(FILES))
 def test_a_library_explains_as_the_reference_does(libraries: Libraries, name: str) -> None:
     made, model = libraries[name], model_of(name)
-    explained = import_module(f"{made.__name__}._cli.explain").explained
-    carried = import_module(f"{made.__name__}._library").CODEC.protocol()
+    explained = explanations_of(made.__name__)
     examples = (each.message.examples for each in messages_of(name).values())
     for data in [*(example.hex for each in examples for example in each), *damaged(name)]:
-        here, there = explain(model, data, model.directions), explained(carried, data)
+        here, there = explain(model, data, model.directions), explained(data)
         assert repr(there) == repr(here), data.hex(" ")
 
 
@@ -311,6 +310,4 @@ def test_what_nothing_tells_apart_is_explained_as_each_of_them(
     here = explain(compiled.model, frame, compiled.model.directions)
     assert [(each.reason, each.expected) for each in here.refusals] == [(reason, due)]
     with library(library_files(compiled)) as made:
-        explained = import_module(f"{made.__name__}._cli.explain").explained
-        carried = import_module(f"{made.__name__}._library").CODEC.protocol()
-        assert repr(explained(carried, frame)) == repr(here)
+        assert repr(explanations_of(made.__name__)(frame)) == repr(here)

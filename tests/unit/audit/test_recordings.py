@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import Controller, Message, Noise, NoReplyError, UnknownFrame, strategies
-from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.checks import examine
 from busservo._cli.checks.report import Report
 from busservo.recordings import read
 from busservo_simulator import Faults
@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from tests.contract.independent.board import Board
 from tests.contract.independent.ports import VirtualPort
 from tests.factories import BUSSERVO, ROOT, compiled_file
-from tests.lines.patient import board_with, diagnosis_of
+from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.lines.tallied_line import audited
 from tests.lines.virtual_line import VirtualLine
 from tests.unit.conformance.device.runs import run

@@ -41,7 +41,9 @@ for line in sys.stdin:
 # Cannot decode lines, and encodes nothing; for all else it asks the library.
 LIMITED = """
 import sys
-from busservo._cli.answer import answer
+from busservo._cli.answer import Answerer
+from busservo._library import LIBRARY
+answer = Answerer(LIBRARY).answer
 for line in sys.stdin:
     said = ["unsupported"] if line.startswith("stream") else answer(line)
     print(*said, "end", sep="\\n", flush=True)

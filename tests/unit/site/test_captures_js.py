@@ -13,6 +13,7 @@ import pytest
 from busservo import Reason, recordings
 from busservo._cli.entries import EntryLines
 from busservo._codec.event_bytes import bytes_of
+from busservo._library import CODEC
 from busservo._recording.form import log_lines
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
@@ -282,7 +283,7 @@ def test_recordings_keep_their_directions_times_and_noise() -> None:
 def printed(text: str, form: str) -> str:
     """Return what `decode` prints of a recording."""
     screen = io.StringIO()
-    lines = EntryLines(screen, form)
+    lines = EntryLines(screen, form, CODEC)
     for entry in entries_of(text):
         lines.show(entry)
     return screen.getvalue()

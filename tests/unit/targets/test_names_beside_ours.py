@@ -12,6 +12,7 @@ from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
 from tests.factories import DEMO, compiled_of, data_of, library, library_files
+from tests.handed import handed_by
 from tests.unit.site.reference import NODE
 from tests.unit.site.scripts import run_script
 from tests.unit.site.test_captures_js import SAVE, SAVERS
@@ -62,12 +63,13 @@ def each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 def test_what_is_printed_has_each_key_once_and_each_number() -> None:
     with library(library_files(crowded())) as made:
         entries: Any = import_module(f"{made.__name__}._cli.events")
+        codec = handed_by(made.__name__).codec
         events = made.StreamDecoder(None).feed(line())
         said = [
-            json.loads(entries.in_json(event, None), object_pairs_hook=each_once)
+            json.loads(entries.in_json(event, None, codec), object_pairs_hook=each_once)
             for event in events
         ]
-        words = entries.in_words(events[1], None)
+        words = entries.in_words(events[1], None, codec)
     assert [each.get("reason") for each in said] == ["bad header", "unknown command", None]
     assert [each for each in said[1].values() if isinstance(each, int)] == [*NOBODY]
     assert (said[1]["offset_"], said[1]["parameters"]) == (NOBODY[0], "09")
@@ -98,8 +100,9 @@ def test_the_pages_save_it_under_the_same_names() -> None:
     (saved,) = run_script([*codec_scripts(model), *SAVERS], program, asked)
     with library(library_files(crowded())) as made:
         entries: Any = import_module(f"{made.__name__}._cli.events")
+        codec = handed_by(made.__name__).codec
         events = made.StreamDecoder(None).feed(line())
-        said = [json.loads(entries.in_json(event, None)) for event in events]
+        said = [json.loads(entries.in_json(event, None, codec)) for event in events]
     shown = [json.loads(each, object_pairs_hook=each_once) for each in saved.splitlines()]
     assert [each.pop("offset") for each in shown] == [0, 1, 13]
     assert shown == said

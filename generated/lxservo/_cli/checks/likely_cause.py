@@ -5,8 +5,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..._frame.heads import begins, claimed
 from ..plain_text import plain_text
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..._codec.protocol_codec import ProtocolCodec
 
 OTHER_DEVICE = (
     "another device may be on this port, such as a GPS receiver, a modem or an Arduino: unplug it, "
@@ -33,15 +36,16 @@ class Cause(NamedTuple):
     advice: str
 
 
-def likely_cause(data: bytes) -> Cause:
+def likely_cause(data: bytes, codec: ProtocolCodec) -> Cause:
     """Return the likely cause of bytes that came in one go and are no frames."""
     text = plain_text(data)
     if text:
         return Cause(f"they are text: {text}", OTHER_DEVICE)
-    places = [at for at in range(len(data)) if begins(data, at) and len(data) - at > 1]
-    cut = next((at for at in places if claimed(data[at:]) > len(data) - at), None)
+    heads = codec.heads
+    places = [at for at in range(len(data)) if heads.begins(data, at) and len(data) - at > 1]
+    cut = next((at for at in places if heads.claimed(data[at:]) > len(data) - at), None)
     if cut is not None:
-        size, there = claimed(data[cut:]), len(data) - cut
+        size, there = heads.claimed(data[cut:]), len(data) - cut
         return Cause(f"one of {size} bytes begins, and ends after {there}", _CUT)
     if not places:
         return Cause("none begins in them", _NO_HEADER)

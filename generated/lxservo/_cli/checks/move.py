@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from ..._client.exchanges import LIMITS
 from .check import Check
 from .present import ask_repeatedly
 from .result import failed, passed, unknown
@@ -41,7 +40,8 @@ class _Motion:
         if began is None:
             seen = f"{self._name} reports no position, so it was not moved"
             return failed(seen, "see the check `present`")
-        low, high = LIMITS.usual or (self._pose.place.low, self._pose.place.high)
+        limits = self._diagnosis.library.limits
+        low, high = limits.usual or (self._pose.place.low, self._pose.place.high)
         if not low <= began <= high:
             seen = f"{self._name} is at {began}, outside {low}..{high}, so it was not moved"
             return unknown(seen, "turn it into that range by hand")

@@ -3,23 +3,22 @@
 
 from __future__ import annotations
 
-from ..._client.exchanges import EXCHANGES
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
     from ..._client.exchange import Exchange
+    from ..._client.library import Library
     from ..._frame.message import Message
 
 
-def harmless_question(address: int | None = None) -> Message | None:
+def harmless_question(library: Library, address: int | None = None) -> Message | None:
     """Return the first question of the protocol that has no fields; None if each has some.
 
     Where devices have addresses it is for the device at `address`, or for the likeliest one.
     Raises EncodeError for an address that no device has.
     """
-    for kind, exchange in EXCHANGES.items():
+    for kind, exchange in library.exchanges.items():
         field = exchange.address.field
         if exchange.reply is None or kind.__match_args__ != ((field,) if field else ()):
             continue
@@ -30,10 +29,10 @@ def harmless_question(address: int | None = None) -> Message | None:
     return None
 
 
-def address_field() -> str:
+def address_field(library: Library) -> str:
     """Return the name of the address that the question has; empty where it has none."""
-    question = harmless_question()
-    return "" if question is None else EXCHANGES[type(question)].address.field
+    question = harmless_question(library)
+    return "" if question is None else library.exchanges[type(question)].address.field
 
 
 def _likeliest(kind: type[Message], exchange: Exchange) -> int:

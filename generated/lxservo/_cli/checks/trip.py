@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-from ..._client.exchanges import EXCHANGES
-from ..._codec.decoder import StreamDecoder
 from ..._codec.noise import Noise
-from ..._frame.direction import RECEIVED
 from .heard import Heard
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from ..._client.library import Library
     from ..._frame.message import Message
     from .heard import Pieces
 
@@ -22,15 +20,22 @@ class Trip:
     """
 
     def __init__(
-        self, question: Message, sent_at: float, pieces: Pieces, *, local_echo: bool = False
+        self,
+        library: Library,
+        question: Message,
+        sent_at: float,
+        pieces: Pieces,
+        *,
+        local_echo: bool = False,
     ) -> None:
+        self._library = library
         self.question = question
         self._local_echo = local_echo
         self.sent_at = sent_at
         self.received = b"".join(data for _, data in pieces)
         # Where the question itself came back: an adapter echoes what passes on its one wire.
         self.echo = self._find_echo()
-        self.heard = Heard(pieces, self.echo)
+        self.heard = Heard(library.codec, pieces, self.echo)
         self.events = self.heard.events
 
     @property
@@ -41,7 +46,7 @@ class Trip:
     @property
     def replies(self) -> list[tuple[float, Message]]:
         """The replies to the question, each with the seconds that it took to be complete."""
-        exchange = EXCHANGES[type(self.question)]
+        exchange = self._library.exchanges[type(self.question)]
         return [
             (at - self.sent_at, event)
             for at, event in self.events
@@ -65,7 +70,8 @@ class Trip:
 
     def _find_echo(self) -> range:
         frame = self.question.encode()
-        sent = StreamDecoder(RECEIVED).feed(frame)
+        codec = self._library.codec
+        sent = codec.decoder(codec.received).feed(frame)
         if not self._local_echo and any(not isinstance(each, Noise) for each in sent):
             return range(0)  # the device may have sent this
         at = self.received.find(frame)

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from tests.factories import DEMO, library, library_of
+from tests.handed import handed_by, program_of
 from tests.lines.timed_line import DeviceLine, client_of
 
 
@@ -53,7 +54,7 @@ def test_present_actuators_are_found_held_and_released(blinds: Any) -> None:
 
 def test_verbs_name_actuators_in_the_words_of_the_spec(blinds: ModuleType) -> None:
     positions = importlib.import_module(f"{blinds.__name__}._cli.positions")
-    pose = positions.the_pose()
+    pose = positions.the_pose(handed_by(blinds.__name__))
     assert positions.listed(pose, [4]) == "blind 4"
     assert positions.listed(pose, [4, 9]) == "blinds 4, 9"
     assert list(pose.ids) == [*range(1, 21)]
@@ -66,10 +67,18 @@ def examined(blinds: ModuleType, device: Any) -> dict[str, Any]:
         for name in ("checks", "diagnosis")
     )
     line = DeviceLine(device)
+    program = program_of(blinds.__name__)
     case = diagnosis.Diagnosis(
-        "loop://", opener=lambda _port, _baud: line, clock=line.clock, hid_devices=list
+        program,
+        "loop://",
+        baud=program.library.link.baud,
+        local_echo=program.library.link.local_echo,
+        opener=lambda _port, _baud: line,
+        clock=line.clock,
+        hid_devices=list,
     )
-    return {check.id: result for check, result in checks.examine(case, checks.CHECKS)}
+    every = checks.checks_of(program.library)
+    return {check.id: result for check, result in checks.examine(case, every)}
 
 
 # No question of this protocol suits any device: each names those that it is about.

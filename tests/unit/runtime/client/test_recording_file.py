@@ -12,6 +12,7 @@ import pytest
 from busservo import ActionGroupStopped, Controller, NoReplyError, open_controller
 from busservo._cli import main
 from busservo._cli.recorder import Recorder
+from busservo._library import CODEC
 from busservo._recording.file import RecordingFile
 
 from tests.lines.timed_line import client_on
@@ -74,7 +75,7 @@ def test_an_empty_file_is_accepted(tmp_path: Path) -> None:
 @pytest.mark.skipif(os.name != "posix", reason="only POSIX has these")
 def test_a_device_or_a_fifo_is_accepted(tmp_path: Path) -> None:
     for _ in range(2):
-        with Recorder(Path(os.devnull)) as recorder:
+        with Recorder(Path(os.devnull), CODEC) as recorder:
             recorder.begin("COM7", 0.0)
     fifo = tmp_path / "fifo"
     os.mkfifo(fifo)

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo._cli import main
-from busservo._cli.answer import answer
 from busservo._cli.usage_error import UsageError
 
 from tests.documents import ROOT
+from tests.handed import answers_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+answer = answers_of("busservo")
 GUIDE = (ROOT / "docs" / "command.md").read_text(encoding="utf-8")
 SESSION = re.findall(r"^```text\n\$ busservo answer\n(.*?)^```$", GUIDE, re.MULTILINE | re.DOTALL)
 

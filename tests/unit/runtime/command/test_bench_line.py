@@ -142,7 +142,7 @@ def test_silence_is_said_to_be_that() -> None:
 def test_a_question_must_be_named_where_each_has_fields(
     capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(bench_line, "_usual", lambda: None)
+    monkeypatch.setattr(bench_line, "_usual", lambda _: None)
     assert main(["bench-line", "--port", "no-such-port"]) == 2
     errors = capsys.readouterr().err
     assert "name the question to measure" in errors

@@ -30,6 +30,7 @@ from tests.factories import (
     library,
     library_of,
 )
+from tests.handed import explanations_of
 from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
@@ -48,12 +49,10 @@ SERVO, HOUSE = (compiled_file(spec).model for spec in (BUSSERVO, DEMO))
 
 def carried_by(package: str) -> Explain:
     """Return what explains bytes by the library of that name, and by nothing of framegen."""
-    verb = import_module(f"{package}._cli.explain")
-    library = import_module(f"{package}._library").LIBRARY
-    text, model = import_module(f"{package}._explanation.text"), library.protocol()
+    text, explain = import_module(f"{package}._explanation.text"), explanations_of(package)
 
     def explained(frame: bytes) -> tuple[str, dict[str, Any]]:
-        found = verb.explained(model, frame)
+        found = explain(frame)
         return text.as_text(found), text.as_json(found)
 
     return explained

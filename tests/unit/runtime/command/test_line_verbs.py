@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from busservo import Controller, ServoPositions, ServoPositionsRead
 from busservo._cli import link, main, send, simulate
-from busservo._cli.examples import EXAMPLES, VERBS
+from busservo._cli.examples import EXAMPLES, PROGRAM, VERBS
 from busservo._cli.method_verb import MethodVerb
 from busservo._cli.questions import in_parts
 from busservo._cli.verbs import verb_named
@@ -111,9 +111,9 @@ def test_retries_ask_again(capsys: Capture) -> None:
 # `stats` has no port: it is told the rate of a line that was recorded.
 @in_turn("name", lambda: sorted({*VERBS} - {"simulate", "stats"}))
 def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
-    verb = verb_named(name)
+    verb = verb_named(name, PROGRAM)
     parser = argparse.ArgumentParser()
-    verb.add_arguments(parser)
+    verb.add_arguments(parser, PROGRAM)
     options = parser.format_help()
     assert ("--port" in options) == ("--baud" in options)
 
@@ -133,11 +133,11 @@ def test_the_rate_is_that_of_the_port(
 ) -> None:
     opened: list[tuple[str, float]] = []
 
-    def refuse(port: str, *, baud: float) -> object:
+    def refuse(port: str, *_line: object, baud: float, **_: object) -> object:
         opened.append((port, baud))
         raise PortNotFoundError(port, "it is a test", "look elsewhere")
 
-    monkeypatch.setattr(link, "open_transport", refuse)
+    monkeypatch.setattr(link, "open_port", refuse)
     assert main([*words, "--port", "COM7", "--baud", baud]) == 2
     assert opened == [("COM7", float(baud))]
 
@@ -199,11 +199,11 @@ def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
 ) -> None:
     taken: list[str] = []
 
-    def refuse(port: str, *, baud: float) -> object:
+    def refuse(port: str, *_line: object, baud: float, **_: object) -> object:
         taken.append(port)
         raise PortNotFoundError(port, f"it is a test at {baud}", "look elsewhere")
 
-    monkeypatch.setattr(link, "open_transport", refuse)
+    monkeypatch.setattr(link, "open_port", refuse)
     found = []
     for words, variable, ports, devices, _ in PORTS:
         monkeypatch.setenv("BUSSERVO_PORT", variable)
@@ -389,15 +389,16 @@ def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
 )
 def test_an_example_is_a_command_line(line: str) -> None:
     _, name, *words = shlex.split(line)
-    verb = verb_named(name)
+    verb = verb_named(name, PROGRAM)
     if name == "simulate":
         assert words == []
         return
     parser = argparse.ArgumentParser(exit_on_error=False)
-    verb.add_arguments(parser)
+    verb.add_arguments(parser, PROGRAM)
     given = parser.parse_intermixed_args(words)
     if "message" in given:
-        assert given.message is None or in_parts(given.message, given.fields)[0].encode()
+        library = PROGRAM.library
+        assert given.message is None or in_parts(given.message, given.fields, library)[0].encode()
     if isinstance(verb, MethodVerb):
         assert all(each.encode() for each in verb.messages(given))
 
@@ -440,4 +441,4 @@ def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
         monkeypatch.delitem(sys.modules, f"busservo_simulator.{module}", raising=False)
     monkeypatch.setitem(sys.modules, "signal", None)
     with pytest.raises(ModuleNotFoundError, match="signal"):
-        simulate.hand_over([])
+        simulate.hand_over([], PROGRAM)

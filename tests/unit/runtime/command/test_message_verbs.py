@@ -15,7 +15,7 @@ from busservo import (
     ServoUnload,
 )
 from busservo._cli import main
-from busservo._cli.examples import LONG, METHODS, POSE_METHODS, STOP_MESSAGE
+from busservo._cli.examples import LONG, METHODS, POSE_METHODS, PROGRAM, STOP_MESSAGE
 from busservo._cli.verbs import verb_named
 from busservo._client.exchanges import EXCHANGES
 from busservo_simulator import VirtualController
@@ -37,9 +37,9 @@ FAST = ("--timeout", str(GENEROUS), "--baud", "inf")
 
 def sent_by(*words: str) -> list[Message]:
     """Return what a verb makes of its words."""
-    verb = verb_named(words[0])
+    verb = verb_named(words[0], PROGRAM)
     parser = argparse.ArgumentParser()
-    verb.add_arguments(parser)
+    verb.add_arguments(parser, PROGRAM)
     messages: list[Message] = verb.messages(parser.parse_intermixed_args(words[1:]))
     return messages
 

@@ -23,9 +23,11 @@ from busservo import (
     ServoUnload,
 )
 from busservo._cli import main, monitor
+from busservo._cli.examples import PROGRAM
 from busservo._cli.progress import Progress
 from busservo._cli.recorder import Recorder
 from busservo._cli.usage_error import UsageError
+from busservo._library import CODEC
 
 from tests.commands import Terminal
 
@@ -78,12 +80,12 @@ def watched(
 ) -> list[str]:
     """Return the lines that a monitor shows until the line is lost."""
     parser = argparse.ArgumentParser()
-    monitor.add_arguments(parser)
+    monitor.add_arguments(parser, PROGRAM)
     line = Line(*LINE) if line is None else line
     screen = io.StringIO() if screen is None else screen
     arguments = parser.parse_args(["--port", "COM7", *words])
-    watching = monitor.Monitor(arguments, screen, clock=line.clock, day=line.day)
-    with Recorder(log) as recorder:
+    watching = monitor.Monitor(arguments, screen, CODEC, clock=line.clock, day=line.day)
+    with Recorder(log, CODEC) as recorder:
         recorder.begin("COM7", line.clock())
         try:
             watching.watch(line, recorder)
@@ -323,7 +325,7 @@ class FullDisk(io.StringIO):
 
 
 def test_a_recording_whose_end_does_not_fit_is_reported(tmp_path: Path) -> None:
-    recorder = Recorder(tmp_path / "line.hex")
+    recorder = Recorder(tmp_path / "line.hex", CODEC)
     assert recorder._file is not None
     recorder._file._file.close()
     recorder._file._file = cast("TextIOWrapper[Any]", FullDisk())

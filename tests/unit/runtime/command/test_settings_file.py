@@ -13,6 +13,7 @@ import busservo._cli
 import lxservo._cli
 import pytest
 from busservo._cli import link, settings, teach
+from busservo._cli.examples import PROGRAM
 from busservo._cli.settings_file import parsed
 from busservo._cli.settings_save import save
 from busservo._cli.usage_error import UsageError
@@ -45,7 +46,7 @@ def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_the_file_of_the_guide_is_one() -> None:
     guide = (ROOT / "docs" / "command.md").read_text("utf-8")
     (text,) = re.findall(r"```toml\n(.*?)```", guide, re.DOTALL)
-    found = parsed(Path(FILE), text.encode())
+    found = parsed(Path(FILE), text.encode(), PROGRAM.library)
     assert (found.port, found.ids) == ("/dev/ttyUSB0", (1, 2, 3, 4, 5, 6))
     assert found.limits is not None
     assert found.limits.allowed == {1: (100, 900), 6: None}
@@ -55,11 +56,11 @@ def refused_port(monkeypatch: pytest.MonkeyPatch, module: Any = link) -> list[tu
     """Have every port refused, and return what was opened."""
     opened: list[tuple[str, float]] = []
 
-    def refuse(port: str, *, baud: float) -> object:
+    def refuse(port: str, *_line: object, baud: float, **_: object) -> object:
         opened.append((port, baud))
         raise PortNotFoundError(port, "it is a test", "look elsewhere")
 
-    monkeypatch.setattr(module, "open_transport", refuse)
+    monkeypatch.setattr(module, "open_port", refuse)
     monkeypatch.setattr(module, "serial_ports", list)
     monkeypatch.setattr(module, "hid_devices_at_hand", lambda _link: [])
     return opened
@@ -247,7 +248,7 @@ def test_the_folder_of_the_user_is_that_of_the_system(monkeypatch: pytest.Monkey
     found = []
     for system in ("linux", "darwin", "win32"):
         monkeypatch.setattr(sys, "platform", system)
-        path = settings.user_file()
+        path = settings.user_file(PROGRAM)
         assert path is not None
         found.append(path.as_posix())
     assert found == [
@@ -353,13 +354,13 @@ def test_what_is_saved_changes_its_own_lines_and_nothing_else() -> None:
     found = []
     for before, values, _ in SAVED:
         path.write_bytes(before.encode())
-        save(path, values)
+        save(path, values, PROGRAM)
         found.append((before, values, path.read_bytes().decode()))
     assert found == SAVED
     for text, values in KEPT:
         path.write_bytes(text.encode())
         with pytest.raises(UsageError, match="nothing saved") as caught:
-            save(path, values)
+            save(path, values, PROGRAM)
         assert path.read_bytes() == text.encode()
         assert len(caught.value.choices) == 1
     assert [*Path().iterdir()] == [path]

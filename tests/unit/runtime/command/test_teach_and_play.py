@@ -45,7 +45,7 @@ class Desk(NamedTuple):
     @property
     def poses(self) -> list[dict[int, int]]:
         """The positions in the file."""
-        return [each.positions for each in read_poses(self.file, POSE)]
+        return [each.positions for each in read_poses(self.file, POSE, "busservo")]
 
 
 @pytest.fixture
@@ -164,7 +164,7 @@ def test_an_existing_file_is_never_overwritten_without_consent(desk: Desk) -> No
     assert desk.file.read_text() == before
     assert desk.teach(*words, "--append", keys="\nq\nn\n").status == 0
     assert desk.poses == [{7: 100}, {1: 500, 2: 500, 3: 500}]
-    assert read_poses(desk.file, POSE)[0] == Recorded({7: 100}, 50, 0.5)
+    assert read_poses(desk.file, POSE, "busservo")[0] == Recorded({7: 100}, 50, 0.5)
     assert desk.teach(*words, "--force", keys="\nq\nn\n").status == 0
     assert desk.poses == [{1: 500, 2: 500, 3: 500}]
 
@@ -356,8 +356,8 @@ recorded = st.builds(
 def test_a_written_file_is_read_back(poses: list[Recorded]) -> None:
     with TemporaryDirectory() as folder:
         file = Path(folder, "poses.json")
-        write_poses(file, poses)
-        assert read_poses(file, POSE) == poses
+        write_poses(file, poses, "busservo")
+        assert read_poses(file, POSE, "busservo") == poses
         assert len(file.read_text().splitlines()) == 6 + max(1, len(poses))
 
 
@@ -365,6 +365,6 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
     real, link = tmp_path / "real.json", tmp_path / "link.json"
     real.write_text("")
     link.symlink_to(real)
-    write_poses(link, [Recorded({1: 5})])
+    write_poses(link, [Recorded({1: 5})], "busservo")
     assert link.is_symlink()
-    assert read_poses(real, POSE) == [Recorded({1: 5})]
+    assert read_poses(real, POSE, "busservo") == [Recorded({1: 5})]

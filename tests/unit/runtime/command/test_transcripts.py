@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import DisconnectedError
 from busservo._cli import doctor, main, monitor
-from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.checks import examine
+from busservo._cli.examples import PROGRAM
 from busservo._cli.recorder import Recorder
 from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
 
 from tests.documents import ROOT
-from tests.lines.patient import board_with, diagnosis_of
+from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.timeouts import GENEROUS, await_that
 from tests.unit.runtime.command.checks.test_strangers import CASES, examined
 from tests.unit.runtime.command.test_line_verbs import plugged_in
@@ -121,11 +122,12 @@ def said(found: Mapping[Check, Result]) -> str:
 def test_monitor(capsys: Capture) -> None:
     words, shown = TRANSCRIPTS["command.md", "monitor"]
     parser = argparse.ArgumentParser()
-    monitor.add_arguments(parser)
+    monitor.add_arguments(parser, PROGRAM)
     line = Line(*map(bytes.fromhex, re.findall(r" \| ([0-9A-F ]+)$", shown, re.MULTILINE)))
     screen = io.StringIO()
-    watching = monitor.Monitor(parser.parse_args(words), screen, clock=line.clock, day=line.day)
-    with Recorder(None) as recorder, pytest.raises(DisconnectedError):
+    arguments, codec = parser.parse_args(words), PROGRAM.library.codec
+    watching = monitor.Monitor(arguments, screen, codec, clock=line.clock, day=line.day)
+    with Recorder(None, codec) as recorder, pytest.raises(DisconnectedError):
         watching.watch(line, recorder)
     assert_agrees("command.md", "monitor", screen.getvalue() + "^C\n" + capsys.readouterr().err)
 

@@ -21,6 +21,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, compiled_file
+from tests.handed import handed_by
 from tests.hex_cases import HEX, NO_HEX
 from tests.in_turn import in_turn
 
@@ -90,7 +91,9 @@ def audited(content: bytes) -> bytes:
 
 
 def decoded(content: bytes) -> bytes:
-    return joined(Recording(io.BytesIO(content), "line").entries("auto", None))
+    return joined(
+        Recording(io.BytesIO(content), "line", handed_by("busservo").codec).entries("auto", None)
+    )
 
 
 READERS: dict[str, Callable[[bytes], bytes]] = {

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.few_each import few_each
+from tests.handed import handed_by
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES
 from tests.rows import some
@@ -155,8 +156,9 @@ def test_statistics_can_be_shown_and_drawn(
     traces = traces_of(made)
     found = statistics_of(made, line, traces=traces)
     sheet = part(made, "_cli.statistics_sheet")
-    assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600)
-    sheet.show(found, "line.bin", 9600)
+    link = handed_by(made.__name__).link
+    assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600, link)
+    sheet.show(found, "line.bin", 9600, link)
     for quantity, lines in traces.panels():
         for trace in lines.values():
             at, value = trace.points()

@@ -10,13 +10,13 @@ import pytest
 from busservo._cli import doctor, main
 from busservo._cli.checks import reply
 from busservo._cli.checks.check import Check
-from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.checks import examine
 from busservo._cli.checks.report import Report
 from busservo._cli.checks.result import PASSED, passed
 from busservo._serial.link_errors import DisconnectedError
 from busservo_simulator import Faults, VirtualController
 
-from tests.lines.patient import ADAPTER, PORT, board_with, diagnosis_of, examined
+from tests.lines.patient import ADAPTER, CHECKS, PORT, board_with, diagnosis_of, examined
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def test_a_failed_check_comes_with_advice(capsys: Capture) -> None:
 
 @pytest.mark.usefixtures("nothing_else_comes")
 def test_json_has_a_line_for_each_check(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(doctor, "CHECKS", CHECKS[:7])
+    monkeypatch.setattr(doctor, "checks_of", lambda _: CHECKS[:7])
     with VirtualController("tcp") as board:
         assert main(["doctor", "--port", board.port, "--json", *PATIENT]) == 0
     records = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
@@ -175,7 +175,7 @@ def test_a_report_is_written_even_where_it_was_ended_early(
         raise KeyboardInterrupt
 
     checks = [Check("one", "one", (), lambda _: passed("fine")), Check("two", "", (), interrupted)]
-    monkeypatch.setattr(doctor, "CHECKS", checks)
+    monkeypatch.setattr(doctor, "checks_of", lambda _: checks)
     path = tmp_path / "report.hex"
     assert main(["doctor", "--port", "COM7", "--report", str(path)]) == 130
     assert "# passed one: fine\n" in path.read_text()

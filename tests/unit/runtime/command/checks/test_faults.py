@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ActionGroupStarted
-from busservo._cli.checks.checks import CHECKS
 from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
 from busservo_simulator import Faults
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.lines.patient import LONGEST, board_with, diagnosis_of, examined
+from tests.lines.patient import CHECKS, LONGEST, board_with, diagnosis_of, examined
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from busservo._cli.checks.heard import PAUSE, Heard
 from busservo._codec.event_bytes import bytes_of
+from busservo._library import CODEC
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -81,7 +82,7 @@ def test_noise_has_no_silence_in_it_and_a_message_may(name: str) -> None:
     for wait, data in given_pieces:
         now += wait
         pieces.append((now, bytes.fromhex(data)))
-    heard = Heard(pieces, left_out)
+    heard = Heard(CODEC, pieces, left_out)
     found = [(round(at, 6), bytes_of(event).hex(" ").upper()) for at, event in heard.events]
     assert found == [(round(at, 6), data) for at, data in events]
     assert [b"".join(each.data for each in run).hex() for run in heard.runs] == runs
@@ -103,7 +104,7 @@ def test_every_byte_is_in_one_event_and_times_never_run_back(
         pieces.append((now, data))
     whole = b"".join(data for _, data in pieces)
     left_out = range(min(start, len(whole)), min(start + size, len(whole)))
-    heard = Heard(pieces, left_out)
+    heard = Heard(CODEC, pieces, left_out)
     kept = whole[: left_out.start] + whole[left_out.stop :]
     assert b"".join(bytes_of(event) for _, event in heard.events) == kept
     times = [at for at, _ in heard.events]

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo._cli import doctor, main
 from busservo._cli.checks import move
-from busservo._cli.checks.checks import CHECKS, examine
+from busservo._cli.checks.checks import examine
 from busservo._cli.checks.move import move_check
 from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
+from busservo._cli.examples import PROGRAM
 from busservo._client.exchanges import POSE
 from busservo._client.limits import Limits
 from busservo_simulator import Faults, VirtualController, servo
 
-from tests.lines.patient import board_with, diagnosis_of
+from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def test_a_missing_servo_is_not_moved() -> None:
 
 
 def test_what_is_outside_the_limits_is_not_moved(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(move, "LIMITS", Limits((0, 400)))
+    monkeypatch.setattr(PROGRAM.library, "limits", Limits((0, 400)))
     with board_with() as board:
         found = moved(board)
         assert board.accepted == 1
@@ -89,7 +90,7 @@ def test_it_asks_before_it_moves(
             return answer
 
     monkeypatch.setattr("sys.stdin", Terminal())
-    monkeypatch.setattr(doctor, "CHECKS", OPENING)
+    monkeypatch.setattr(doctor, "checks_of", lambda _: OPENING)
     # It moves in no time, and so before its position is read, on however slow a machine.
     monkeypatch.setattr(servo, "STEPS_PER_SECOND", math.inf)
     monkeypatch.setattr(move, "_MILLISECONDS", 0)

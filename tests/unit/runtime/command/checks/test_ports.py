@@ -16,15 +16,14 @@ from busservo import (
     PortPermissionError,
 )
 from busservo._cli.checks import port_listed, rate
-from busservo._cli.checks.checks import CHECKS, examine
-from busservo._cli.checks.diagnosis import Diagnosis
+from busservo._cli.checks.checks import examine
 from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
 from busservo._serial.hid_devices import HidDevice
 from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
 
 from tests.in_turn import in_turn
-from tests.lines.patient import board_with, diagnosis_of, examined
+from tests.lines.patient import CHECKS, board_with, diagnosis_at, diagnosis_of, examined
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -82,7 +81,7 @@ def test_a_link_is_what_it_leads_to(tmp_path: Path) -> None:
     link.symlink_to(device)
 
     def found(port: Path | str, *ports: SerialPortSeen) -> tuple[str, str]:
-        diagnosis = Diagnosis(str(port), ports=lambda: [*ports], hid_devices=list)
+        diagnosis = diagnosis_at(str(port), ports=lambda: [*ports], hid_devices=list)
         state, seen, *_ = port_listed.CHECK.look(diagnosis)
         return state, seen
 
@@ -164,7 +163,7 @@ def quick(monkeypatch: pytest.MonkeyPatch, nothing_else_comes: None) -> None:
 
 
 def rate_of(port: str, **more: Any) -> Any:
-    diagnosis = Diagnosis(port, ports=list, hid_devices=list, **more)
+    diagnosis = diagnosis_at(port, ports=list, hid_devices=list, **more)
     checks = [check for check in CHECKS if check.id in {"port", "opening", "permission", "rate"}]
     return {check.id: result for check, result in examine(diagnosis, checks)}["rate"]
 

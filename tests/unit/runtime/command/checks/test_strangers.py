@@ -18,6 +18,7 @@ from tests.contract.independent.firmware import battery_question, battery_reply
 from tests.contract.independent.levels import received
 from tests.contract.independent.ports import StrangersPort, VirtualPort
 from tests.contract.independent.strangers import BANNER, GPS, MODEM, SKETCH, Print, Stranger
+from tests.handed import program_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 from tests.rows import some
@@ -38,6 +39,7 @@ def examined(device: Stranger | Board, package: str = "busservo") -> dict[str, A
     """Return the result of each check of a library's doctor."""
     checks: Any = import_module(f"{package}._cli.checks.checks")
     diagnosis: Any = import_module(f"{package}._cli.checks.diagnosis")
+    program = program_of(package)
     seen: Any = import_module(f"{package}._serial.serial_port").SerialPortSeen
     port = StrangersPort(device) if isinstance(device, Stranger) else VirtualPort(device)
 
@@ -45,13 +47,17 @@ def examined(device: Stranger | Board, package: str = "busservo") -> dict[str, A
         return port.opened(rate) if isinstance(port, StrangersPort) else port.reopen()
 
     looked = diagnosis.Diagnosis(
+        program,
         "COM9",
+        baud=program.library.link.baud,
+        local_echo=program.library.link.local_echo,
         opener=opened,
         ports=lambda: [seen("COM9", "1A86:7523", "USB Serial", "")],
         hid_devices=list,
         clock=port.clock,
     )
-    found = {check.id: result for check, result in checks.examine(looked, checks.CHECKS)}
+    every = checks.checks_of(program.library)
+    found = {check.id: result for check, result in checks.examine(looked, every)}
     assert port.now < LONGEST
     return found
 

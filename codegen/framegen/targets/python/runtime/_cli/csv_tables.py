@@ -14,7 +14,6 @@ from .._codec.event_bytes import bytes_of
 from .._codec.noise import Noise, UnknownFrame
 from .._frame.bytes_like import format_hex
 from .._frame.free_name import free_name
-from .._library import CODEC
 from .._recording.layout import (
     EVENT_COLUMNS,
     NOISE,
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.message import Message
     from .._recording.entry import Entry
     from .._recording.layout import Column, Layout, Layouts
@@ -39,13 +39,13 @@ if TYPE_CHECKING:
 _HELD = 20_000
 
 
-def csv_written(entries: Iterable[Entry], folder: Path) -> dict[str, int]:
+def csv_written(entries: Iterable[Entry], folder: Path, codec: ProtocolCodec) -> dict[str, int]:
     """Write tables as FOLDER/<Table>.csv, and return the rows of each.
 
     The folder is made, or holds nothing but such files, which are replaced. Raises FileExistsError
     if it holds something else, and OSError. Whatever goes wrong, no file is half-written.
     """
-    layouts = layouts_of(CODEC)
+    layouts = layouts_of(codec)
     noise = [*EVENT_COLUMNS, REASON_COLUMN, UNKNOWN_COLUMN]
     noise += [*(column for column, _ in layouts.unknown_columns.values()), PARAMETERS]
     target = TableFolder(layouts.names, folder, ".csv")

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from typing import Any, TextIO, TypeVar
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .._frame.message import Message
     from .._recording.entry import Entry
@@ -32,8 +33,11 @@ class EntryLines:
     `form` is text, json or csv. `times` is one of TIMES, None for whatever times there are.
     """
 
-    def __init__(self, screen: TextIO, form: str, times: str | None = None) -> None:
+    def __init__(
+        self, screen: TextIO, form: str, codec: ProtocolCodec, times: str | None = None
+    ) -> None:
         self._screen = screen
+        self._codec = codec
         self._times = times or "zero"
         self._began: float | None = None
         self._last = 0.0
@@ -90,7 +94,7 @@ class EntryLines:
         self._rows.writerow([entry.offset, when, *self._remembered(entry, _as_cells)])
 
     def _remembered(
-        self, entry: Entry, say: Callable[[Message | Noise, Direction | None], _Said]
+        self, entry: Entry, say: Callable[[Message | Noise, Direction | None, ProtocolCodec], _Said]
     ) -> _Said:
         event = entry.event
         key: tuple[object, ...]
@@ -102,16 +106,18 @@ class EntryLines:
         if said is None:
             if len(self._said) >= _REMEMBERED:
                 self._said.clear()
-            said = self._said[key] = say(event, entry.direction)
+            said = self._said[key] = say(event, entry.direction, self._codec)
         return said
 
 
-def _as_json(event: Message | Noise, direction: Direction | None) -> str:
-    return in_json(event, direction)[1:]
+def _as_json(event: Message | Noise, direction: Direction | None, codec: ProtocolCodec) -> str:
+    return in_json(event, direction, codec)[1:]
 
 
-def _as_cells(event: Message | Noise, direction: Direction | None) -> list[str]:
-    sender, names = origin_of(event, direction)
+def _as_cells(
+    event: Message | Noise, direction: Direction | None, codec: ProtocolCodec
+) -> list[str]:
+    sender, names = origin_of(event, direction, codec)
     if isinstance(event, Noise):
         return [sender, "", "", "", "", format_hex(event.data), event.reason.value]
     name, *others = names

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from .._client.wire_time import WireTime
 from .._frame.pluralize import pluralize
-from .._library import LINK
 from . import link
 from .exit_codes import DONE
 from .limits import add_limits, limits_of
@@ -24,11 +23,15 @@ from .values import fields_as_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .._client.client import Client
+    from .._client.library import Library
     from .._client.pose import Pose
     from .._frame.message import Message
     from .limits import Chosen
     from .posefile import Recorded
+    from .program import Program
 
 ENDS = link.ENDS
 ABOUT = """\
@@ -38,13 +41,13 @@ nothing moves on. Give it room, and look at --dry-run first: nothing here knows 
 and the first pose may be far away."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: argparse.ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
     parser.add_argument("file", type=Path, metavar="FILE", help="poses that `teach` has recorded")
-    add_port(parser)
+    add_port(parser, program)
     parser.add_argument(
         "--time-ms",
-        type=_time,
+        type=_time_of(the_pose(program.library)),
         default=1000,
         metavar="MS",
         help="how long the way to each pose takes, where the file does not say (default: 1000)",
@@ -60,18 +63,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--repeat", type=at_least(1), default=1, metavar="N", help="play it so often (default: 1)"
     )
     parser.add_argument("--dry-run", action="store_true", help="print what would be sent, and when")
-    add_limits(parser)
+    add_limits(parser, program)
     add_timeout(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace, program: Program) -> int:
     """Play a file, or only print what it would send."""
-    pose, limits = the_pose(), limits_of(arguments)
-    poses = read_poses(arguments.file, pose)
+    pose, limits = the_pose(program.library), limits_of(arguments)
+    poses = read_poses(arguments.file, pose, program.name)
     check_limits(arguments.file, poses, pose, limits)
     if not poses:
         raise UsageError(f"{arguments.file} holds no pose")
-    steps = [_Step(at, each, pose, arguments) for at, each in enumerate(poses, 1)]
+    steps = [_Step(at, each, program.library, arguments) for at, each in enumerate(poses, 1)]
     if arguments.dry_run:
         at = 0.0
         for step in chain.from_iterable(repeat(steps, arguments.repeat)):
@@ -80,23 +83,27 @@ def run(arguments: argparse.Namespace) -> int:
         total = pluralize(len(steps) * arguments.repeat, "pose")
         print(f"{total} in {at:.3f} s: nothing was sent", file=sys.stderr)
         return DONE
-    with failures_reported(arguments), open_client(arguments, limits=limits.allowed) as controller:
-        return _play(controller, steps, arguments.repeat, limits)
+    with (
+        failures_reported(arguments),
+        open_client(arguments, program, limits=limits.allowed) as controller,
+    ):
+        return _play(controller, program.library, steps, arguments.repeat, limits)
 
 
 class _Step:
     """One motion, and how long to wait for it."""
 
     def __init__(
-        self, number: int, recorded: Recorded, pose: Pose, arguments: argparse.Namespace
+        self, number: int, recorded: Recorded, library: Library, arguments: argparse.Namespace
     ) -> None:
+        pose = the_pose(library)
         time_ms = arguments.time_ms if recorded.time_ms is None else recorded.time_ms
         pause = arguments.pause if recorded.pause_s is None else recorded.pause_s
         self.message: Message = pose.motion(recorded.positions.items(), time_ms)
         self.number = number
         self.ids = tuple(recorded.positions)
         self.seconds = time_ms / 1000 + pause
-        self.wire = WireTime(LINK, arguments.baud).seconds(len(self.message.encode()))
+        self.wire = WireTime(library.link, arguments.baud).seconds(len(self.message.encode()))
 
     def line(self, at: float) -> str:
         """Return the line that is printed for it."""
@@ -104,7 +111,9 @@ class _Step:
         return f"{at:12.6f}  pose {self.number}  {what}"
 
 
-def _play(controller: Client, steps: list[_Step], times: int, limits: Chosen) -> int:
+def _play(
+    controller: Client, library: Library, steps: list[_Step], times: int, limits: Chosen
+) -> int:
     began = time.monotonic()
     done = 0
     try:
@@ -116,19 +125,24 @@ def _play(controller: Client, steps: list[_Step], times: int, limits: Chosen) ->
             done += 1
     except KeyboardInterrupt:
         ids = tuple(dict.fromkeys(each for step in steps for each in step.ids))
-        return stopped_by_hand(controller, ids, limits)
+        return stopped_by_hand(controller, library, ids, limits)
     finally:
         print(f"{done} of {pluralize(len(steps) * times, 'pose')} played", file=sys.stderr)
     return DONE
 
 
-def _time(text: str) -> int:
-    bounds = the_pose().duration
-    try:
-        given = whole(text)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    if not bounds.low <= given <= bounds.high:
-        problem = f"{given} is outside {bounds.low}..{bounds.high} milliseconds"
-        raise argparse.ArgumentTypeError(problem)
-    return given
+def _time_of(pose: Pose) -> Callable[[str], int]:
+    """Return what reads how long a motion takes, in milliseconds."""
+    bounds = pose.duration
+
+    def time_ms(text: str) -> int:
+        try:
+            given = whole(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+        if not bounds.low <= given <= bounds.high:
+            problem = f"{given} is outside {bounds.low}..{bounds.high} milliseconds"
+            raise argparse.ArgumentTypeError(problem)
+        return given
+
+    return time_ms

@@ -4,58 +4,66 @@ from __future__ import annotations
 
 import sys
 
-from .._client.exchanges import EXCHANGES, POSE
 from .._client.holding import Holding
 from .._client.long_question import parts_of
 from .._frame.errors import LimitError
 from .._serial.link_errors import AbsentError, NoReplyError
 from .exit_codes import INTERRUPTED
 from .numerals import ranges
-from .settings import FILE
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from .._client.client import Client
+    from .._client.library import Library
     from .._client.limits import Allowed
     from .._client.pose import Pose
     from .limits import Chosen
+    from .program import Program
 
-# Which are meant where none are named, in words.
-SEVERAL = f"those in {FILE}, else all that answer"
 # Errors of reading positions that may be over at the next attempt.
 UNREAD = (AbsentError, LimitError, NoReplyError)
 
 
-def the_pose() -> Pose:
+def the_pose(library: Library) -> Pose:
     """Return how positions are read and commanded; only protocols with poses have these verbs."""
-    if POSE is None:
+    if library.pose is None:
         raise AssertionError("this is for protocols with poses")
-    return POSE
+    return library.pose
 
 
-def find_present(controller: Client, pose: Pose) -> tuple[int, ...]:
+def several(program: Program) -> str:
+    """Return in words which are meant where none are named."""
+    return f"those in {program.settings_file}, else all that answer"
+
+
+def find_present(controller: Client, library: Library) -> tuple[int, ...]:
     """Return the numbers of all that are present. Raises NoReplyError."""
-    return pose.present_in(
-        controller.request(each) for each in parts_of(EXCHANGES, pose.read, pose.ids)
-    )
+    pose = the_pose(library)
+    questions = parts_of(library.exchanges, pose.read, pose.ids)
+    return pose.present_in(controller.request(each) for each in questions)
 
 
 def read_targets(
-    controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed
+    controller: Client, library: Library, ids: Sequence[int], limits: Allowed
 ) -> list[tuple[int, int]]:
     """Return the current positions, as targets. Raises one of UNREAD unless all are present."""
-    exchanged = [(each, controller.request(each)) for each in parts_of(EXCHANGES, pose.read, ids)]
+    pose = the_pose(library)
+    questions = parts_of(library.exchanges, pose.read, ids)
+    exchanged = [(each, controller.request(each)) for each in questions]
     return pose.held(exchanged, limits)
 
 
-def hold_those_there(controller: Client, pose: Pose, ids: Sequence[int], limits: Allowed) -> bool:
+def hold_those_there(
+    controller: Client, library: Library, ids: Sequence[int], limits: Allowed
+) -> bool:
     """Command the current positions of those that answer, and say which; whether that is all.
 
     Of each other it says why it is not held. Raises NoReplyError if nobody answers.
     """
-    holding = Holding(pose, EXCHANGES, ids, limits)
+    pose = the_pose(library)
+    holding = Holding(pose, library.exchanges, ids, limits)
     for question in holding.questions:
         holding.take(controller.request(question))
     for command in holding.commands():
@@ -67,14 +75,16 @@ def hold_those_there(controller: Client, pose: Pose, ids: Sequence[int], limits:
     return not holding.left
 
 
-def stopped_by_hand(controller: Client, ids: Sequence[int], limits: Chosen) -> int:
+def stopped_by_hand(
+    controller: Client, library: Library, ids: Sequence[int], limits: Chosen
+) -> int:
     """Hold what moves, because Ctrl-C was pressed, and say so; return the exit status."""
     print(file=sys.stderr)
-    if POSE is None or not ids:
+    if not ids:
         print("what was sent goes on to its end", file=sys.stderr)
         return INTERRUPTED
     try:
-        hold_those_there(controller, POSE, ids, limits.allowed)
+        hold_those_there(controller, library, ids, limits.allowed)
     except NoReplyError as error:
         print(f"the motion under way goes on to its end: {error}", file=sys.stderr)
     return INTERRUPTED
@@ -96,7 +106,7 @@ def in_options(error: Exception, limits: Chosen) -> str:
     return str(limits.refused(error) if isinstance(error, LimitError) else error)
 
 
-def numbers(text: str) -> tuple[int, ...]:
-    """Return the numbers of an argument such as `1-6,9`."""
-    bounds = the_pose().item
-    return ranges(text, bounds.low, bounds.high)
+def numbers_of(pose: Pose) -> Callable[[str], tuple[int, ...]]:
+    """Return what reads an argument such as `1-6,9`, the numbers of some of them."""
+    bounds = pose.item
+    return lambda text: ranges(text, bounds.low, bounds.high)

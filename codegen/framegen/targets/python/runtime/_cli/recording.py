@@ -6,7 +6,6 @@ import sys
 import time
 from contextlib import contextmanager
 
-from .._library import CODEC
 from .._recording.entry import RecordingError
 from .._recording.reader import read
 from .progress import PROGRESS_INTERVAL, Progress
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import BinaryIO
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .._recording.entry import Entry
 
@@ -32,8 +32,9 @@ class Recording:
 
     is_quiet = False
 
-    def __init__(self, stream: BinaryIO, name: str) -> None:
+    def __init__(self, stream: BinaryIO, name: str, codec: ProtocolCodec) -> None:
         self.name = name
+        self.codec = codec
         self._stream = stream
         self._read = getattr(stream, "read1", stream.read)
         self.again = stream.seekable()
@@ -45,7 +46,7 @@ class Recording:
     def entries(self, form: str, direction: Direction | None) -> Iterator[Entry]:
         """Yield the entries, from the beginning on. Raises UsageError."""
         with self.from_the_beginning():
-            yield from read(CODEC, self, form, direction)
+            yield from read(self.codec, self, form, direction)
 
     @contextmanager
     def from_the_beginning(self) -> Iterator[None]:
@@ -78,7 +79,7 @@ class Recording:
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Recording]:
+def opened(path: Path, codec: ProtocolCodec) -> Iterator[Recording]:
     """Open the file of that name, or standard input for `-`. Raises UsageError."""
     name = "standard input" if str(path) == "-" else str(path)
     if name != str(path) and sys.stdin is None:
@@ -88,7 +89,7 @@ def opened(path: Path) -> Iterator[Recording]:
     except OSError as error:
         raise _unreadable(name, error) from None
     try:
-        yield Recording(stream, name)
+        yield Recording(stream, name, codec)
     finally:
         if name == str(path):
             stream.close()

@@ -9,11 +9,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
+    from .._codec.protocol_codec import ProtocolCodec
     from .._explanation.protocol import Lookalike, Protocol
     from .sheet import Sheet
 
 
-def errata(sheet: Sheet, model: Protocol) -> None:
+def errata(sheet: Sheet, model: Protocol, _codec: ProtocolCodec) -> None:
     """Print where the documents are wrong, and what they leave open."""
     sheet.heading("Errata")
     if not model.said["errata"]:
@@ -49,7 +50,7 @@ def unknown_line(sheet: Sheet, unknown: Any) -> None:
     sheet.paragraph(f"{concerns}: {unknown['what']}", 2)
 
 
-def lookalikes(sheet: Sheet, model: Protocol) -> None:
+def lookalikes(sheet: Sheet, model: Protocol, codec: ProtocolCodec) -> None:
     """Print which protocols are easily taken for this one, and how to tell them."""
     if not model.lookalikes:
         sheet.line("No look-alikes are known.")
@@ -58,10 +59,10 @@ def lookalikes(sheet: Sheet, model: Protocol) -> None:
         sheet.paragraph(other.said["about"])
         source, kind = model.source(other.said["cite"])
         sheet.paragraph(f"Source: {source} [{kind}]" if kind else f"Source: {source}")
-        _lookalike(sheet, model, other)
+        _lookalike(sheet, model, other, codec)
 
 
-def _lookalike(sheet: Sheet, model: Protocol, other: Lookalike) -> None:
+def _lookalike(sheet: Sheet, model: Protocol, other: Lookalike, codec: ProtocolCodec) -> None:
     if "frame" in other.said:
         parts = [(slot.name, slot.role) for slot in other.frame.slots]
         sheet.line()
@@ -70,7 +71,7 @@ def _lookalike(sheet: Sheet, model: Protocol, other: Lookalike) -> None:
         sheet.line()
         sheet.paragraph(example["title"], 2)
         sheet.paragraph(example["hex"], 4)
-        refusals = explained(model, bytes.fromhex(example["hex"])).refusals
+        refusals = explained(model, bytes.fromhex(example["hex"]), codec).refusals
         for refusal in refusals:
             sheet.paragraph(f"{refusal.direction}: {refusal.reason}: {refusal.expected}", 4)
     if other.commands:
@@ -91,7 +92,7 @@ def _lookalike(sheet: Sheet, model: Protocol, other: Lookalike) -> None:
         )
 
 
-TOPICS: dict[str, Callable[[Sheet, Protocol], None]] = {
+TOPICS: dict[str, Callable[[Sheet, Protocol, ProtocolCodec], None]] = {
     "errata": errata,
     "lookalikes": lookalikes,
 }

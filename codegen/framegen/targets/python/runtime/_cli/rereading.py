@@ -23,4 +23,4 @@ def rereadable(recording: Recording) -> Iterator[Recording]:
     with TemporaryFile() as copy:
         while data := recording.read(_CHUNK):
             copy.write(data)
-        yield Recording(copy, recording.name)
+        yield Recording(copy, recording.name, recording.codec)

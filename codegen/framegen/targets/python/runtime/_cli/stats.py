@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from .._frame.protocol import BAUD
 from .capture import add_capture, direction_in, opened_capture
 from .excerpts import add_excerpt, excerpt_of
 from .exit_codes import DONE
@@ -19,6 +18,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
+    from .program import Program
+
 ABOUT = """\
 Counts and shares of each message, noise by reason, and the range of each value; of a recording
 also rates, gaps, and how much of what the line allows was used. It takes the extra `tables`, and
@@ -28,15 +29,16 @@ _HIGHEST = 65535
 _SUFFIXES = (".svg", ".png", ".pdf")
 
 
-def add_arguments(parser: ArgumentParser) -> None:
+def add_arguments(parser: ArgumentParser, program: Program) -> None:
     """Declare the arguments of the verb."""
-    add_capture(parser)
+    usual = program.library.link.baud
+    add_capture(parser, program.library.codec)
     parser.add_argument(
         "--baud",
         type=at_least(1),
-        default=BAUD,
+        default=usual,
         metavar="BAUD",
-        help=f"the rate of the line, for its load (default: {BAUD})",
+        help=f"the rate of the line, for its load (default: {usual})",
     )
     add_excerpt(parser)
     parser.add_argument(
@@ -54,32 +56,34 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print a line of JSON")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, program: Program) -> int:
     """Print the statistics, and draw the readings if that is asked for."""
     plot: Path | None = arguments.plot
     baud: int = arguments.baud
+    codec, link = program.library.codec, program.library.link
     # What cannot work is reported before a long file is read.
     excerpt = excerpt_of(arguments)
     if plot is not None:
         _refuse(plot)
-    measuring = imported("measuring", "tables")
-    drawing = None if plot is None else imported("drawing", "tables", "plots")
-    with opened_capture(arguments) as (recording, form):
+    measuring = imported("measuring", codec.package, "tables")
+    drawing = None if plot is None else imported("drawing", codec.package, "tables", "plots")
+    with opened_capture(arguments, codec) as (recording, form):
         recording.is_quiet = True
         with recording.from_the_beginning():
-            found, traces = measuring.measured(recording, form, arguments)
+            found, traces = measuring.measured(recording, form, arguments, link)
         mostly_noise = 2 * found.noise_size > found.size
-        begun = beginning(recording, form, direction_in(arguments)) if mostly_noise else b""
+        direction = direction_in(arguments, codec)
+        begun = beginning(recording, form, direction) if mostly_noise else b""
     name = recording.name if excerpt is None else f"{recording.name} {excerpt.words}"
-    print(as_json(found, baud)) if arguments.json else show(found, name, baud)
+    print(as_json(found, baud, link)) if arguments.json else show(found, name, baud, link)
     sys.stdout.flush()
-    hint(begun)
+    hint(begun, codec)
     measured = {each.key for each in found.ranges}
     absent = [str(each) for each in arguments.ids or () if each not in measured]
     if absent:
         print(f"no value is measured of {', '.join(absent)}", file=sys.stderr)
     if drawing is not None:
-        for note in drawing.drawn(traces, plot, name, baud):
+        for note in drawing.drawn(traces, plot, name, baud, codec):
             print(note, file=sys.stderr)
     return DONE
 

@@ -20,21 +20,22 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from .._codec.counters import Counters
+    from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
     from .recording import Recording
 
     _Write = Callable[[Recording, str, Direction | None, Path, Counters], dict[str, int]]
 
 
-def write_tables(arguments: Namespace, seen: Counters) -> bytes:
+def write_tables(arguments: Namespace, seen: Counters, codec: ProtocolCodec) -> bytes:
     """Write the tables, print how many rows each has, and count the events.
 
     Return how the bytes begin, if most of them are noise. Raises UsageError.
     """
-    direction = direction_in(arguments)
+    direction = direction_in(arguments, codec)
     # Before standard input is waited for.
-    target, write = _chosen(arguments)
-    with opened_capture(arguments) as (recording, form):
+    target, write = _chosen(arguments, codec.package)
+    with opened_capture(arguments, codec) as (recording, form):
         recording.is_quiet = True
         try:
             rows = write(recording, form, direction, target, seen)
@@ -46,13 +47,13 @@ def write_tables(arguments: Namespace, seen: Counters) -> bytes:
     return begun
 
 
-def _chosen(arguments: Namespace) -> tuple[Path, _Write]:
+def _chosen(arguments: Namespace, package: str) -> tuple[Path, _Write]:
     """Return what is written to, and what does it. Raises UsageError."""
     if arguments.arrow is not None:
-        return arguments.arrow, imported("arrow_tables", "tables").write_arrow
+        return arguments.arrow, imported("arrow_tables", package, "tables").write_arrow
     if arguments.parquet is not None:
         folder, option = arguments.parquet, "--parquet"
-        write = imported("arrow_tables", "tables").write_parquet
+        write = imported("arrow_tables", package, "tables").write_parquet
     else:
         folder, option, write = arguments.csv_tables, "--csv-tables", _write_csv
     if folder.is_file():
@@ -66,5 +67,5 @@ def _chosen(arguments: Namespace) -> tuple[Path, _Write]:
 def _write_csv(
     recording: Recording, form: str, direction: Direction | None, folder: Path, seen: Counters
 ) -> dict[str, int]:
-    rows = csv_written(counted(recording.entries(form, direction), seen), folder)
+    rows = csv_written(counted(recording.entries(form, direction), seen), folder, recording.codec)
     return {str(folder / f"{name}.csv"): count for name, count in rows.items()}

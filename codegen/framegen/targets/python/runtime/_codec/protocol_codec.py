@@ -7,6 +7,7 @@ from functools import cached_property
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from types import ModuleType
     from typing import Any
 
     from .._explanation.protocol import Protocol
@@ -30,6 +31,20 @@ class ProtocolCodec:
         self.package = package
         self.directions = directions
         self.received = received
+
+    @cached_property
+    def senders(self) -> list[str]:
+        """The names of both ends, of the first to send first."""
+        return list(dict.fromkeys(way.sender for way in self.directions))
+
+    @cached_property
+    def named(self) -> dict[str, Direction]:
+        """The directions as they are asked for: by the sender alone where that is enough."""
+        every = [way.sender for way in self.directions]
+        return {
+            way.sender if every.count(way.sender) == 1 else way.value: way
+            for way in self.directions
+        }
 
     @cached_property
     def messages(self) -> tuple[type[Message], ...]:
@@ -96,6 +111,12 @@ class ProtocolCodec:
         from .._explanation.carried_model import protocol
 
         return protocol(self.package)
+
+    @cached_property
+    def heads(self) -> ModuleType:
+        """The module that knows where frames begin, and how large they are."""
+        heads: ModuleType = self._part("_frame.heads")
+        return heads
 
     def _part(self, name: str) -> Any:
         # Not importlib, which would have to be imported first.

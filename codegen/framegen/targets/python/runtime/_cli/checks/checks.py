@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ..._client.exchanges import POSE
 from ..._serial.link_errors import TransportError
 from . import (
     busy,
@@ -25,24 +24,29 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from ..._client.library import Library
     from .check import Check
     from .diagnosis import Diagnosis
     from .result import Result
 
 _OF_REPLIES = (echo.CHECK, reply.CHECK, round_trip.CHECK)
-_QUESTION = harmless_question()
-CHECKS: tuple[Check, ...] = (
-    port_listed.CHECK,
-    hid_device.CHECK,
-    permission.CHECK,
-    busy.CHECK,
-    opening.CHECK,
-    silence.CHECK,
-    # Without a question that suits any device, there is no reply to look at.
-    *(() if _QUESTION is None else (rate_check(_QUESTION), *_OF_REPLIES)),
-    *(() if POSE is None else (present_check(POSE),)),
-    look_alike.CHECK,
-)
+
+
+def checks_of(library: Library) -> tuple[Check, ...]:
+    """Return all checks that there are in a protocol."""
+    question, pose = harmless_question(library), library.pose
+    return (
+        port_listed.CHECK,
+        hid_device.CHECK,
+        permission.CHECK,
+        busy.CHECK,
+        opening.CHECK,
+        silence.CHECK,
+        # Without a question that suits any device, there is no reply to look at.
+        *(() if question is None else (rate_check(question), *_OF_REPLIES)),
+        *(() if pose is None else (present_check(pose),)),
+        look_alike.CHECK,
+    )
 
 
 def examine(diagnosis: Diagnosis, checks: Iterable[Check]) -> Iterator[tuple[Check, Result]]:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
-from ..._frame.protocol import BAUD, LOCAL_ECHO
-from ..._library import LIBRARY, LINK
 from ..._serial.error_mapping import ErrorMapping
 from ..._serial.hid_devices import hid_devices_at_hand
-from ..._serial.opening import open_transport
-from ..._serial.serial_port import serial_ports
+from ..._serial.serial_port import open_port, serial_ports
 from .heard import Heard
 from .probe import Probe
 
@@ -25,6 +23,7 @@ if TYPE_CHECKING:
     from ..._serial.link_errors import TransportError
     from ..._serial.serial_port import SerialPortSeen
     from ..._serial.transport import Transport
+    from ..program import Program
     from .probe import Entry
     from .trip import Trip
 
@@ -32,34 +31,33 @@ if TYPE_CHECKING:
 _PSEUDO_TERMINALS = ("/dev/pts/", "/dev/ttys")
 
 
-def _hid_devices() -> list[HidDevice] | None:
-    return hid_devices_at_hand(LINK)
-
-
 class Diagnosis:
     """One examination of one port, with what has been found so far.
 
-    `port` may be None: the one that is plugged in is taken, if there is one. `opener` opens a port
-    at a rate, `ports` and `hid_devices` return what is plugged in, and `clock` returns seconds;
-    tests replace all of them. With `local_echo`, an echo is expected of what is sent. `question` is
-    put to the device where another than the usual one is meant. `named_by` says what names the
-    port, where no option does.
+    `program` is the command of the protocol that the device should speak. `port` may be None: the
+    one that is plugged in is taken, if there is one. `opener` opens a port at a rate, `ports` and
+    `hid_devices` return what is plugged in, and `clock` returns seconds; tests replace all of them.
+    With `local_echo`, an echo is expected of what is sent. `question` is put to the device where
+    another than the usual one is meant. `named_by` says what names the port, where no option does.
     """
 
     def __init__(
         self,
+        program: Program,
         port: str | None,
         *,
-        baud: float = BAUD,
+        baud: float,
+        local_echo: bool,
         reply_timeout: float = 0.25,
-        local_echo: bool = LOCAL_ECHO,
         question: Message | None = None,
         named_by: str = "",
         opener: Callable[[str, float], Transport] | None = None,
         ports: Callable[[], list[SerialPortSeen]] = serial_ports,
-        hid_devices: Callable[[], list[HidDevice] | None] = _hid_devices,
+        hid_devices: Callable[[], list[HidDevice] | None] | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
+        self.program = program
+        self.library = program.library
         self.port = port
         self.baud = baud
         self.reply_timeout = reply_timeout
@@ -67,21 +65,25 @@ class Diagnosis:
         self.question = question
         self.named_by = named_by
         self.ports = ports()
-        self.hid_devices = hid_devices()
+        at_hand = partial(hid_devices_at_hand, program.library.link)
+        self.hid_devices = (hid_devices or at_hand)()
         self.log: list[Entry] = []
         # Why it could not be opened, and whether it was lost since.
         self.error: TransportError | None = None
         self.lost = False
         self.probe: Probe | None = None
         # What came unsolicited, and the round trips at the rate that proved right.
-        self.unsolicited = Heard([])
+        self.unsolicited = Heard(self.library.codec, [])
         self.trips: list[Trip] = []
         # The numbers of those that are there behind the device.
         self.present: tuple[int, ...] = ()
         # What came at other rates, with each.
         self.strange: list[tuple[float, Heard]] = []
         self._clock = clock
-        self._open = opener or (lambda name, rate: open_transport(name, baud=rate))
+        self._open = opener or self._opened
+
+    def _opened(self, name: str, rate: float) -> Transport:
+        return open_port(name, self.library.link, self.library.codec, baud=rate, exclusive=True)
 
     @property
     def stated(self) -> str:
@@ -116,9 +118,10 @@ class Diagnosis:
             raise AssertionError("no check asks for a port where none was found")
         self.close()
         rate = self.baud if baud is None else baud
-        transport = ErrorMapping(self._open(self.port, rate), LIBRARY.log)
+        transport = ErrorMapping(self._open(self.port, rate), self.library.log)
         self.log.append((self._clock(), None, b"", f"opened, at {rate:g} baud"))
         self.probe = Probe(
+            self.library,
             transport,
             baud=rate,
             reply_timeout=self.reply_timeout,

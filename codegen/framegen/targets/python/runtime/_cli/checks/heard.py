@@ -5,15 +5,14 @@ from __future__ import annotations
 from bisect import bisect_left
 from itertools import accumulate, groupby, pairwise
 
-from ..._codec.decoder import StreamDecoder
 from ..._codec.event_bytes import bytes_of
 from ..._codec.noise import Noise
-from ..._frame.direction import RECEIVED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.message import Message
 
     # Bytes, and events, each with the time at which they had come.
@@ -31,7 +30,8 @@ class Heard:
     `runs` has the noise that came in one go, each as its events.
     """
 
-    def __init__(self, pieces: Pieces, left_out: range = range(0)) -> None:
+    def __init__(self, codec: ProtocolCodec, pieces: Pieces, left_out: range = range(0)) -> None:
+        self._codec = codec
         self._times = [at for at, _ in pieces]
         self._ends = [*accumulate(len(piece) for _, piece in pieces)]
         self._left_out = left_out
@@ -49,7 +49,9 @@ class Heard:
     def _decode(self) -> None:
         end = 0
         # All at once, so that consecutive noise is one piece.
-        for is_noise, some in groupby(_events(self._data), lambda each: isinstance(each, Noise)):
+        for is_noise, some in groupby(
+            self._events_in(self._data), lambda each: isinstance(each, Noise)
+        ):
             start, events = end, [*some]
             end += sum(len(bytes_of(each)) for each in events)
             if not is_noise:
@@ -57,7 +59,7 @@ class Heard:
                 continue
             cuts = [start, *(cut for cut in self._silences() if start < cut < end), end]
             for first, last in pairwise(cuts):
-                apart = events if len(cuts) == 2 else _events(self._data[first:last])
+                apart = events if len(cuts) == 2 else self._events_in(self._data[first:last])
                 self._add(first, apart)
                 run = [each for each in apart if isinstance(each, Noise)]
                 if run:
@@ -80,7 +82,6 @@ class Heard:
                 skipped = range(self._left_out.start, min(end, self._left_out.stop))
                 yield end - len(skipped)
 
-
-def _events(data: bytes) -> list[Message | Noise]:
-    decoder = StreamDecoder(RECEIVED)
-    return [*decoder.feed(data), *decoder.flush()]
+    def _events_in(self, data: bytes) -> list[Message | Noise]:
+        decoder = self._codec.decoder(self._codec.received)
+        return [*decoder.feed(data), *decoder.flush()]

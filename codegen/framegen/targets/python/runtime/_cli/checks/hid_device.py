@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ..._frame.protocol import HID_DEVICES
 from ..._serial.hid_devices import UNSEEN
 from .check import Check
 from .result import passed, unknown
@@ -14,7 +13,8 @@ if TYPE_CHECKING:
 
 
 def _look(diagnosis: Diagnosis) -> Result:
-    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in HID_DEVICES)
+    boards = diagnosis.library.link.hid_devices
+    known = ", ".join(f"{vendor:04X}:{product:04X}" for vendor, product, _ in boards)
     if not known:
         return passed("no device of this protocol is known to be reached by USB HID")
     if diagnosis.hid_devices is None:

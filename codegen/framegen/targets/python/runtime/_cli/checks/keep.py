@@ -5,8 +5,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from ..._frame.protocol import BAUD, LOCAL_ECHO
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from ..settings import Settings
@@ -27,10 +25,12 @@ def worth_keeping(diagnosis: Diagnosis, before: Settings) -> dict[str, Value]:
     # Settings may be used in another folder than this one.
     if port != before.port and sys.platform != "win32" and "://" not in port:
         port = str(Path(port).absolute()) if Path(port).exists() else port
+    link = diagnosis.library.link
     values: dict[str, Value] = {"port": port}
-    if diagnosis.baud != (before.baud or BAUD):
+    if diagnosis.baud != (before.baud or link.baud):
         values["baud"] = diagnosis.baud
-    if diagnosis.local_echo is not (LOCAL_ECHO if before.local_echo is None else before.local_echo):
+    echo = link.local_echo if before.local_echo is None else before.local_echo
+    if diagnosis.local_echo is not echo:
         values["local_echo"] = diagnosis.local_echo
     if diagnosis.present:
         values["ids"] = [*diagnosis.present]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ..link import only_port, plugged_in
-from ..settings import FILE
 from .check import Check
 from .result import failed, passed, unknown
 
@@ -61,10 +60,11 @@ def _choose(diagnosis: Diagnosis, found: str) -> Result:
             f"{_PLUG_IN}; or name another port: --port NAME",
         )
     if len(by_usb) > 1:
+        file = diagnosis.program.settings_file
         return failed(
             f"{len(by_usb)} ports are plugged in: {', '.join(str(each) for each in by_usb)}",
             "name the device's: --port NAME, with --save also for later, in "
-            f"{FILE}; it is the one that goes when you unplug the device",
+            f"{file}; it is the one that goes when you unplug the device",
         )
     return passed(f"the one that is plugged in is taken: {by_usb[0]}")
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ..._client.exchanges import EXCHANGES
 from .check import Check
 from .rate import EXTRA_TIME
 from .result import failed, passed, unknown
@@ -12,7 +11,6 @@ if TYPE_CHECKING:
     from ..._client.pose import Pose
     from ..._frame.message import Message
     from .diagnosis import Diagnosis
-    from .probe import Probe
     from .result import Result
 
 # One reply may be lost on any line: whether each comes is for another check to find out.
@@ -34,7 +32,7 @@ def _look(diagnosis: Diagnosis, pose: Pose) -> Result:
             return unknown("there is no reply to anything: see the check `rate`")
         advice = f"see the check `reply`; if that has passed, {advice}"
     replies: list[Message] = []
-    for request in _requests(diagnosis.connected(), pose):
+    for request in _requests(diagnosis, pose):
         reply = ask_repeatedly(diagnosis, request)
         if reply is None:
             ids = getattr(request, pose.requested)
@@ -66,10 +64,10 @@ def ask_repeatedly(diagnosis: Diagnosis, request: Message) -> Message | None:
     return None
 
 
-def _requests(probe: Probe, pose: Pose) -> list[Message]:
+def _requests(diagnosis: Diagnosis, pose: Pose) -> list[Message]:
     """Return requests for all that can be connected, in parts that this line carries."""
-    most = EXCHANGES[pose.read].most or len(pose.ids)
-    if probe.largest_frame is not None:
+    most = diagnosis.library.exchanges[pose.read].most or len(pose.ids)
+    if diagnosis.connected().largest_frame is not None:
         most = min(most, _FEW)
     parts = (pose.ids[at : at + most] for at in range(0, len(pose.ids), most))
     return [pose.read(**{pose.requested: [*part]}) for part in parts]

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 
-from ..._client.exchanges import EXCHANGES
 from ..._client.wire_time import WireTime
 from ..._codec.noise import Noise
-from ..._library import CODEC, LINK
 from .heard import PAUSE, Heard
 from .trip import Trip
 
@@ -15,6 +13,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ..._client.library import Library
     from ..._frame.message import Message
     from ..._serial.transport import Transport
     from .heard import Pieces, TimedEvent
@@ -36,6 +35,7 @@ class Probe:
 
     def __init__(
         self,
+        library: Library,
         transport: Transport,
         *,
         baud: float,
@@ -46,8 +46,9 @@ class Probe:
     ) -> None:
         self.baud = baud
         self.reply_timeout = reply_timeout
-        self.wire_time = WireTime(LINK, baud)
+        self.wire_time = WireTime(library.link, baud)
         self.largest_frame: int | None = getattr(transport, "largest_frame", None)
+        self._library = library
         self._transport = transport
         self._clock = clock
         self._log = log
@@ -59,11 +60,12 @@ class Probe:
         sent_at = self._clock()
         self._log.append((sent_at, question.DIRECTION.sender, frame, repr(question)))
         self._transport.write(frame)
-        size = len(frame) + EXCHANGES[type(question)].reply_size(question, CODEC)
+        exchange = self._library.exchanges[type(question)]
+        size = len(frame) + exchange.reply_size(question, self._library.codec)
         until = sent_at + self.wire_time.seconds(size) + self.reply_timeout + extra
 
         def made_of(pieces: Pieces) -> Trip:
-            return Trip(question, sent_at, pieces, local_echo=self._local_echo)
+            return Trip(self._library, question, sent_at, pieces, local_echo=self._local_echo)
 
         trip = made_of(self._collected(until, lambda got: bool(made_of(got).replies)))
         if trip.echoed:
@@ -82,7 +84,7 @@ class Probe:
         """Return what comes unsolicited in so many seconds, and what follows without a pause."""
         until = self._clock() + seconds
         pieces = self._collected(until, lambda _: False)
-        heard = Heard(pieces)
+        heard = Heard(self._library.codec, pieces)
         self._note(heard.events)
         return heard
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from ..._explanation.carried_model import classes
 from ..._explanation.explanation import rows_of
-from ..._library import LIBRARY
 from .check import Check
 from .rate import EXTRA_TIME
 from .result import failed, passed, unknown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from ..._client.library import Library
     from ..._frame.message import Message
     from .diagnosis import Diagnosis
     from .result import Result
@@ -52,7 +52,7 @@ def _look(diagnosis: Diagnosis) -> Result:
     if not troubles:
         last = diagnosis.trips[-1].replies[0][1]
         seen = f"{count} of {count} questions were answered, each by one whole reply: {last!r}"
-        return passed(seen, last.encode(), note=_open_questions(last))
+        return passed(seen, last.encode(), note=_open_questions(last, diagnosis.library))
     seen = ", ".join(f"{len(trips)} {what}" for what, trips in troubles.items())
     worst = next(what for what in _ADVICE if what in troubles)
     shown = [trip.received for trips in troubles.values() for trip in trips if trip.received]
@@ -79,9 +79,9 @@ def _trouble(trip: Trip, longest: float) -> str:
     return "answered with noise around it" if trip.noise else ""
 
 
-def _open_questions(reply: Message) -> str:
+def _open_questions(reply: Message, library: Library) -> str:
     """Return the values of a reply that no source tells how to judge, and what is not known."""
-    model, data = LIBRARY.protocol(), reply.encode()
+    model, data = library.protocol(), reply.encode()
     names = {called: name for name, called in classes(model).items()}
     message = model.messages[names[type(reply).__name__]]
     unknown = {

@@ -9,9 +9,7 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from ..._frame.protocol import PROTOCOL_VERSION
 from ..._recording.file import NOISE, RecordingFile
-from ..._version import __version__
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
     from .diagnosis import Diagnosis
     from .result import Result
 
-_PACKAGE = __name__.partition(".")[0]
 _PORT = "PORT"
 
 
@@ -55,9 +52,10 @@ def _about(diagnosis: Diagnosis, model: str) -> list[str]:
         pyserial = version("pyserial")
     except PackageNotFoundError:
         pyserial = "unknown"
+    library = diagnosis.library
     system = f"{platform.system()} {platform.release()} {platform.machine()}"
     return [
-        f"doctor of {_PACKAGE} {__version__}, spec {PROTOCOL_VERSION}",
+        f"doctor of {library.package} {library.version}, spec {library.protocol_version}",
         f"device: {model or 'not stated'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"computer: {system}, Python {platform.python_version()}, pyserial {pyserial}",
