@@ -78,7 +78,7 @@ LONGEST_MOTION = 5.0
 # What examples read, and what follows from it, for those that change it.
 _READ = ("spec", "docs", "tests/captures", ".gitignore")
 _CHANGED = (
-    *("generated", "codegen", "simulator"),
+    *("generated", "runtime", "codegen", "simulator"),
     *(
         "tests/witnesses.yaml",
         "tests/cases.py",
@@ -328,7 +328,7 @@ class _Player:
 
     def _start(self, name: str, words: list[str], given: str) -> str:
         """Return the output of a command of the changed project."""
-        folders = (str(self._folder / each) for each in ("generated", "codegen"))
+        folders = (str(self._folder / each) for each in ("generated", "runtime", "codegen"))
         return subprocess.run(
             [sys.executable, "-m", name, *words],
             cwd=self._folder,

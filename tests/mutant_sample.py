@@ -30,7 +30,9 @@ import yaml
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = Path(__file__).with_suffix(".yaml")
-PYTHON = "codegen/framegen/targets/python"
+PARTS = ("generated", "codegen", "simulator", "runtime")
+# What is in here is in the libraries, too.
+COPIED = ("codegen/framegen/targets/python/", "runtime/")
 SECONDS, BYTES = 300, 4 << 30
 
 
@@ -69,7 +71,7 @@ class Run:
         self.folder = folder
         git("clone", "-q", "--shared", "--no-checkout", str(ROOT), str(folder))
         git("checkout", "-q", "--detach", git("rev-parse", commit).strip(), folder=folder)
-        path = os.pathsep.join(str(folder / part) for part in ("generated", "codegen", "simulator"))
+        path = os.pathsep.join(str(folder / part) for part in PARTS)
         self.environment = os.environ | {"PYTHONPATH": path}
         self.environment.pop("PYTHONDONTWRITEBYTECODE", None)
 
@@ -83,10 +85,10 @@ class Run:
         lines = text.splitlines(keepends=True)
         lines[at : at + row["was"].count("\n") + 1] = [row["becomes"] + "\n"]
         path.write_text("".join(lines), encoding="utf-8")
-        in_library = row["file"].startswith(f"{PYTHON}/")
+        in_library = row["file"].startswith(COPIED)
         done = not in_library or self.python("-m", "framegen", "generate").returncode == 0
         # What is compiled is known by its second and size, which two mutants may share.
-        for part in ("codegen", "generated"):
+        for part in PARTS:
             for compiled in [*(self.folder / part).rglob("__pycache__")]:
                 shutil.rmtree(compiled)
         return done

@@ -21,7 +21,7 @@ ELSEWHERE = "tests/unit/project/test_house.py::test_there_is_one_version"
 
 def run(folder: Path, *words: str) -> str:
     """Run a module of the copy, and return what it prints."""
-    folders = (folder / each for each in ("generated", "codegen", "simulator"))
+    folders = (folder / each for each in ("generated", "runtime", "codegen", "simulator"))
     done = subprocess.run(
         [sys.executable, "-m", *words],
         cwd=folder,

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 _DOTTED = re.compile(r"[A-Za-z_][\w.]*")
 _QUOTED = re.compile(r"'[^']*'")
 # What addresses and answers of devices bring with them.
-_OF_FRAMES = re.compile(
-    r"(Async)?(OneDevice|AllDevices|Controller|Device)\b|(Reason|UnknownFrame)\b"
-)
+_OF_FRAMES = re.compile(r"(Async)?(OneDevice|AllDevices|Controller|Device)\b|UnknownFrame\b")
 
 
 @dataclass(eq=False)

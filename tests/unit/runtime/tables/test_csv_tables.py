@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.handed import handed_by
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import model_of
 from tests.protocols.streams import lines
@@ -32,7 +33,8 @@ def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, di
     recordings: Any = import_module(f"{made.__name__}.recordings")
     with TemporaryDirectory() as folder:
         entries = recordings.read(io.BytesIO(line), form="raw", direction=direction)
-        counts = tables.csv_written(entries, Path(folder) / "tables")
+        codec = handed_by(made.__name__).codec
+        counts = tables.csv_written(entries, Path(folder) / "tables", codec)
         found = []
         for file in Path(folder, "tables").iterdir():
             with file.open(encoding="utf-8", newline="") as stream:
