@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from hypothesis import strategies as st
 
+from ._frame.envelopes import HEADS as _HEADS
 from ._frame.strategies import any_noise as _any_noise
 from ._frame.strategies import any_of as _any_of
 from .messages import (
@@ -108,7 +109,7 @@ def noise(*, max_size: int = 40) -> SearchStrategy[bytes]:
 
     Of frames without a header, they may hold the beginning, too.
     """
-    return _any_noise(max_size)
+    return _any_noise(_HEADS, max_size)
 
 
 @st.composite

@@ -7,6 +7,7 @@ from ._codec.decoder import StreamDecoder
 from ._codec.noise import Noise
 from ._codec.rejects import Rejects
 from ._frame.direction import Direction
+from ._frame.envelopes import HEADS
 from ._frame.message import Message
 from .messages import (
     LastMove,
@@ -98,7 +99,7 @@ class Device:
         self.addresses = frozenset(addresses)
         self._decoder = StreamDecoder(Direction.HOST_TO_SERVO)
         self._queue: list[Report] = []
-        self.rejects = Rejects()
+        self.rejects = Rejects(HEADS.begins)
 
     def receive(self, data: bytes | bytearray | memoryview) -> bytes:
         """Take in bytes, in pieces of any size, and return the bytes of all that is to be sent."""

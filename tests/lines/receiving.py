@@ -19,6 +19,7 @@ from busservo import (
 )
 from busservo._client.exchanges import EXCHANGES
 from busservo._codec.rejects import Rejects
+from busservo._frame.envelopes import HEADS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,7 +59,7 @@ class Receiving:
     def __init__(self) -> None:
         self.received: list[Message] = []
         # No client may ever make this count: see tests/lines/boards.py.
-        self.rejects = Rejects()
+        self.rejects = Rejects(HEADS.begins)
         self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
 
     def heard(self, data: bytes) -> Iterator[Message]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from copy import copy
 
-from .._frame.envelopes import ENVELOPES
+from .._frame.envelopes import HEADS
 from .._frame.errors import Reason
 from .decoder import StreamDecoder
 from .event_bytes import bytes_of
@@ -18,7 +18,7 @@ from .noise import Noise
 
 # What begins with no header, or with a single byte as an acknowledgement may, can be anywhere
 # in a frame by chance: there is nothing to doubt by.
-_HEADERS = {each.header for each in ENVELOPES if each.header and each.body_at > 1}
+_HEADERS = {each.header for each in HEADS.envelopes if each.header and each.body_at > 1}
 # The beginnings of these that more bytes may complete.
 _BEGUN = tuple(header[:size] for header in _HEADERS for size in range(1, len(header)))
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from .._frame.bytes_like import as_bytes
 from .._frame.direction import Direction
-from .._frame.heads import HEAD
 from .._frame.table import is_certain
 from ..messages import Decoded
 from .codec import table_for
@@ -30,9 +29,6 @@ Event: typing.TypeAlias = Decoded | Noise
 """Whatever a stream decoder gives: a message or a piece of noise."""
 
 _new = object.__new__
-
-# Beginnings of frames that are remembered, with the size they wait for, have at most this size.
-_REMEMBERED = HEAD + 1
 
 
 class StreamDecoder:
@@ -98,8 +94,9 @@ class StreamDecoder:
         if len(held) < self._wake:
             self._held = held
             return []
-        if len(held) <= _REMEMBERED:
-            wake = self._table.waits.get(held)
+        table = self._table
+        if len(held) <= table.remembered:
+            wake = table.waits.get(held)
             if wake is not None:
                 self._held, self._wake = held, wake
                 return []
@@ -114,10 +111,11 @@ class StreamDecoder:
     def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
         """Return the events that are certain, and keep the rest of the bytes."""
         events: list[typing.Any] = []
-        look_up, noise = self._table.get, self._noise
+        table, noise = self._table, self._noise
+        look_up, head_size = table.get, table.head_size
         base, size, at = noise.emitted, len(data), self._scanned
         # Where a search goes on, no frame can begin before it has ended.
-        entry = None if at else look_up(data[:HEAD])
+        entry = None if at else look_up(data[:head_size])
         while True:
             begun, before = at, len(events)
             while entry is not None:
@@ -136,7 +134,7 @@ class StreamDecoder:
                 message._frame = frame
                 events.append(message)
                 at = end
-                entry = look_up(data[at : at + HEAD])
+                entry = look_up(data[at : at + head_size])
             if at > begun:
                 self._messages += len(events) - before
                 self._message_bytes += at - begun
@@ -158,5 +156,6 @@ class StreamDecoder:
         """Keep the bytes from `start` on, which allow no event before `wake` bytes are here."""
         self._held = held = data[start:]
         self._scanned, self._wake = scanned - start, wake - start
-        if 0 < len(held) <= _REMEMBERED and scanned == start:
-            self._table.wait(held, self._wake)
+        table = self._table
+        if 0 < len(held) <= table.remembered and scanned == start:
+            table.wait(held, self._wake)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from .._frame.bytes_like import format_hex
-from .._frame.envelopes import ENVELOPES
+from .._frame.envelopes import HEADS
 from .._frame.errors import Reason
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -49,7 +49,7 @@ class Noise:
     def _repr_html_(self) -> str:
         from .._frame.html_strip import noise_strip
 
-        return noise_strip(f"Noise: {self._reason.value}", self._data, is_frame=False)
+        return noise_strip(f"Noise: {self._reason.value}", self._data)
 
 
 class UnknownFrame(Noise):
@@ -86,14 +86,12 @@ class UnknownFrame(Noise):
     @property
     def _envelope(self) -> Envelope:
         """The envelope that it has."""
-        for envelope in ENVELOPES:
-            if envelope.fits(self._data):
-                return envelope
-        raise ValueError("no frame is like that")
+        return HEADS.fitting(self._data)
 
     def _repr_html_(self) -> str:
         from .._frame.html_strip import noise_strip
 
-        parts = zip(self._envelope.ids, self.ids, strict=True)
+        envelope = self._envelope
+        parts = zip(envelope.ids, self.ids, strict=True)
         said = ", ".join(f"{part.name} {number}" for part, number in parts)
-        return noise_strip(f"Unknown frame: {said}", self._data, is_frame=True)
+        return noise_strip(f"Unknown frame: {said}", self._data, envelope)

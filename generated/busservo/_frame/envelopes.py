@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from .envelope import Constant, Envelope, Id, Length
+from .heads import Heads
 
 FRAME_ENVELOPE = Envelope(
     "frame",
@@ -14,6 +15,5 @@ FRAME_ENVELOPE = Envelope(
     ),
     uncounted=2,
 )
-ENVELOPES: tuple[Envelope, ...] = (FRAME_ENVELOPE,)
-PROVEN_IN_PLACE = False
-"""Whether the decoders test the only checksum themselves, as it is the same for all frames."""
+HEADS = Heads((FRAME_ENVELOPE,), proven_in_place=False)
+"""The beginnings of all frames, whatever their envelope."""

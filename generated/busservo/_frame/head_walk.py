@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from .envelope import Address, Constant, Id, Length
 from .errors import Reason
-from .heads import size_of
 from .trial import Known, Refused, Unknown, differs, too_short
 from .verdict import Verdict
 
@@ -115,4 +114,4 @@ def _refused(reason: Reason, part: Part, claim: int = 0) -> Refused:
 
 
 def _least(kind: type[Message]) -> int:
-    return size_of(kind, kind.LENGTHS[0])
+    return kind.FRAME.size(kind.LENGTHS[0])

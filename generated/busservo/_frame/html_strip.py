@@ -11,6 +11,7 @@ from .pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from .envelope import Envelope
     from .message import Message
     from .parts import Cell
 
@@ -31,9 +32,10 @@ def message_strip(message: Message) -> str:
     return _strip(title, message.encode(), [*message_parts(message)])
 
 
-def noise_strip(title: str, data: bytes, *, is_frame: bool) -> str:
-    """Return noise as HTML: a run of bytes or, where it has the shape of a frame, its parts."""
-    return _strip(title, data, [*unknown_parts(data)] if is_frame else [(data, "", "")])
+def noise_strip(title: str, data: bytes, envelope: Envelope | None = None) -> str:
+    """Return noise as HTML: a run of bytes or, where it has the envelope of a frame, its parts."""
+    cells = [(data, "", "")] if envelope is None else [*unknown_parts(envelope, data)]
+    return _strip(title, data, cells)
 
 
 def _strip(title: str, data: bytes, cells: list[Cell]) -> str:

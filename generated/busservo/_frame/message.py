@@ -115,7 +115,7 @@ class Message:
         """Decode one frame of this message, with nothing after it. Raises DecodeError."""
         table = vars(cls).get("_table")
         if table is None and cls is not Message:
-            cls._table = Table([cls], ANY_SIZE)
+            cls._table = Table([cls], ANY_SIZE, cls.FRAME.heads)
             table = vars(cls)["_table"]
         if table is None:
             problem = "Message is what all messages are: decode with one of its subclasses"

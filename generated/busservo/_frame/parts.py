@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from .envelope import NumberPart
-from .envelopes import ENVELOPES
 from .fixed import Always
 from .lists import List, size_of
 from .number import set_bits
@@ -37,9 +36,8 @@ def message_parts(message: Message) -> Iterator[Cell]:
     yield from _around(envelope.tail, frame, outside)
 
 
-def unknown_parts(frame: bytes) -> Iterator[Cell]:
-    """Yield the parts of a frame of unknown id."""
-    envelope = next(each for each in ENVELOPES if each.fits(frame))
+def unknown_parts(envelope: Envelope, frame: bytes) -> Iterator[Cell]:
+    """Yield the parts of a frame of unknown id that has this envelope."""
     yield from _around(envelope.head, frame, {})
     yield frame[envelope.body_at : len(frame) - envelope.tail_size], _body(envelope), ""
     yield from _around(envelope.tail, frame, {})

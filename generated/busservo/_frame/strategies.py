@@ -9,7 +9,6 @@ from warnings import catch_warnings, simplefilter
 
 from hypothesis import strategies as st
 
-from .envelopes import ENVELOPES
 from .floating import Float
 from .items import Items
 from .optional import Optional
@@ -22,14 +21,15 @@ if TYPE_CHECKING:
 
     from hypothesis.strategies import SearchStrategy
 
+    from .heads import Heads
     from .message import Message
 
     Kind = TypeVar("Kind", bound=Message)
 
 
-def any_noise(max_size: int) -> SearchStrategy[bytes]:
+def any_noise(heads: Heads, max_size: int) -> SearchStrategy[bytes]:
     """Generate bytes without a complete header of those frames that have one."""
-    headers = [envelope.header for envelope in ENVELOPES if envelope.header]
+    headers = [envelope.header for envelope in heads.envelopes if envelope.header]
     return st.binary(min_size=1, max_size=max_size).filter(
         lambda data: not any(header in data for header in headers)
     )

@@ -10,10 +10,8 @@ from __future__ import annotations
 
 from .bytes_like import as_bytes
 from .envelope import Constant
-from .envelopes import ENVELOPES, PROVEN_IN_PLACE
 from .errors import DecodeError, Reason
 from .head_walk import HeadWalk
-from .heads import FIRST_BYTES, HEAD, next_begun, size_of
 from .quick_tests import together
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
@@ -25,6 +23,7 @@ if TYPE_CHECKING:
 
     from .envelope import Address, Checksum, Envelope
     from .head_walk import Trial
+    from .heads import Heads
     from .message import Message
     from .trial import Prove
 
@@ -52,11 +51,12 @@ _NOTHING = Verdict(None, Reason.BAD_HEADER, 0, 1)
 class Table(dict[bytes, "Entry"]):
     """A map from the head of a frame to what must follow for it to be legal.
 
-    It learns heads as they come; `weigh` judges all that are not in it. No frame is larger than
-    `largest`. `header` is that of all its frames, b"" where they do not have the same, and `begun`
-    are its beginnings, the longest first. If it is one byte, or repeats one, `run` is a head of
-    this byte alone, and `run_claim` what it claims as a frame of unknown command, -1 if it does
-    not: each byte of a longer run begins another.
+    It learns heads as they come, of `head_size` bytes; `weigh` judges all that are not in it. No
+    frame is larger than `largest`, and `heads` are those of all frames of the protocol. Beginnings
+    that are remembered have at most `remembered` bytes. `header` is that of all its frames, b""
+    where they do not have the same, and `begun` are its beginnings, the longest first. If it is one
+    byte, or repeats one, `run` is a head of this byte alone, and `run_claim` what it claims as a
+    frame of unknown command, -1 if it does not: each byte of a longer run begins another.
     """
 
     __slots__ = (
@@ -64,22 +64,31 @@ class Table(dict[bytes, "Entry"]):
         "_trials",
         "begun",
         "frames",
+        "head_size",
         "header",
+        "heads",
         "largest",
         "messages",
         "reach",
+        "remembered",
         "run",
         "run_claim",
         "verdicts",
         "waits",
     )
 
-    def __init__(self, messages: Sequence[type[Message]], largest: int) -> None:
+    def __init__(self, messages: Sequence[type[Message]], largest: int, heads: Heads) -> None:
         super().__init__()
+        self.heads = heads
+        # Its own: it is looked up for every frame.
+        self.head_size = heads.longest
+        self.remembered = heads.longest + 1
         self.messages = messages
         self.largest = largest
         # The envelopes that there may be, each with its messages.
-        every = [(frame, [each for each in messages if each.FRAME is frame]) for frame in ENVELOPES]
+        every = [
+            (frame, [each for each in messages if each.FRAME is frame]) for frame in heads.envelopes
+        ]
         # Where nothing is sent, bytes may still begin as any frame does.
         self.frames = [
             (frame, kinds)
@@ -98,7 +107,7 @@ class Table(dict[bytes, "Entry"]):
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
         self.begun = tuple(self.header[:size] for size in range(len(self.header), 0, -1))
-        self.run = b"" if self.header.strip(self.header[:1]) else self.header[:1] * HEAD
+        self.run = b"" if self.header.strip(self.header[:1]) else self.header[:1] * self.head_size
         self.run_claim = self._claim_of_run()
 
     def weigh(
@@ -117,7 +126,7 @@ class Table(dict[bytes, "Entry"]):
         open, unless the line is `quiet`. `prove` tells wrong checksums, and `since` bytes of the
         frame were judged before.
         """
-        head = data[at : at + HEAD]
+        head = data[at : at + self.head_size]
         verdict = self.verdicts.get(head)
         if verdict is not None:
             return verdict
@@ -144,7 +153,7 @@ class Table(dict[bytes, "Entry"]):
         That is the end if nowhere. If the frames do not all have the same header, it may be there.
         """
         if not self.header:
-            return next_begun(data, at)
+            return self.heads.next_begun(data, at)
         if data.endswith(self.begun, at):
             for begun in self.begun:
                 if data.endswith(begun, at):
@@ -178,7 +187,7 @@ class Table(dict[bytes, "Entry"]):
 
     def _seen(self, frame: bytes) -> type[Message] | None:
         """Return the message of `frame`, by an entry for its head; None if none says so."""
-        entry = self.get(frame[:HEAD])
+        entry = self.get(frame[: self.head_size])
         if entry is not None and not entry[0]:
             entry = measured(entry, frame, 0)
         if entry is None:
@@ -192,7 +201,7 @@ class Table(dict[bytes, "Entry"]):
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
         """Return every message that a whole frame may be."""
-        trials = self._trials_of(frame[:HEAD])
+        trials = self._trials_of(frame[: self.head_size])
         found = (each.judged(frame, 0, wrong_checksum, 0) for each in trials)
         return [each.kind for each in found if each.kind is not None and each.size == len(frame)]
 
@@ -200,7 +209,7 @@ class Table(dict[bytes, "Entry"]):
         """Return the messages that more bytes may make of these; None stands for unknown ones."""
         return [
             each.kind if isinstance(each, Known) else None
-            for each in self._trials_of(data[:HEAD])
+            for each in self._trials_of(data[: self.head_size])
             if each.judged(data, 0, wrong_checksum, 0).is_open
         ]
 
@@ -208,7 +217,7 @@ class Table(dict[bytes, "Entry"]):
         """Return the error for `frame`, by its verdict."""
         from .why_not import WhyNot
 
-        why_not = WhyNot(self, frame, verdict, self._trials_of(frame[:HEAD]))
+        why_not = WhyNot(self, frame, verdict, self._trials_of(frame[: self.head_size]))
         return DecodeError(verdict.reason, verdict.offset, why_not.words(wrong_checksum))
 
     def _trials_of(self, head: bytes) -> list[Trial]:
@@ -222,7 +231,7 @@ class Table(dict[bytes, "Entry"]):
             _remember(self.verdicts, head, chosen([each.verdict for each in refused]))
             return trials
         _remember(self._trials, head, trials)
-        if len(head) == HEAD and not any(each.verdict.is_open for each in refused):
+        if len(head) == self.head_size and not any(each.verdict.is_open for each in refused):
             entry = self._entry([each for each in trials if not isinstance(each, Refused)])
             if entry is not None:
                 _remember(self, head, entry)
@@ -239,7 +248,7 @@ class Table(dict[bytes, "Entry"]):
         found: list[Trial] = []
         if not head:
             return [Refused(too_short(0, 1))]
-        if head[0] in FIRST_BYTES:
+        if head[0] in self.heads.first_bytes:
             for frame, kinds in self.frames:
                 found += HeadWalk(frame, kinds, head, self.largest).trials()
         return found or [Refused(_NOTHING)]
@@ -255,13 +264,16 @@ class Table(dict[bytes, "Entry"]):
             return None
         if any(not each.size and self._may_grow(each, len(trials)) for each in known):
             return None
+        # What the decoders test themselves is left out of what the entry holds.
+        in_place = self.heads.proven_in_place
         entry: Entry | None = None
         # The last first: each is put in front of the others.
         for each in reversed([each for each in known if each.size == size]):
             kind = each.kind
-            proofs = kind.FRAME.provers(kind.IDS) if PROVEN_IN_PLACE else []
-            self._proofs[kind] = together(proofs)
-            entry = (each.size, *_counted(kind, each.count), kind, _holds(kind), entry)
+            proofs = kind.FRAME.provers(kind.IDS)
+            self._proofs[kind] = together(proofs if in_place else [])
+            holds = together([*_tests(kind), *([] if in_place else proofs)])
+            entry = (each.size, *_counted(kind, each.count), kind, holds, entry)
         return entry
 
     def _may_grow(self, each: Known, trials: int) -> bool:
@@ -271,7 +283,7 @@ class Table(dict[bytes, "Entry"]):
 
 def largest_of(messages: Sequence[type[Message]]) -> int:
     """Return the size of the largest frame of these messages; 0 where there are none."""
-    return max((size_of(kind, kind.LENGTHS[-1]) for kind in messages), default=0)
+    return max((kind.FRAME.size(kind.LENGTHS[-1]) for kind in messages), default=0)
 
 
 def found_entry(verdict: Verdict) -> Entry | None:
@@ -355,14 +367,12 @@ def _counted(kind: type[Message], count: int | None) -> tuple[int, int, bytes]:
     return start, end, due if isinstance(due, bytes) else b""
 
 
-def _holds(kind: type[Message]) -> Callable[[bytes], bool] | None:
-    """Return what says whether a frame of a message's size is right, but for head and count.
+def _tests(kind: type[Message]) -> list[Callable[[bytes], bool]]:
+    """Return what says of a frame of a message's size whether it is right, but for its checksums.
 
-    What the decoders test themselves is left out; None where nothing else can be wrong.
+    Its head and its count are what led to the message.
     """
-    frame = kind.FRAME
-    proofs = [] if PROVEN_IN_PLACE else frame.provers(kind.IDS)
-    return together([*kind.SHAPE.tests, *map(_end_test, frame.judged), *proofs])
+    return [*kind.SHAPE.tests, *map(_end_test, kind.FRAME.judged)]
 
 
 def _end_test(part: Constant | Address) -> Callable[[bytes], bool]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from operator import index
 
 from .._frame.direction import Direction
-from .._frame.heads import HEAD, LEAST
+from .._frame.envelopes import HEADS
 from .._frame.message import Message
 from .._frame.table import Table, largest_of
 from ..messages import MESSAGES
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _new = object.__new__
 
 # Made once: making it takes as long as using it.
-_HEAD = slice(HEAD)
+_HEAD = slice(HEADS.longest)
 
 _tables: dict[Direction | None, Table] = {}
 
@@ -40,12 +40,13 @@ def table_for(direction: Direction | None, max_frame: int | None = None) -> Tabl
         # One direction after the other: of equal frames, that of the first is preferred.
         ways = Direction if direction is None else [direction]
         kinds = [kind for way in ways for kind in MESSAGES if kind.DIRECTION is way]
-        table = _tables[direction] = Table(kinds, largest_of(kinds))
+        table = _tables[direction] = Table(kinds, largest_of(kinds), HEADS)
     if max_frame is None or index(max_frame) >= table.largest:
         return table
-    if max_frame < LEAST:
-        raise ValueError(f"max_frame is {max_frame}, and the smallest frame has {LEAST} bytes")
-    return Table(table.messages, index(max_frame))
+    if max_frame < HEADS.least:
+        problem = f"max_frame is {max_frame}, and the smallest frame has"
+        raise ValueError(f"{problem} {HEADS.least} bytes")
+    return Table(table.messages, index(max_frame), HEADS)
 
 
 if TYPE_CHECKING:

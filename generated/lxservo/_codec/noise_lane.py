@@ -8,7 +8,6 @@ own bytes prove that no message begins in it: any message is worth more than suc
 from __future__ import annotations
 
 from .._frame.errors import Reason
-from .._frame.heads import HEAD, LEAST, next_begun
 from .._frame.table import found_entry, whole
 from .noise import Noise, UnknownFrame
 from .proof import Proof
@@ -62,7 +61,7 @@ class NoiseLane:
         self.emitted = self.at = self.wake = 0
         self.unknown_frames = 0
         # What works out checksums along the stream, and up to where one was worked out in vain.
-        self._proof = Proof()
+        self._proof = Proof(table.heads.envelopes)
         self.summed = 0
         # How much of the frame at `at` has been judged already.
         self._since = 0
@@ -90,12 +89,12 @@ class NoiseLane:
         None if none came, and `emitted`, `at` and `wake` say what is held.
         """
         table, refused = self._table, self._refused
-        known, header = table.verdicts, table.header
+        known, header, head_size = table.verdicts, table.header, table.head_size
         self._proof.base = base
         while True:
             begun = data.find(header, at) if header else -1
             at = begun if begun >= 0 else table.next_begun(data, at)
-            head = data[at : at + HEAD]
+            head = data[at : at + head_size]
             verdict = known.get(head)
             if verdict is None:
                 entry = table.get(head)
@@ -134,7 +133,7 @@ class NoiseLane:
     def _run_end(self, data: bytes, at: int) -> int:
         """Return where the last head begins of the run of a header's byte at data[at]."""
         run = self._table.run
-        return at + _run_length(data, at, run) - HEAD if data.startswith(run, at) else at
+        return at + _run_length(data, at, run) - len(run) if data.startswith(run, at) else at
 
     def _wait(
         self,
@@ -163,7 +162,7 @@ class NoiseLane:
         if self._refused:
             first, _, _, claim = self._refused[0]
             # Where nothing has begun, only a whole frame decides, or the end of a claim.
-            size = LEAST if at == len(data) else verdict.size
+            size = self._table.heads.least if at == len(data) else verdict.size
             self.wake = min(self.at + size, max(first, self.emitted) + claim)
         return None
 
@@ -226,6 +225,7 @@ class NoiseLane:
         table, header = self._table, self._table.header
         if data.endswith(table.begun, start + 1, end):
             return False
+        next_begun = table.heads.next_begun
         held = data[max(start + 1, end - table.reach + 1) : end]
         at = held.find(header) if header else next_begun(held, 0)
         while 0 <= at < len(held):

@@ -4,16 +4,23 @@
 from __future__ import annotations
 
 from .._frame.errors import Reason
-from .._frame.heads import begins
 from .noise import Noise
+
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class Rejects:
-    """Counts of rejected input by reason; consecutive noise counts once."""
+    """Counts of rejected input by reason; consecutive noise counts once.
 
-    __slots__ = ("_goes_on", "by_reason", "total")
+    `begins` says whether a frame may begin with some bytes.
+    """
 
-    def __init__(self) -> None:
+    __slots__ = ("_begins", "_goes_on", "by_reason", "total")
+
+    def __init__(self, begins: Callable[[bytes], bool]) -> None:
+        self._begins = begins
         self.total = 0
         self.by_reason: dict[Reason, int] = {}
         # Whether the last event was noise, so that more of it continues the same.
@@ -21,7 +28,7 @@ class Rejects:
 
     def add(self, noise: Noise) -> bool:
         """Count a piece of noise; return False if it continues the piece before it."""
-        rest = self._goes_on and not begins(noise.data)
+        rest = self._goes_on and not self._begins(noise.data)
         self._goes_on = True
         if rest:
             return False

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any, Literal, Protocol, TypeAlias
 
+    from .heads import Heads
+
     # The ids of a message.
     Ids: TypeAlias = Sequence[int]
     # A stretch of a frame, from and to which byte; or bytes that are not sent.
@@ -181,6 +183,9 @@ class Envelope:
     checksums where one covers another that stands behind it: each comes after those that it covers.
     """
 
+    # Those of all frames of the protocol; they are made of this envelope and the others.
+    heads: Heads
+
     def __init__(
         self,
         name: str,
@@ -250,6 +255,15 @@ class Envelope:
         if self.header:
             return data.startswith(self.header, at)
         return at < len(data) and data[at] in self.first_bytes
+
+    def has_ids(self, data: bytes, ids: Ids) -> bool:
+        """Return whether `data` begins as frames with these ids do, as far as these."""
+        if not self.begins(data, 0):
+            return False
+        parts = zip(self.ids, ids, strict=False)
+        return all(
+            part.at + part.size <= len(data) and part.read(data) == id_ for part, id_ in parts
+        )
 
     def fits(self, frame: bytes) -> bool:
         """Return whether a frame of any id may have this envelope, as far as that can be told."""

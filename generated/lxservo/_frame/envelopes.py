@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from .byte_sum import Sum
 from .envelope import Address, Checksum, Constant, Envelope, Id, Length
+from .heads import Heads
 
 FRAME_ENVELOPE = Envelope(
     "frame",
@@ -17,6 +18,5 @@ FRAME_ENVELOPE = Envelope(
     tail=(Checksum("checksum", 1, "little", Sum(8, inverted=True), ((2, -1),)),),
     uncounted=3,
 )
-ENVELOPES: tuple[Envelope, ...] = (FRAME_ENVELOPE,)
-PROVEN_IN_PLACE = True
-"""Whether the decoders test the only checksum themselves, as it is the same for all frames."""
+HEADS = Heads((FRAME_ENVELOPE,), proven_in_place=True)
+"""The beginnings of all frames, whatever their envelope."""

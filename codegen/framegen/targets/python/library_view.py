@@ -86,16 +86,18 @@ class LibraryView:
         return [EnvelopeView(frame) for frame in self.model.envelopes.values()]
 
     @property
-    def every_envelope(self) -> str:
-        """The assignment of all of them."""
+    def heads(self) -> str:
+        """The assignment of what holds all of them."""
         names = [each.constant for each in self.envelopes]
-        before = "ENVELOPES: tuple[Envelope, ...] = ("
-        return Bracketed(before, names, ")", lone=",").fitted(0)
+        envelopes = Bracketed("(", names, ")", lone=",")
+        in_place = f"proven_in_place={self.proof is not None}"
+        return Bracketed("HEADS = Heads(", [envelopes, in_place], ")").fitted(0)
 
     @property
     def import_parts(self) -> list[str]:
         """The imports of what they are made of."""
         parts = {"envelope": {"Envelope"}.union(*(each.parts for each in self.envelopes))}
+        parts["heads"] = {"Heads"}
         for method in checksums_of(self.model):
             parts.setdefault(method.module, set()).add(method.name)
         return [relative_import(module, parts[module]) for module in sorted(parts)]
@@ -109,11 +111,6 @@ class LibraryView:
     def proof(self) -> ProofView | None:
         """The test of the checksum that decoders make in place, where one does for all frames."""
         return proof_in_place(self.model)
-
-    @property
-    def proven_in_place(self) -> bool:
-        """Whether there is such a test."""
-        return self.proof is not None
 
     @property
     def proven(self) -> bool:

@@ -73,7 +73,7 @@ def _likeness(noise: Noise, codec: ProtocolCodec) -> str:
     if noise.reason is not Reason.LENGTH_MISMATCH:
         return ""
     size = heads.claimed(data)
-    if len(data) < (size or heads.HEAD):
+    if len(data) < (size or heads.longest):
         return ""
     kinds = _kinds(data, codec)
     if not kinds:
@@ -86,12 +86,12 @@ def _is_cut(data: bytes, codec: ProtocolCodec) -> bool:
     heads = codec.heads
     if heads.claimed(data) <= len(data):
         return False
-    return len(data) < heads.HEAD or bool(_kinds(data, codec))
+    return len(data) < heads.longest or bool(_kinds(data, codec))
 
 
 def _kinds(data: bytes, codec: ProtocolCodec) -> list[type[Message]]:
     received = [kind for kind in codec.messages if kind.DIRECTION is codec.received]
-    return [kind for kind in received if codec.heads.has_ids(kind, data)]
+    return [kind for kind in received if kind.FRAME.has_ids(data, kind.IDS)]
 
 
 def _recognised(messages: list[Message], noise: list[bytes]) -> Result:
@@ -119,7 +119,7 @@ def _not_recognised(
     shown = noise or [data for _, data in strange]
     # The longest shows most.
     longest = max(shown, key=lambda data: (bool(plain_text(data)), len(data)))
-    cause = likely_cause(longest, codec)
+    cause = likely_cause(longest, codec.heads)
     came = f"{pluralize(sum(map(len, shown)), 'byte')} came, and no whole frame"
     return unknown(f"not recognised: {came}: {cause.seen}", cause.advice, *shown)
 

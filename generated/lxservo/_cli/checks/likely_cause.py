@@ -9,7 +9,7 @@ from ..plain_text import plain_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from ..._codec.protocol_codec import ProtocolCodec
+    from ..._frame.heads import Heads
 
 OTHER_DEVICE = (
     "another device may be on this port, such as a GPS receiver, a modem or an Arduino: unplug it, "
@@ -36,12 +36,11 @@ class Cause(NamedTuple):
     advice: str
 
 
-def likely_cause(data: bytes, codec: ProtocolCodec) -> Cause:
+def likely_cause(data: bytes, heads: Heads) -> Cause:
     """Return the likely cause of bytes that came in one go and are no frames."""
     text = plain_text(data)
     if text:
         return Cause(f"they are text: {text}", OTHER_DEVICE)
-    heads = codec.heads
     places = [at for at in range(len(data)) if heads.begins(data, at) and len(data) - at > 1]
     cut = next((at for at in places if heads.claimed(data[at:]) > len(data) - at), None)
     if cut is not None:

@@ -8,7 +8,7 @@ import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
 from busservo._codec.noise_lane import NoiseLane
 from busservo._frame.element import Element
-from busservo._frame.envelopes import FRAME_ENVELOPE
+from busservo._frame.envelopes import FRAME_ENVELOPE, HEADS
 from busservo._frame.lists import List
 from busservo._frame.number import U8, U16
 from busservo._frame.table import Table, largest_of
@@ -85,7 +85,7 @@ each_bad = pytest.mark.parametrize(("frame", "offset", "problem"), BAD)
 def decoder_of_dials() -> StreamDecoder:
     """Return a decoder that knows this message alone."""
     decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
-    decoder._table = Table([DialsTurn], largest_of([DialsTurn]))
+    decoder._table = Table([DialsTurn], largest_of([DialsTurn]), HEADS)
     decoder._noise = NoiseLane(decoder._table)
     return decoder
 

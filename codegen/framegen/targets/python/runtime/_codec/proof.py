@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from .._frame.envelope import stretches
-from .._frame.envelopes import ENVELOPES
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -15,19 +14,20 @@ if TYPE_CHECKING:
 class Proof:
     """What tells wrong checksums of frames: in a stream, whose bytes are summed up once for all.
 
-    The first byte of the data that it is asked about is number `base` of the stream.
+    The frames may have any of the envelopes. The first byte of the data that it is asked about is
+    number `base` of the stream.
     """
 
     __slots__ = ("_running", "base")
 
-    def __init__(self) -> None:
-        parts = [part for envelope in ENVELOPES for part in envelope.checksums]
+    def __init__(self, envelopes: Sequence[Envelope]) -> None:
+        parts = [part for envelope in envelopes for part in envelope.checksums]
         self._running = {part: part.method.running() for part in parts}
         self.base = 0
 
     def copy(self) -> Proof:
         """Return another one that knows as much."""
-        other = Proof()
+        other = Proof(())
         other._running = {part: running.copy() for part, running in self._running.items()}
         other.base = self.base
         return other

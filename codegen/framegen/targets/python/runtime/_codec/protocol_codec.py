@@ -7,11 +7,11 @@ from functools import cached_property
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import ModuleType
     from typing import Any
 
     from .._explanation.protocol import Protocol
     from .._frame.direction import Direction
+    from .._frame.heads import Heads
     from .._frame.message import Message
     from .._frame.table import Table
     from .careful_decoder import CarefulDecoder
@@ -71,16 +71,20 @@ class ProtocolCodec:
         return table_for
 
     @cached_property
-    def size_of(self) -> Callable[[type[Message], int], int]:
-        """The function that returns the size of the frames of a message that have some length."""
-        size_of: Callable[[type[Message], int], int] = self._part("_frame.heads").size_of
-        return size_of
+    def heads(self) -> Heads:
+        """The beginnings of all frames: the envelopes, and what follows from them."""
+        heads: Heads = self._part("_frame.envelopes").HEADS
+        return heads
 
-    @cached_property
+    @property
     def claimed(self) -> Callable[[bytes], int]:
         """The function that returns how large the frame would be that bytes begin; 0 for none."""
-        claimed: Callable[[bytes], int] = self._part("_frame.heads").claimed
-        return claimed
+        return self.heads.claimed
+
+    @staticmethod
+    def size_of(kind: type[Message], length: int) -> int:
+        """Return the size of the frames of a message that have this length."""
+        return kind.FRAME.size(length)
 
     @cached_property
     def decoder(self) -> type[StreamDecoder]:
@@ -111,12 +115,6 @@ class ProtocolCodec:
         from .._explanation.carried_model import protocol
 
         return protocol(self.package)
-
-    @cached_property
-    def heads(self) -> ModuleType:
-        """The module that knows where frames begin, and how large they are."""
-        heads: ModuleType = self._part("_frame.heads")
-        return heads
 
     def _part(self, name: str) -> Any:
         # Not importlib, which would have to be imported first.
