@@ -271,6 +271,17 @@ def test_a_room_that_is_given_the_protocol_imports_nothing_of_it(room: str) -> N
     assert {other for _, other in imports} >= GIVEN[room]
 
 
+def test_what_reads_frames_is_given_the_envelopes() -> None:
+    modules = {path: ".".join(path.with_suffix("").parts) for path in PARTS}
+    importing = {
+        name
+        for path, name in modules.items()
+        if "_frame.envelopes" in modules_needed(path) and path.parts[0] in ("_frame", "_codec")
+    }
+    assert importing
+    assert importing <= MADE
+
+
 # ------------------------------------------------------------------ the tables of a library
 
 # From the bottom up.
