@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 from .._frame.errors import DecodeError
-from .._frame.protocol import read_number
 from .codec import decode
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
-    from typing import Any, Protocol
+    from typing import Any, Literal, Protocol
 
     class Method(Protocol):
         """What works out a checksum."""
@@ -41,6 +40,7 @@ class Lookalike:
         "least",
         "length",
         "methods",
+        "order",
         "title",
         "uncounted",
     )
@@ -48,6 +48,7 @@ class Lookalike:
     def __init__(
         self,
         title: str,
+        order: Literal["little", "big"],
         *,
         constants: tuple[tuple[slice, bytes], ...],
         length: slice,
@@ -59,6 +60,7 @@ class Lookalike:
         methods: tuple[Method, ...] = (),
     ) -> None:
         self.title = title
+        self.order: Literal["little", "big"] = order
         self.constants = constants
         self.length = length
         self.uncounted = uncounted
@@ -75,7 +77,7 @@ class Lookalike:
         # Whatever claims to be a frame, no byte is summed again and again.
         running = [method.running() for method in self.methods]
         while (at := data.find(header, at)) >= 0 and at + self.least <= len(data):
-            size = self.uncounted + read_number(data[at : at + self.least][self.length])
+            size = self.uncounted + self._number(data[at : at + self.least][self.length])
             frame = data[at : at + size]
             # Without a checksum, a frame with another header in it proves nothing.
             if (
@@ -90,12 +92,15 @@ class Lookalike:
                 at += 1
         return found
 
+    def _number(self, data: bytes) -> int:
+        return int.from_bytes(data, self.order)
+
     def _is_frame(self, frame: bytes) -> bool:
         if len(frame) < self.least or any(frame[place] != text for place, text in self.constants):
             return False
-        if read_number(frame[self.length]) + self.uncounted != len(frame):
+        if self._number(frame[self.length]) + self.uncounted != len(frame):
             return False
-        return not self.commands or read_number(frame[self.command]) in self.commands
+        return not self.commands or self._number(frame[self.command]) in self.commands
 
     def _is_sealed(self, frame: bytes, data: bytes, at: int, running: Sequence[Any]) -> bool:
         for number, (place, covered) in enumerate(self.checksums):
@@ -106,7 +111,7 @@ class Lookalike:
             else:
                 mask = (1 << 8 * len(frame[place])) - 1
                 value = ~sum(sum(frame[each]) for each in covered) & mask
-            if read_number(frame[place]) != value:
+            if self._number(frame[place]) != value:
                 return False
         return True
 

@@ -9,6 +9,7 @@ from .lookalike import Lookalike, most_likely
 LOOKALIKES: tuple[Lookalike, ...] = (
     Lookalike(
         "LX-16A bus servo protocol",
+        "little",
         constants=((slice(0, 2), b"\x55\x55"),),
         length=slice(3, 4),
         uncounted=3,
@@ -19,6 +20,7 @@ LOOKALIKES: tuple[Lookalike, ...] = (
     ),
     Lookalike(
         "The dialect of LeArm and uHand boards",
+        "little",
         constants=((slice(0, 2), b"\x55\x55"),),
         length=slice(2, 3),
         uncounted=2,

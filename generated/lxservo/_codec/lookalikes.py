@@ -9,6 +9,7 @@ from .lookalike import Lookalike, most_likely
 LOOKALIKES: tuple[Lookalike, ...] = (
     Lookalike(
         "Hiwonder bus servo controller",
+        "little",
         constants=((slice(0, 2), b"\x55\x55"),),
         length=slice(2, 3),
         uncounted=2,

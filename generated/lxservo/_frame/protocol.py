@@ -17,8 +17,3 @@ BITS_PER_BYTE = 10
 LOCAL_ECHO = False
 # Devices that are reached by USB HID: vendor and product, and the bytes of a report.
 HID_DEVICES: tuple[tuple[int, int, int], ...] = ()
-
-
-def read_number(data: bytes) -> int:
-    """Return the number that bytes of a frame encode."""
-    return int.from_bytes(data, "little")

@@ -390,12 +390,8 @@ class LibraryView:
         ]
 
     @property
-    def byte_order(self) -> str:
-        return self.model.spec.byte_order
-
-    @property
     def struct_order(self) -> str:
-        return struct_order(self.byte_order)
+        return struct_order(self.model.spec.byte_order)
 
 
 def _snake(name: str) -> str:

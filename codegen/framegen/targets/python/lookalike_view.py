@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.model.slots import Body, Constant, Number
 from framegen.targets.python.checksum_view import ChecksumView
-from framegen.targets.python.escape import Bracketed, Part, Text, byte_literal
+from framegen.targets.python.escape import Bracketed, Part, Text, byte_literal, literal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -45,7 +45,7 @@ class LookalikeView:
         if self.methods:
             made = [method.made for method in self.methods]
             described.append(Bracketed("methods=(", [*made], ")", lone=","))
-        items = [Text(self.lookalike.title), *described]
+        items = [Text(self.lookalike.title), literal(self.order), *described]
         return Bracketed("Lookalike(", items, ")")
 
     @property
