@@ -9,8 +9,9 @@ from ._frame.direction import Direction
 from ._frame.element import Element
 from ._frame.envelopes import FRAME_ENVELOPE
 from ._frame.lists import List
+from ._frame.little import U16
 from ._frame.message import Message
-from ._frame.number import U8, U16
+from ._frame.number import U8
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

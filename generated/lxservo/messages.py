@@ -6,8 +6,9 @@ from __future__ import annotations
 from ._frame.direction import Direction
 from ._frame.envelopes import FRAME_ENVELOPE
 from ._frame.fixed import Reserved
+from ._frame.little import I16, U16
 from ._frame.message import Message
-from ._frame.number import I8, I16, U8, U16
+from ._frame.number import I8, U8
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

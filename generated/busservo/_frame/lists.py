@@ -9,8 +9,7 @@ from struct import Struct, error, pack
 from .bytes_like import as_bytes
 from .fixed import Always
 from .items import Items
-from .number import Number
-from .protocol import STRUCT_ORDER
+from .number import ANY_ORDER, Number, notation_of
 from .text import Text, misspelt
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -92,14 +91,13 @@ class List(Items["Item"]):
         fields: Any = vars(of)["FIELDS"] if is_class else (of,)
         constants = vars(of).get("CONSTANTS", ()) if is_class else ()
         self.pieces = sorted([*fields, *constants], key=lambda piece: piece.at)
-        # Whether `struct` unpacks the values of all elements as they are, and packs them as well.
-        self.is_read = all(map(is_read, self.pieces))
-        self.tight = all(map(_is_tight, self.pieces))
-        layout = "".join(map(_notation, self.pieces))
-        self.unit_size = sum(map(size_of, self.pieces))
         unread: Any = count
         super().__init__(at, of, least, most, count=unread)
-        self.layout = layout
+        # Whether `struct` unpacks the values of all elements as they are, and packs them as well.
+        self.is_read = all(is_read(piece, self.order) for piece in self.pieces)
+        self.tight = all(_is_tight(piece, self.order) for piece in self.pieces)
+        self.layout = "".join(_notation(piece, self.order) for piece in self.pieces)
+        self.unit_size = sum(map(size_of, self.pieces))
         # Whether there are numbers in it whose range is narrower than their type.
         self.narrowed = any(getattr(field, "narrowed", False) for field in self.fields)
         self.counters = tuple(
@@ -133,7 +131,7 @@ class List(Items["Item"]):
         # Equivalent to calling the class, and several times as fast.
         make: Any = tuple.__new__
         kinds = repeat(self.element)
-        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack
+        rows = Struct(self.order + self.layout).iter_unpack
         if self.is_read:
             return lambda message: tuple(map(make, kinds, rows(message._frame[place])))
         read = self._read
@@ -151,7 +149,7 @@ class List(Items["Item"]):
         listed = len(range(size)[self.at : self.end])
         count, behind = listed // self.unit_size, size - self.at - listed
         layout = f"{count}{self.layout}" if len(self.layout) == 1 else count * self.layout
-        unpack = Struct(f"{STRUCT_ORDER}{self.at}x{layout}{behind}x").unpack
+        unpack = Struct(f"{self.order}{self.at}x{layout}{behind}x").unpack
         if count <= _REMEMBERED:
             if len(self._unpackers) >= _REMEMBERED:
                 self._unpackers.clear()
@@ -160,13 +158,13 @@ class List(Items["Item"]):
 
     def _all_read(self, frame: bytes) -> tuple[Any, ...]:
         """Return the values of all elements of which `struct` knows only the bytes of some."""
-        rows = Struct(STRUCT_ORDER + self.layout).iter_unpack(frame[self.at : self.end])
+        rows = Struct(self.order + self.layout).iter_unpack(frame[self.at : self.end])
         return tuple(value for row in map(self._read, rows) for value in row)
 
     def _read(self, row: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the values of an element of which `struct` knows only the bytes of some."""
         return tuple(
-            value if is_read(field) else _value(field, value)
+            value if is_read(field, self.order) else _value(field, value)
             for field, value in zip(self.fields, row, strict=True)
         )
 
@@ -182,7 +180,7 @@ class List(Items["Item"]):
             try:
                 if self.layout == "B":
                     return bytes(flat)
-                return pack(f"{STRUCT_ORDER}{len(flat) // self.width * self.layout}", *flat)
+                return pack(f"{self.order}{len(flat) // self.width * self.layout}", *flat)
             except (error, ValueError):
                 pass
         checked = iter(self.checked(values))
@@ -232,24 +230,22 @@ def _judge(number: Number) -> Callable[[bytes], int | None]:
     return lambda data: None if number.holds(unpack(data)[0]) else 0
 
 
-def is_read(piece: Any) -> bool:
-    """Tell whether `struct` reads it as it is: no text, of a size and an order that it knows."""
-    return isinstance(piece, Always) or getattr(
-        getattr(piece, "struct", None), "format", ""
-    ).startswith(STRUCT_ORDER)
+def is_read(piece: Any, order: str) -> bool:
+    """Tell whether `struct` reads it in an order as it is: no text, and of a size that it knows."""
+    return isinstance(piece, Always) or notation_of(piece).startswith((order, ANY_ORDER))
 
 
-def _is_tight(piece: Any) -> bool:
+def _is_tight(piece: Any, order: str) -> bool:
     """Tell whether `struct` also writes it: bytes that nobody gives are zero."""
-    return not any(piece.data) if isinstance(piece, Always) else is_read(piece)
+    return not any(piece.data) if isinstance(piece, Always) else is_read(piece, order)
 
 
-def _notation(piece: Any) -> str:
+def _notation(piece: Any, order: str) -> str:
     """Return what `struct` reads it as: bytes, where it knows nothing better."""
     if isinstance(piece, Always):
         return f"{len(piece.data)}x"
     code: str = piece.code
-    return code if is_read(piece) else f"{size_of(piece)}s"
+    return code if is_read(piece, order) else f"{size_of(piece)}s"
 
 
 def _value(piece: Any, data: bytes) -> Any:

@@ -12,12 +12,14 @@ from struct import Struct
 
 from .errors import EncodeError
 from .field import Field
-from .protocol import STRUCT_ORDER
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from typing import Any, ClassVar
+
+# How `struct` writes the order of a single byte, which has none: as that of whatever machine.
+ANY_ORDER = "="
 
 
 class Number(Field["int"]):
@@ -58,7 +60,7 @@ class Number(Field["int"]):
         self.bits: Mapping[str, int] = bits or {}
         self.others = others
 
-    def __init_subclass__(cls, *, code: str, order: str = STRUCT_ORDER) -> None:
+    def __init_subclass__(cls, *, code: str, order: str) -> None:
         super().__init_subclass__()
         cls.code, cls.struct = code, Struct(order + code)
         values = 1 << 8 * cls.struct.size
@@ -100,52 +102,28 @@ class Number(Field["int"]):
         return number
 
 
-class U8(Number, code="B"):
+class U8(Number, code="B", order=ANY_ORDER):
     """A byte."""
 
     __slots__ = ()
 
 
-class U16(Number, code="H"):
-    """An unsigned number of two bytes."""
-
-    __slots__ = ()
-
-
-class U32(Number, code="I"):
-    """An unsigned number of four bytes."""
-
-    __slots__ = ()
-
-
-class U64(Number, code="Q"):
-    """An unsigned number of eight bytes."""
-
-    __slots__ = ()
-
-
-class I8(Number, code="b"):
+class I8(Number, code="b", order=ANY_ORDER):
     """A signed number of one byte, in two's complement."""
 
     __slots__ = ()
 
 
-class I16(Number, code="h"):
-    """A signed number of two bytes, in two's complement."""
-
-    __slots__ = ()
-
-
-class I32(Number, code="i"):
-    """A signed number of four bytes, in two's complement."""
-
-    __slots__ = ()
+def order_of(pieces: Iterable[Any]) -> str:
+    """Return the byte order of most of these, as `struct` writes it; any where none has one."""
+    orders = [each[0] for each in map(notation_of, pieces) if each]
+    return max((each for each in orders if each != ANY_ORDER), key=orders.count, default=ANY_ORDER)
 
 
-class I64(Number, code="q"):
-    """A signed number of eight bytes, in two's complement."""
-
-    __slots__ = ()
+def notation_of(piece: Any) -> str:
+    """Return the order and the letter of a number in `struct`; empty where it knows none."""
+    notation: str = getattr(getattr(piece, "struct", None), "format", "")
+    return notation
 
 
 def shown(value: object) -> str:

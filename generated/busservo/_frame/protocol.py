@@ -5,8 +5,6 @@ from __future__ import annotations
 
 PROTOCOL_VERSION = "1.0.1"
 """The version of the protocol's specification."""
-# The byte order, in the notation of the struct module.
-STRUCT_ORDER = "<"
 # The serial line: bits per second, and the form of a byte.
 BAUD = 9600
 DATA_BITS = 8

@@ -6,7 +6,7 @@ from __future__ import annotations
 from operator import contains
 from struct import Struct
 
-from .protocol import STRUCT_ORDER
+from .number import order_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -62,9 +62,12 @@ def _kind(field: Number | Float) -> type:
 
 
 def range_test(numbers: Sequence[Number]) -> Callable[[bytes], bool]:
-    """Return a function that says whether all these numbers of a frame are inside their ranges."""
+    """Return a function that says whether all these numbers of a frame are inside their ranges.
+
+    They have the same byte order.
+    """
     at = 0
-    layout = STRUCT_ORDER
+    layout = order_of(numbers)
     for number in numbers:
         layout += f"{number.at - at}x{number.code}"
         at = number.at + number.struct.size

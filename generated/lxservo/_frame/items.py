@@ -10,8 +10,7 @@ from struct import Struct, calcsize
 from .bytes_like import as_bytes
 from .errors import EncodeError
 from .field import Field
-from .number import Number, shown
-from .protocol import STRUCT_ORDER
+from .number import Number, order_of, shown
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -45,6 +44,7 @@ class Items(Field["tuple[Item, ...]"]):
         "layout",
         "least",
         "most",
+        "order",
         "width",
     )
 
@@ -68,6 +68,8 @@ class Items(Field["tuple[Item, ...]"]):
         self.least = least
         self.most = most
         self.count = count
+        # The byte order in which `struct` reads and packs them.
+        self.order = order_of(self.fields)
         self.layout = "".join(field.code for field in self.fields)
         self._plain = frozenset([*_LISTS, of])
         self._unpackers: dict[int, Callable[[bytes], tuple[int, ...]]] = {}
@@ -93,7 +95,7 @@ class Items(Field["tuple[Item, ...]"]):
         # Equivalent to calling the class, and several times as fast.
         make: Any = tuple.__new__
         kinds = repeat(self.element)
-        read = Struct(STRUCT_ORDER + self.layout).iter_unpack
+        read = Struct(self.order + self.layout).iter_unpack
         return lambda message: tuple(map(make, kinds, read(message._frame[at:])))
 
     def numbers(self, frame: bytes) -> Any:
@@ -103,8 +105,8 @@ class Items(Field["tuple[Item, ...]"]):
 
     def _unpacker(self, size: int) -> Callable[[bytes], tuple[int, ...]]:
         """Return a function, made once for each size, that unpacks the list of such a frame."""
-        count = (size - self.at) // calcsize(STRUCT_ORDER + self.layout)
-        unpack = Struct(f"{STRUCT_ORDER}{self.at}x{count * self.layout}").unpack
+        count = (size - self.at) // calcsize(self.order + self.layout)
+        unpack = Struct(f"{self.order}{self.at}x{count * self.layout}").unpack
         self._unpackers[size] = unpack
         return unpack
 

@@ -282,6 +282,18 @@ def test_what_reads_frames_is_given_the_envelopes() -> None:
     assert importing <= MADE
 
 
+def test_what_reads_numbers_is_given_their_byte_order() -> None:
+    """It is the same for every protocol: what is made for one is imported for all else alone."""
+    same = [path for path in PARTS if ".".join(path.with_suffix("").parts) not in MADE]
+    imports = {
+        other
+        for path in same
+        if path.parts[0] == "_frame" or path.stem == "lookalike"
+        for other in modules_needed(path, to_run=True)
+    }
+    assert imports & MADE == {"_codec.codec", "_frame.direction"}
+
+
 # ------------------------------------------------------------------ the tables of a library
 
 # From the bottom up.

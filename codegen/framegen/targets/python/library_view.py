@@ -27,7 +27,7 @@ from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
 from framegen.targets.python.notes import noted
 from framegen.targets.python.proof_view import proof_in_place
-from framegen.targets.python.spelling import direction_member, struct_order
+from framegen.targets.python.spelling import direction_member
 from framegen.targets.python.text_view import PackedView
 from framegen.targets.python.union_view import UnionView, type_alias, unions
 
@@ -201,7 +201,8 @@ class LibraryView:
     def modules(self) -> set[str]:
         """The modules of the runtime that fields of these kinds need."""
         found = {_snake(each.base) for each in self.elements} | {*self._field_classes.values()}
-        return found | ({"three_bytes"} if "swapped" in found else set[str]())
+        of_three = any(name.endswith(("_three_bytes", "_swapped")) for name in found)
+        return found | ({"three_bytes"} if of_three else set[str]())
 
     @property
     def message_imports(self) -> list[str]:
@@ -388,10 +389,6 @@ class LibraryView:
             f"(0x{board.vendor:04X}, 0x{board.product:04X}, {board.report_size})"
             for board in self.link.usb_hid
         ]
-
-    @property
-    def struct_order(self) -> str:
-        return struct_order(self.model.spec.byte_order)
 
 
 def _snake(name: str) -> str:

@@ -47,6 +47,8 @@ if TYPE_CHECKING:
 _WORD = re.compile(r"\w+")
 # What has a meaning to the command, or to a shell.
 _SPECIAL = re.compile(r"[^\w.+/@-]", re.ASCII)
+# The classes of floating-point numbers.
+_FLOATS = ("F32", "F64")
 # So many bytes of a frame have room in a line of an example.
 _SHOWN = 31
 
@@ -393,7 +395,7 @@ class MessageView:
     @property
     def floats(self) -> bool:
         """Whether any of its numbers is a floating-point one."""
-        return any(home == "floating" or "SwappedF" in name for name, home in self.classes.items())
+        return any(name.removeprefix("Swapped") in _FLOATS for name in self.classes)
 
     @property
     def passed_nan(self) -> str:

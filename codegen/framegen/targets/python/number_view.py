@@ -103,8 +103,12 @@ class NumberView:
     def type(self) -> str:
         """The class of the field: `U16`."""
         slot = self.slot
-        swapped = slot.order != self.spec.byte_order and slot.size > 1
-        return f"{'Swapped' if swapped else ''}{slot.number_type.name.upper()}"
+        return f"{'Swapped' if self._is_swapped else ''}{slot.number_type.name.upper()}"
+
+    @property
+    def _is_swapped(self) -> bool:
+        """Whether its byte order is not the usual one."""
+        return self.slot.order != self.spec.byte_order and self.slot.size > 1
 
     @property
     def value_type(self) -> str:
@@ -123,22 +127,20 @@ class NumberView:
         return self.slot.role == "counter"
 
     @property
-    def modules(self) -> set[str]:
-        """The modules of the runtime that it needs."""
-        found = {"optional"} if self.slot.optional else set[str]()
-        if self.type.startswith("Swapped"):
-            return {*found, "swapped", "three_bytes", "floating"}
-        if self.slot.is_float:
-            return {*found, "floating"}
-        return {*found, "three_bytes"} if self.slot.size == 3 else found
-
-    @property
     def classes(self) -> dict[str, str]:
         """The classes that declare it, each with its module."""
-        home = "number"
-        for module in ("three_bytes", "floating", "swapped"):
-            home = module if module in self.modules else home
-        return {self.type: home} | ({"Optional": "optional"} if self.slot.optional else {})
+        optional = {"Optional": "optional"} if self.slot.optional else {}
+        return {self.type: self._home} | optional
+
+    @property
+    def _home(self) -> str:
+        """The module of its class; a number of several bytes has one for each byte order."""
+        if self.slot.size == 1:
+            return "number"
+        order = self.spec.byte_order
+        if self._is_swapped:
+            return f"{order}_swapped"
+        return f"{order}_three_bytes" if self.slot.size == 3 else order
 
     @property
     def described(self) -> str:
@@ -162,7 +164,7 @@ class NumberView:
     @property
     def _is_plain(self) -> bool:
         """Whether `struct` knows it, in the order of all others."""
-        return not self.type.startswith("Swapped") and self.slot.number_type.code != ""
+        return not self._is_swapped and self.slot.number_type.code != ""
 
     def call(self, place: list[str]) -> Bracketed:
         """Return that call, with the arguments that the type does not imply."""

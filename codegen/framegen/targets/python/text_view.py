@@ -9,7 +9,6 @@ from framegen.model.slots import Items
 from framegen.targets.python.escape import Bracketed, Part, Text, byte_literal, literal
 from framegen.targets.python.notes import noted
 from framegen.targets.python.number_view import BitsView, Constant, SignedView, bounded
-from framegen.targets.python.spelling import struct_order
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -131,12 +130,11 @@ class PackedView(_NoNumber):
     def described(self) -> str:
         """The call that makes the field."""
         slot = self.slot
-        items: list[Part] = [str(slot.at), str(slot.number_type.bits), str(slot.count)]
+        sizes = [slot.at, slot.number_type.bits, slot.count]
+        items: list[Part] = [*map(str, sizes), literal(slot.order)]
         items += [f"low={slot.low}"] if slot.low else []
         items += [f"high={slot.high}"] if slot.high != slot.number_type.high else []
         items += [Text(slot.field.unit, before="unit=")] if slot.field.unit else []
-        if slot.order != self.spec.byte_order:
-            items += [f"order={literal(struct_order(slot.order))}"]
         return Bracketed("Packed(", items, ")").fitted(4, last=f"{self.name} = ")
 
     @property

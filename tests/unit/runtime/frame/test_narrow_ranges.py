@@ -10,7 +10,8 @@ from busservo._codec.noise_lane import NoiseLane
 from busservo._frame.element import Element
 from busservo._frame.envelopes import FRAME_ENVELOPE, HEADS
 from busservo._frame.lists import List
-from busservo._frame.number import U8, U16
+from busservo._frame.little import U16
+from busservo._frame.number import U8
 from busservo._frame.table import Table, largest_of
 
 from tests.strategies import bytes_of, joined, noise, single_bytes

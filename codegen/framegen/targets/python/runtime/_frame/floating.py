@@ -8,7 +8,6 @@ from struct import Struct
 from .errors import EncodeError
 from .field import Field
 from .number import kind_of, shown
-from .protocol import STRUCT_ORDER
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -46,7 +45,7 @@ class Float(Field["float"]):
         self.at = at
         self.unit = unit
 
-    def __init_subclass__(cls, *, code: str, order: str = STRUCT_ORDER) -> None:
+    def __init_subclass__(cls, *, code: str, order: str) -> None:
         super().__init_subclass__()
         cls.code, cls.struct = code, Struct(order + code)
         single = code == "f"
@@ -77,15 +76,3 @@ class Float(Field["float"]):
             bounds = f"{self.low:.7g}..{self.high:.7g}"
             raise EncodeError(path, value, f"{shown(value)} is outside {bounds}") from None
         raise EncodeError(path, value, f"{shown(value)} is not a number, but {kind_of(value)}")
-
-
-class F32(Float, code="f"):
-    """A floating-point number of four bytes: about seven digits of it are exact."""
-
-    __slots__ = ()
-
-
-class F64(Float, code="d"):
-    """A floating-point number of eight bytes, as Python has them."""
-
-    __slots__ = ()

@@ -6,21 +6,18 @@ from .errors import EncodeError
 from .field import Field
 from .items import as_tuple
 from .number import Number, shown
-from .protocol import STRUCT_ORDER
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from typing import Any, ClassVar, Literal
 
-_ORDERS: dict[str, Literal["little", "big"]] = {"<": "little", ">": "big"}
-
 
 class Packed(Field["tuple[int, ...]"]):
     """So many numbers of so many `bits` each, at the offset of the first byte in the frame.
 
-    In the order "<", the lowest bit of the first number is the lowest of the first byte; in the
-    order ">", its highest bit is the highest of the first byte.
+    In the order "little", the lowest bit of the first number is the lowest of the first byte; in
+    the order "big", its highest bit is the highest of the first byte.
     """
 
     __slots__ = ("at", "bits_each", "high", "length", "low", "order", "size", "unit")
@@ -33,11 +30,11 @@ class Packed(Field["tuple[int, ...]"]):
         at: int,
         bits: int,
         length: int,
+        order: Literal["little", "big"],
         *,
         low: int = 0,
         high: int | None = None,
         unit: str = "",
-        order: str = STRUCT_ORDER,
     ) -> None:
         self.at = at
         self.bits_each = bits
@@ -46,7 +43,7 @@ class Packed(Field["tuple[int, ...]"]):
         self.low = low
         self.high = (1 << bits) - 1 if high is None else high
         self.unit = unit
-        self.order: Literal["little", "big"] = _ORDERS[order]
+        self.order: Literal["little", "big"] = order
 
     @property
     def narrowed(self) -> bool:
@@ -95,7 +92,7 @@ class Packed(Field["tuple[int, ...]"]):
         return None if good else 0
 
 
-class _Bound(Number, code="Q"):
+class _Bound(Number, code="Q", order="<"):
     """A number with these bounds, whatever its place."""
 
     __slots__ = ()

@@ -11,7 +11,7 @@ from .field import Field
 from .fixed import Always
 from .floating import Float
 from .lists import List, is_read, places_of
-from .number import Number
+from .number import Number, order_of
 from .optional import Optional
 from .packed import Packed
 from .quick_tests import checker, count_test, element_test, item_test, place_test, range_test
@@ -182,7 +182,8 @@ class Shape:
         places = [*self._fixed()]
         starts = {at for at, _, _ in places}
         numbers = [each for each in self.parts if isinstance(each, Number) and each.at in starts]
-        plain = [each for each in numbers if is_read(each)]
+        order = order_of(numbers)
+        plain = [each for each in numbers if is_read(each, order)]
         if plain:
             yield range_test(plain)
         rest = [place for place in places if place[0] not in {each.at for each in plain}]

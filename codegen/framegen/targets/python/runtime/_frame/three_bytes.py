@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from operator import index
 
-from .number import Number
-from .protocol import STRUCT_ORDER
+from .number import ANY_ORDER, Number
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -15,13 +14,13 @@ _SIZE = 3
 _ORDERS: dict[str, Literal["little", "big"]] = {"<": "little", ">": "big"}
 
 
-class ThreeBytes(Number, code="3s"):
+class ThreeBytes(Number, code="3s", order=ANY_ORDER):
     """A whole number of three bytes; `struct` takes it as bytes."""
 
     __slots__ = ()
 
-    def __init_subclass__(cls, *, code: str = "3s", order: str = STRUCT_ORDER) -> None:
-        super().__init_subclass__(code="3s")
+    def __init_subclass__(cls, *, code: str, order: str) -> None:
+        super().__init_subclass__(code="3s", order=order)
         signed = code == "i"
         made: Any = _Struct(order, signed=signed)
         cls.struct = made
@@ -51,15 +50,3 @@ class _Struct:
     def unpack_from(self, data: bytes, at: int = 0) -> tuple[int]:
         """Return the number at an offset, in a tuple."""
         return self.unpack(data[at : at + _SIZE or None])
-
-
-class U24(ThreeBytes, code="u"):
-    """An unsigned number of three bytes."""
-
-    __slots__ = ()
-
-
-class I24(ThreeBytes, code="i"):
-    """A signed number of three bytes, in two's complement."""
-
-    __slots__ = ()
