@@ -84,16 +84,12 @@ class RunningWords(Running):
 
     __slots__ = ()
 
-    _checksum: WordSum | WordXor
-
-    def _begin(self) -> tuple[int, ...]:
-        return (0,) * self._checksum.size
-
     def _stretch(self, start: int, end: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """Return the registers at both ends, bytes that are at one place of a number together."""
-        registers, turned = self._registers, (end - start) % self._checksum.size
+        registers = self._registers
         before = registers[start]
         size = len(before)
+        turned = (end - start) % size
         return tuple(before[(at - turned) % size] for at in range(size)), registers[end]
 
 
@@ -103,6 +99,9 @@ class RunningWordSum(RunningWords):
     __slots__ = ()
 
     _checksum: WordSum
+
+    def _begin(self) -> tuple[int, ...]:
+        return (0,) * self._checksum.size
 
     def _go_on(self, data: bytes) -> None:
         registers = self._registers
@@ -131,6 +130,9 @@ class RunningWordXor(RunningWords):
     __slots__ = ()
 
     _checksum: WordXor
+
+    def _begin(self) -> tuple[int, ...]:
+        return (0,) * self._checksum.size
 
     def _go_on(self, data: bytes) -> None:
         registers = self._registers

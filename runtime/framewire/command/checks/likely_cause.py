@@ -8,7 +8,7 @@ from ..plain_text import plain_text
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from ..._frame.heads import Heads
+    from ...frame.heads import Heads
 
 OTHER_DEVICE = (
     "another device may be on this port, such as a GPS receiver, a modem or an Arduino: unplug it, "

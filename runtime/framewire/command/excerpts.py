@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentTypeError
 
-from .._recording.excerpt import Excerpt, ExcerptError, Moment
+from ..recording.excerpt import Excerpt, ExcerptError, Moment
 from .usage_error import UsageError
 
 TYPE_CHECKING = False

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from .._frame.envelope import stretches
+from ..frame.envelope import stretches
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .._frame.envelope import Checksum, Envelope
+    from ..frame.envelope import Checksum, Envelope
 
 
 class Proof:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .._serial.link import Link
+    from ..line.link import Link
 
 # A UART may run this much faster than its stated rate and still be understood; a reply is called
 # impossible only if even such a line could not have carried it.
