@@ -42,7 +42,7 @@ _HOMES = {
     "Counters": "_codec.counters",
     "DecodeError": "_frame.errors",
     "Device": "device",
-    "Direction": "_frame.direction",
+    "Direction": "_frame.directions",
     "DisconnectedError": "_serial.link_errors",
     "DoubtfulReplyError": "_serial.link_errors",
     "EchoError": "_serial.link_errors",

@@ -16,7 +16,7 @@ from ._codec.decoder import Event as Event
 from ._codec.decoder import StreamDecoder as StreamDecoder
 from ._codec.noise import Noise as Noise
 from ._codec.noise import UnknownFrame as UnknownFrame
-from ._frame.direction import Direction as Direction
+from ._frame.directions import Direction as Direction
 from ._frame.errors import DecodeError as DecodeError
 from ._frame.errors import EncodeError as EncodeError
 from ._frame.errors import LimitError as LimitError

@@ -6,7 +6,7 @@ from __future__ import annotations
 from ._codec.decoder import StreamDecoder
 from ._codec.noise import Noise
 from ._codec.rejects import Rejects
-from ._frame.direction import Direction
+from ._frame.directions import Direction
 from ._frame.envelopes import HEADS
 from ._frame.message import Message
 from .messages import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ._frame.direction import Direction
+from ._frame.directions import Direction
 from ._frame.element import Element
 from ._frame.envelopes import FRAME_ENVELOPE
 from ._frame.lists import List

@@ -32,7 +32,7 @@ from .messages import (
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
 
-    from ._frame.direction import Direction
+    from ._frame.directions import Direction
     from ._frame.message import Message
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from ._client.library import Library
 from ._codec.protocol_codec import ProtocolCodec
-from ._frame.direction import RECEIVED, Direction
+from ._frame.directions import RECEIVED, Direction
 from ._frame.protocol import PROTOCOL_VERSION
 from ._serial.link import Link
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ._frame.direction import Direction
+from ._frame.directions import Direction
 from ._frame.envelopes import FRAME_ENVELOPE
 from ._frame.fixed import Reserved
 from ._frame.little import I16, U16

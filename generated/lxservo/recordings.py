@@ -15,7 +15,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from ._frame.direction import Direction
+from ._frame.directions import Direction
 from ._library import CODEC
 from ._recording import reader
 from ._recording.entry import Entry, RecordingError

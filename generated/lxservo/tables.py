@@ -20,7 +20,7 @@ need("numpy", "pyarrow", library=CODEC.package)
 
 import pyarrow as pa
 
-from ._frame.direction import Direction
+from ._frame.directions import Direction
 from ._recording.layout import NOISE
 from ._tables import captures
 from ._tables.archive import cuts, pieces

@@ -668,7 +668,7 @@ def test_no_check_is_switched_off_in_the_generated_part() -> None:
         "__init__.py",
         "messages.py",
         "_frame/protocol.py",
-        "_frame/direction.py",
+        "_frame/directions.py",
         "strategies.py",
     ):
         text = files("greenhouse")[f"generated/greenhouse/{name}"]

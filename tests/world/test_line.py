@@ -11,7 +11,7 @@ import lxservo
 import pytest
 from busservo import recordings
 from busservo._codec.decoder import StreamDecoder
-from busservo._frame.direction import RECEIVED
+from busservo._frame.directions import RECEIVED
 from busservo_simulator import Faults, VirtualController
 from framegen.cli import main
 from lxservo_simulator import VirtualBus

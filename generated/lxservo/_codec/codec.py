@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from operator import index
 
+from .._frame import directions
 from .._frame.direction import Direction
 from .._frame.envelopes import HEADS
 from .._frame.message import Message
@@ -33,13 +34,12 @@ def table_for(direction: Direction | None, max_frame: int | None = None) -> Tabl
     """
     table = _tables.get(direction)
     if table is None:
-        if direction is not None and not isinstance(direction, Direction):
-            raise TypeError(
-                f"a Direction expected, such as {next(iter(Direction))}, not {direction!r}"
-            )
+        ways = directions.Direction
+        if direction is not None and not isinstance(direction, ways):
+            raise TypeError(f"a Direction expected, such as {next(iter(ways))}, not {direction!r}")
         # One direction after the other: of equal frames, that of the first is preferred.
-        ways = Direction if direction is None else [direction]
-        kinds = [kind for way in ways for kind in MESSAGES if kind.DIRECTION is way]
+        chosen = ways if direction is None else [direction]
+        kinds = [kind for way in chosen for kind in MESSAGES if kind.DIRECTION is way]
         table = _tables[direction] = Table(kinds, largest_of(kinds), HEADS)
     if max_frame is None or index(max_frame) >= table.largest:
         return table
@@ -54,13 +54,13 @@ if TYPE_CHECKING:
     @overload
     def decode(
         frame: bytes | bytearray | memoryview,
-        direction: Literal[Direction.HOST_TO_SERVO],
+        direction: Literal[directions.Direction.HOST_TO_SERVO],
     ) -> HostMessage: ...
 
     @overload
     def decode(
         frame: bytes | bytearray | memoryview,
-        direction: Literal[Direction.SERVO_TO_HOST],
+        direction: Literal[directions.Direction.SERVO_TO_HOST],
     ) -> ServoMessage: ...
 
     @overload

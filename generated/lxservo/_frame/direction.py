@@ -5,31 +5,30 @@ from __future__ import annotations
 
 from enum import Enum
 
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 
 class Direction(Enum):
-    """The direction of a message: part of its identity, since both ends use the same commands."""
+    """The direction of a message. Each protocol has its own: a subclass, with members.
 
-    HOST_TO_SERVO = "host_to_servo"
-    SERVO_TO_HOST = "servo_to_host"
+    A member is made of its value, and of the names of the ends that send and receive.
+    """
+
+    _value_: str
+    sender: str
+    """The end that sends."""
+    receiver: str
+    """The end that receives."""
+
+    def __new__(cls, value: str, sender: str = "", receiver: str = "") -> Self:
+        """Return a member; what it is called stands in front of it."""
+        member = object.__new__(cls)
+        member._value_ = value
+        member.sender = sender
+        member.receiver = receiver
+        return member
 
     # Members are singletons: hashing them by identity spares each look-up a call into Python.
     __hash__ = object.__hash__
-
-    @property
-    def sender(self) -> str:
-        """The end that sends."""
-        return _ENDS[self][0]
-
-    @property
-    def receiver(self) -> str:
-        """The end that receives."""
-        return _ENDS[self][1]
-
-
-_ENDS = {
-    Direction.HOST_TO_SERVO: ("host", "servo"),
-    Direction.SERVO_TO_HOST: ("servo", "host"),
-}
-
-RECEIVED = Direction.SERVO_TO_HOST
-"""The direction of the messages that come to this end."""

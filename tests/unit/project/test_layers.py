@@ -242,7 +242,7 @@ def test_imports_of_a_library_point_downwards() -> None:
 # each with what it imports all the same to run: the names that all share.
 GIVEN: dict[str, set[str]] = {
     "_explanation": set(),
-    "_recording": {"_codec.event_bytes", "_codec.noise", "_frame.direction"},
+    "_recording": {"_codec.event_bytes", "_codec.noise"},
     "_tables": {"_codec.event_bytes", "_codec.noise"},
     "_client": {"_codec.noise", "_frame.message"},
     "_serial": {"_frame.message"},
@@ -291,7 +291,7 @@ def test_what_reads_numbers_is_given_their_byte_order() -> None:
         if path.parts[0] == "_frame" or path.stem == "lookalike"
         for other in modules_needed(path, to_run=True)
     }
-    assert imports & MADE == {"_codec.codec", "_frame.direction"}
+    assert imports & MADE == {"_codec.codec"}
 
 
 # ------------------------------------------------------------------ the tables of a library

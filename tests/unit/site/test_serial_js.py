@@ -18,7 +18,7 @@ from busservo._client.base_client import REPLY_TIMEOUT
 from busservo._client.local_echo import LocalEcho
 from busservo._codec.decoder import StreamDecoder
 from busservo._codec.gap import GAP
-from busservo._frame.direction import RECEIVED
+from busservo._frame.directions import RECEIVED
 from framegen.model.codec import encode
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.line_data import line_data

@@ -56,14 +56,10 @@ class DirectionView:
         return direction_member(self.direction)
 
     @property
-    def value(self) -> str:
-        return literal(self.direction.key)
-
-    @property
-    def ends(self) -> str:
-        """The entry that says who sends and who receives."""
-        ends = [literal(self.direction.sender), literal(self.direction.receiver)]
-        return Bracketed(f"Direction.{self.member}: (", ends, "),").fitted(4)
+    def assigned(self) -> str:
+        """What it is made of: its value, who sends and who receives."""
+        ends = self.direction.key, self.direction.sender, self.direction.receiver
+        return Bracketed(f"{self.member} = (", [*map(literal, ends)], ")").fitted(4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +203,7 @@ class LibraryView:
     @property
     def message_imports(self) -> list[str]:
         """The imports of the messages' module, in the order that linters want."""
-        homes = {"Direction": "direction", "Message": "message", **self._field_classes}
+        homes = {"Direction": "directions", "Message": "message", **self._field_classes}
         homes |= {"warn_deprecated": "deprecation"} if self.deprecates else {}
         homes |= {each.base: _snake(each.base) for each in self.elements}
         homes |= {message.envelope: "envelopes" for message in self.messages}

@@ -14,7 +14,7 @@ from busservo import (
 )
 from busservo._client.report_filter import ReportFilter
 from busservo._client.session import Session
-from busservo._frame.direction import RECEIVED
+from busservo._frame.directions import RECEIVED
 from busservo._library import LIBRARY
 
 from tests.in_turn import in_turn
