@@ -75,7 +75,7 @@ _HOMES = {
     "StreamDecoder": "_codec.decoder",
     "Transport": "_serial.transport",
     "TransportError": "_serial.link_errors",
-    "UnknownFrame": "_codec.noise",
+    "UnknownFrame": "_codec.unknown_frame",
     "WriteStuckError": "_serial.link_errors",
     "__version__": "_version",
     "decode": "_codec.codec",

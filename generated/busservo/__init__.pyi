@@ -15,7 +15,7 @@ from ._codec.counters import LineCounters as LineCounters
 from ._codec.decoder import Event as Event
 from ._codec.decoder import StreamDecoder as StreamDecoder
 from ._codec.noise import Noise as Noise
-from ._codec.noise import UnknownFrame as UnknownFrame
+from ._codec.unknown_frame import UnknownFrame as UnknownFrame
 from ._frame.directions import Direction as Direction
 from ._frame.errors import DecodeError as DecodeError
 from ._frame.errors import EncodeError as EncodeError

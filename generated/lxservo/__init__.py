@@ -93,7 +93,7 @@ _HOMES = {
     "TorqueWrite": "messages",
     "Transport": "_serial.transport",
     "TransportError": "_serial.link_errors",
-    "UnknownFrame": "_codec.noise",
+    "UnknownFrame": "_codec.unknown_frame",
     "Voltage": "messages",
     "VoltageLimits": "messages",
     "VoltageLimitsRead": "messages",

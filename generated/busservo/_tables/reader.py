@@ -48,7 +48,7 @@ def batches(
     `start` is the byte of a larger capture at which this one begins.
     """
     schemas = schemas_of(codec)
-    rows = NoiseRows(schemas)
+    rows = NoiseRows(schemas, codec.unknown_frame)
     with opened(source, form) as capture:
         for stretch in (each.moved(start) for each in events(codec, capture, direction, block)):
             made = _messages(schemas, stretch.frames)

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 from .._frame.bytes_like import format_hex
-from .._frame.envelopes import HEADS
 from .._frame.errors import Reason
+from .._frame.heads import Heads
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    import typing_extensions as typing
+
     from .._frame.envelope import Envelope
+else:
+    from .._frame.typing_later import typing
 
 
 class Noise:
@@ -55,10 +59,12 @@ class Noise:
 class UnknownFrame(Noise):
     """Noise of the exact shape of a frame, with a command that is not known in its direction.
 
-    Newer firmware may have sent it: its checksum proves that it is a frame.
+    Each protocol has its own: a subclass, which knows where its frames begin.
     """
 
     __slots__ = ()
+
+    _heads: typing.ClassVar[Heads]
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -78,12 +84,6 @@ class UnknownFrame(Noise):
         return self.ids[-1]
 
     @property
-    def address(self) -> int | None:
-        """The number of the device; None where frames of its kind have none."""
-        part = self._envelope.address
-        return None if part is None else part.read(self._data)
-
-    @property
     def parameters(self) -> bytes:
         """The bytes that would be its fields."""
         envelope = self._envelope
@@ -92,7 +92,7 @@ class UnknownFrame(Noise):
     @property
     def _envelope(self) -> Envelope:
         """The envelope that it has."""
-        return HEADS.fitting(self._data)
+        return self._heads.fitting(self._data)
 
     def _repr_html_(self) -> str:
         from .._frame.html_strip import noise_strip

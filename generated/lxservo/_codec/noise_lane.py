@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from .._frame.errors import Reason
 from .._frame.table import found_entry, whole
-from .noise import Noise, UnknownFrame
+from .noise import Noise
 from .proof import Proof
+from .unknown_frame import UnknownFrame
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:

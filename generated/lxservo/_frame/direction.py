@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from enum import Enum
 
-TYPE_CHECKING = False  # typing alone would double the time that the import takes
+TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing_extensions import Self
+    import typing_extensions as typing
+else:
+    from .typing_later import typing
 
 
 class Direction(Enum):
@@ -17,18 +19,24 @@ class Direction(Enum):
     """
 
     _value_: str
-    sender: str
-    """The end that sends."""
-    receiver: str
-    """The end that receives."""
+    _ends: tuple[str, str]
 
-    def __new__(cls, value: str, sender: str = "", receiver: str = "") -> Self:
+    def __new__(cls, value: str, sender: str = "", receiver: str = "") -> typing.Self:
         """Return a member; what it is called stands in front of it."""
         member = object.__new__(cls)
         member._value_ = value
-        member.sender = sender
-        member.receiver = receiver
+        member._ends = sender, receiver
         return member
 
     # Members are singletons: hashing them by identity spares each look-up a call into Python.
     __hash__ = object.__hash__
+
+    @property
+    def sender(self) -> str:
+        """The end that sends."""
+        return self._ends[0]
+
+    @property
+    def receiver(self) -> str:
+        """The end that receives."""
+        return self._ends[1]

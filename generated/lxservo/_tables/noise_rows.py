@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyarrow as pa
 
-from .._codec.noise import UnknownFrame
 from .._frame.errors import Reason
 from .columns import event_columns
 from .schema import REASON_NAMES
 
 if TYPE_CHECKING:
+    from .._codec.noise import UnknownFrame
     from .events import NoiseRuns
     from .schema import Schemas
 
@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 class NoiseRows:
     """The rows of the table of noise, of one capture; noise that may go on is held back."""
 
-    def __init__(self, schemas: Schemas) -> None:
+    def __init__(self, schemas: Schemas, unknown: type[UnknownFrame]) -> None:
         self._schemas = schemas
+        self._unknown = unknown
         self._held: NoiseRuns | None = None
 
     def add(self, runs: NoiseRuns, end: int) -> pa.RecordBatch | None:
@@ -43,7 +44,7 @@ class NoiseRows:
 
     def _batch(self, runs: NoiseRuns) -> pa.RecordBatch:
         frames = [
-            None if frame is None else UnknownFrame(frame, Reason.UNKNOWN_COMMAND)
+            None if frame is None else self._unknown(frame, Reason.UNKNOWN_COMMAND)
             for frame in runs.frame
         ]
         numbers = [None if frame is None else frame.numbers for frame in frames]

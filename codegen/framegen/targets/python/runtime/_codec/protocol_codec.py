@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .._frame.table import Table
     from .careful_decoder import CarefulDecoder
     from .decoder import StreamDecoder
+    from .noise import UnknownFrame
     from .noise_lane import NoiseLane
 
 
@@ -97,6 +98,12 @@ class ProtocolCodec:
         """What decodes a stream of bytes for those who can wait for what decides."""
         decoder: type[CarefulDecoder] = self._part("_codec.careful_decoder").CarefulDecoder
         return decoder
+
+    @cached_property
+    def unknown_frame(self) -> type[UnknownFrame]:
+        """The class of frames with a command that the protocol does not know."""
+        unknown: type[UnknownFrame] = self._part("_codec.unknown_frame").UnknownFrame
+        return unknown
 
     @cached_property
     def noise_lane(self) -> type[NoiseLane]:

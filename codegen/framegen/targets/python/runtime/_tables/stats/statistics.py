@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..._codec.noise import UnknownFrame
 from ..._frame.errors import Reason
 from ..._recording.layout import layouts_of
 from ..reader import BLOCK, events
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
     from ..._codec.protocol_codec import ProtocolCodec
     from ..._frame.direction import Direction
     from ..._recording.excerpt import Excerpt
-    from ..._recording.layout import Layouts
     from ..events import Events, Frames, NoiseRuns, Numbers
     from ..source import Source
     from .extremes import Extremes
@@ -122,7 +120,7 @@ def statistics(
     `ids`, of quantities that are measured of several numbers only the values of these count. The
     other arguments are those of tables.read, and so are the errors.
     """
-    survey, clockwork = _Survey(layouts_of(codec), traces, ids), Clockwork()
+    survey, clockwork = _Survey(codec, traces, ids), Clockwork()
     excerpted = None if excerpt is None else Excerpted(excerpt)
     with opened(source, form) as capture:
         for each in events(codec, capture, direction, BLOCK):
@@ -140,8 +138,10 @@ class _Survey:
     """All that is counted, stretch by stretch."""
 
     def __init__(
-        self, layouts: Layouts, traces: Traces | None, ids: Collection[int] | None
+        self, codec: ProtocolCodec, traces: Traces | None, ids: Collection[int] | None
     ) -> None:
+        layouts = layouts_of(codec)
+        self._unknown_frame = codec.unknown_frame
         self._layouts = layouts.every
         self._directions = layouts.directions
         self._traces = traces
@@ -186,7 +186,7 @@ class _Survey:
     def _count_unknown(self, runs: NoiseRuns) -> None:
         for frame in runs.frame:
             if frame is not None:
-                event = UnknownFrame(frame, Reason.UNKNOWN_COMMAND)
+                event = self._unknown_frame(frame, Reason.UNKNOWN_COMMAND)
                 key = tuple(event.numbers.items())
                 if key not in self._unknown and len(self._unknown) >= _MOST_UNKNOWN:
                     key = ()

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from .._codec.noise import Noise
-from .._frame.bytes_like import format_hex
-from .._recording.file import NOISE, RecordingFile
+from ..codec.noise import Noise
+from ..frame.bytes_like import format_hex
+from ..recording.file import NOISE, RecordingFile
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from os import PathLike
 
-    from .._frame.message import Message
-    from .._serial.log import Log
+    from ..frame.message import Message
+    from ..line.log import Log
 
 
 class Trace:

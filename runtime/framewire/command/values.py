@@ -12,9 +12,9 @@ import re
 from operator import attrgetter
 from warnings import catch_warnings, simplefilter
 
-from .._frame.errors import EncodeError
-from .._frame.items import Items
-from .._frame.number import set_bits
+from ..frame.errors import EncodeError
+from ..frame.items import Items
+from ..frame.number import set_bits
 from .numerals import whole_in_any_base
 from .usage_error import UsageError
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any, TypeAlias
 
-    from .._frame.message import Message
+    from ..frame.message import Message
 
     # What returns a field of a message as text; None for one that is absent.
     Show: TypeAlias = Callable[[Message], "str | None"]

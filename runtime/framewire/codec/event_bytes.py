@@ -6,7 +6,7 @@ from .noise import Noise
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from .._frame.message import Message
+    from ..frame.message import Message
 
 
 def bytes_of(event: Message | Noise) -> bytes:

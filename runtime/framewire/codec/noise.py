@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from .._frame.bytes_like import format_hex
-from .._frame.envelopes import HEADS
-from .._frame.errors import Reason
+from ..frame.bytes_like import format_hex
+from ..frame.errors import Reason
+from ..frame.heads import Heads
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from .._frame.envelope import Envelope
+    import typing_extensions as typing
+
+    from ..frame.envelope import Envelope
+else:
+    from ..frame.typing_later import typing
 
 
 class Noise:
@@ -46,7 +50,7 @@ class Noise:
         return f"{type(self).__name__}(bytes.fromhex({format_hex(self._data)!r}), {self._reason})"
 
     def _repr_html_(self) -> str:
-        from .._frame.html_strip import noise_strip
+        from ..frame.html_strip import noise_strip
 
         return noise_strip(f"Noise: {self._reason.value}", self._data)
 
@@ -54,14 +58,12 @@ class Noise:
 class UnknownFrame(Noise):
     """Noise of the exact shape of a frame, with a command that is not known in its direction.
 
-{% if library.proven %}
-    Newer firmware may have sent it: its checksum proves that it is a frame.
-{% else %}
-    Newer firmware may have sent it. It is shown, but never trusted to reach as far as it says.
-{% endif %}
+    Each protocol has its own: a subclass, which knows where its frames begin.
     """
 
     __slots__ = ()
+
+    _heads: typing.ClassVar[Heads]
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -80,14 +82,6 @@ class UnknownFrame(Noise):
         """The last of these numbers."""
         return self.ids[-1]
 
-{% if library.address %}
-    @property
-    def address(self) -> int | None:
-        """The number of the device; None where frames of its kind have none."""
-        part = self._envelope.address
-        return None if part is None else part.read(self._data)
-
-{% endif %}
     @property
     def parameters(self) -> bytes:
         """The bytes that would be its fields."""
@@ -97,10 +91,10 @@ class UnknownFrame(Noise):
     @property
     def _envelope(self) -> Envelope:
         """The envelope that it has."""
-        return HEADS.fitting(self._data)
+        return self._heads.fitting(self._data)
 
     def _repr_html_(self) -> str:
-        from .._frame.html_strip import noise_strip
+        from ..frame.html_strip import noise_strip
 
         envelope = self._envelope
         parts = zip(envelope.ids, self.ids, strict=True)

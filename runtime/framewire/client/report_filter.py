@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from .._frame.message import Message
+from ..frame.message import Message
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import TypeAlias
 
-    from .._frame.direction import Direction
+    from ..frame.direction import Direction
 
 Kinds: TypeAlias = type[Message] | tuple[type[Message], ...]
 

@@ -6,7 +6,7 @@ from collections import deque
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .._frame.message import Message
+    from ..frame.message import Message
 
 # So many requests in a row, each with one reply sooner than the wire allows, show that the line is
 # no such wire: a socket, a pty, a USB link that only calls itself a serial port.

@@ -6,7 +6,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .._frame.message import Message
+    from ..frame.message import Message
 
 
 class Origin:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .._frame.errors import Reason
+from ..frame.errors import Reason
 from .noise import Noise
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes

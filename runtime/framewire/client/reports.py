@@ -6,7 +6,7 @@ from collections import deque
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from .._frame.message import Message
+    from ..frame.message import Message
     from .report_filter import ReportFilter
 
 # How many commands are remembered as possible causes of reports.

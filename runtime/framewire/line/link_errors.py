@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from .._frame.errors import ProtocolError
-from .._frame.message import Message
-from .._frame.pluralize import pluralize
+from ..frame.errors import ProtocolError
+from ..frame.message import Message
+from ..frame.pluralize import pluralize
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import typing_extensions as typing
 else:
-    from .._frame.typing_later import typing
+    from ..frame.typing_later import typing
 
 # How many reports the text of an error names.
 _SHOWN = 4

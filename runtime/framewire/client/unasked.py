@@ -10,7 +10,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import TypeAlias
 
-    from .._frame.message import Message
+    from ..frame.message import Message
 
     Source: TypeAlias = tuple[type[Message], int | None]
 
