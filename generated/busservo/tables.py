@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from ._library import CODEC
-from ._tables.extra import need
+from ._tables.extra import are_there
 
 # Before all that imports them: whoever has not got them is told how to get them.
-need("numpy", "pyarrow", library=CODEC.package)
-
-import pyarrow as pa
+if TYPE_CHECKING or are_there("numpy", "pyarrow", library=CODEC.package):
+    import pyarrow as pa
 
 from ._frame.directions import Direction
 from ._recording.layout import NOISE

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from .._tables.extra import need
+from .._tables.extra import are_there
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
@@ -20,7 +20,7 @@ def imported(name: str, package: str, *extras: str) -> Any:
     """Import a module of this folder. Raises UsageError where an extra of `package` is missing."""
     try:
         for extra in extras:
-            need(*_BROUGHT[extra], library=package, extra=extra)
+            are_there(*_BROUGHT[extra], library=package, extra=extra)
         return import_module(f".{name}", __package__)
     except ImportError as error:
         raise UsageError(str(error)) from None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 
 
-def need(*names: str, library: str, extra: str = "tables") -> None:
+def are_there(*names: str, library: str, extra: str = "tables") -> bool:
     """Import what an extra of a library brings. Raises ImportError, which says how to get it."""
     for name in names:
         try:
@@ -18,3 +18,4 @@ def need(*names: str, library: str, extra: str = "tables") -> None:
                 f"pip install '{library}[{extra}]'",
                 name=name,
             ) from cause
+    return True

@@ -17,7 +17,7 @@ import pytest
 from busservo import BatteryVoltage, tables
 from busservo._cli import main
 from busservo._cli import recording as reading
-from busservo._tables.extra import need
+from busservo._tables.extra import are_there
 from busservo._tables.files import parquet
 
 from tests.commands import Terminal
@@ -298,7 +298,7 @@ def test_without_the_extra_the_error_says_how_to_get_it(
 
 def test_what_is_missing_is_said_once() -> None:
     with pytest.raises(ImportError, match="absent_package is needed here") as missing:
-        need("absent_package", library="busservo")
+        are_there("absent_package", library="busservo")
     assert missing.value.__cause__ is None
     assert missing.value.__suppress_context__
 
