@@ -9,13 +9,13 @@ from ._client.motion import Motion as Motion
 from ._client.opening import open_controller as open_controller
 from ._client.request import Run as Run
 from ._client.request import Sent as Sent
+from ._codec.codec import Event as Event
+from ._codec.codec import StreamDecoder as StreamDecoder
+from ._codec.codec import UnknownFrame as UnknownFrame
 from ._codec.codec import decode as decode
 from ._codec.counters import Counters as Counters
 from ._codec.counters import LineCounters as LineCounters
-from ._codec.decoder import Event as Event
-from ._codec.decoder import StreamDecoder as StreamDecoder
 from ._codec.noise import Noise as Noise
-from ._codec.unknown_frame import UnknownFrame as UnknownFrame
 from ._frame.directions import Direction as Direction
 from ._frame.errors import DecodeError as DecodeError
 from ._frame.errors import EncodeError as EncodeError

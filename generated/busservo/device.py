@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ._codec.decoder import StreamDecoder
+from ._codec.codec import StreamDecoder
 from ._codec.noise import Noise
 from ._codec.rejects import Rejects
 from ._frame.directions import Direction

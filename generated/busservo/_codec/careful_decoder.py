@@ -10,24 +10,18 @@ from __future__ import annotations
 
 from copy import copy
 
-from .._frame.envelopes import HEADS
 from .._frame.errors import Reason
-from .decoder import StreamDecoder
 from .event_bytes import bytes_of
 from .noise import Noise
 
-# What begins with no header, or with a single byte as an acknowledgement may, can be anywhere
-# in a frame by chance: there is nothing to doubt by.
-_HEADERS = {each.header for each in HEADS.envelopes if each.header and each.body_at > 1}
-# The beginnings of these that more bytes may complete.
-_BEGUN = tuple(header[:size] for header in _HEADERS for size in range(1, len(header)))
-
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from .._frame.direction import Direction
     from .._frame.message import Message
+    from .decoder import StreamDecoder
+    from .protocol_codec import ProtocolCodec
 
 
 class CarefulDecoder:
@@ -37,6 +31,7 @@ class CarefulDecoder:
     """
 
     __slots__ = (
+        "_codec",
         "_decoder",
         "_direction",
         "_doubted",
@@ -46,9 +41,10 @@ class CarefulDecoder:
         "_rival_events",
     )
 
-    def __init__(self, direction: Direction | None) -> None:
+    def __init__(self, codec: ProtocolCodec, direction: Direction | None) -> None:
+        self._codec = codec
         self._direction = direction
-        self._decoder = StreamDecoder(direction)
+        self._decoder = self._begun()
         # The message that is held, and the bytes that have come since.
         self._doubted: Message | None = None
         self._later = b""
@@ -64,8 +60,8 @@ class CarefulDecoder:
 
     @property
     def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
-        """The message that is held, and those of which it may be the beginning: there never is."""
-        return None
+        """The message that is held, and those of which it may be the beginning; None if none is."""
+        return None if self._doubted is not None else self._decoder.undecided
 
     @property
     def pending(self) -> int:
@@ -111,10 +107,14 @@ class CarefulDecoder:
     def _believe(self) -> None:
         """Release the message that is held, which was whole: what follows it begins anew."""
         self._doubted, self._later = None, b""
-        self._decoder = StreamDecoder(self._direction)
+        self._decoder = self._begun()
+
+    def _begun(self) -> StreamDecoder:
+        """Return a decoder that has seen nothing yet."""
+        return self._codec.decoder(self._direction)
 
     def __copy__(self) -> CarefulDecoder:
-        other = CarefulDecoder(self._direction)
+        other = CarefulDecoder(self._codec, self._direction)
         other._decoder, other._rival = copy(self._decoder), copy(self._rival)
         other._doubted, other._rival_at = self._doubted, self._rival_at
         other._later, other._rival_events = self._later, [*self._rival_events]
@@ -123,8 +123,8 @@ class CarefulDecoder:
     def _sifted(self, events: Sequence[Message | Noise]) -> Sequence[Message | Noise]:
         """Return the events up to a message that is in doubt; what follows is decoded again."""
         for number, event in enumerate(events):
-            # In most messages, nothing begins that could be another.
-            if isinstance(event, Noise) or not _beginnings(event.encode()):
+            # What its checksum proves was whole, and in most others nothing begins.
+            if isinstance(event, Noise) or event.FRAME.checksums or not self._beginnings(event):
                 continue
             if not (self._is_torn(event) or self._doubt(event)):
                 continue
@@ -135,10 +135,13 @@ class CarefulDecoder:
 
     def _is_torn(self, message: Message) -> bool:
         """Return whether a message ends in whole frames, which have filled its gap."""
-        return any(
-            self._rival_events and not any(isinstance(event, Noise) for event in self._rival_events)
-            for _ in self._rivals(message)
-        )
+        for _ in self._rivals(message):
+            events = self._rival_events
+            if self._rival.undecided is not None:
+                events = [*events, *copy(self._rival).flush()]
+            if events and not any(isinstance(event, Noise) for event in events):
+                return True
+        return False
 
     def _doubt(self, message: Message) -> bool:
         """Hold a message back if a frame may begin in its last bytes."""
@@ -154,8 +157,8 @@ class CarefulDecoder:
     def _rivals(self, message: Message) -> Iterator[int]:
         """Decode anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
-        for at in _beginnings(frame):
-            self._rival, self._rival_at = StreamDecoder(self._direction), at
+        for at in self._beginnings(message):
+            self._rival, self._rival_at = self._begun(), at
             self._rival_events = [*self._rival.feed(frame[at:])]
             yield at
 
@@ -181,15 +184,16 @@ class CarefulDecoder:
         torn = Noise(doubted.encode()[: self._rival_at], Reason.TOO_SHORT)
         return [torn, *self._sifted(self._rival_events)]
 
-
-def _beginnings(frame: bytes) -> list[int]:
-    """Return each place behind a frame's own header where another stands, or may begin."""
-    found: list[int] = []
-    for header in _HEADERS:
-        at = frame.find(header, 1)
-        while at > 0:
-            found.append(at)
-            at = frame.find(header, at + 1)
-    if frame.endswith(_BEGUN, 1):
-        found += [len(frame) - len(begun) for begun in _BEGUN if frame.endswith(begun, 1)]
-    return sorted(set(found)) if len(found) > 1 else found
+    def _beginnings(self, message: Message) -> list[int]:
+        """Return each place behind a frame's own header where another stands, or may begin."""
+        frame, heads = message.encode(), self._codec.heads
+        found: list[int] = []
+        for header in heads.telling:
+            at = frame.find(header, 1)
+            while at > 0:
+                found.append(at)
+                at = frame.find(header, at + 1)
+        begun = heads.telling_begun
+        if frame.endswith(begun, 1):
+            found += [len(frame) - len(each) for each in begun if frame.endswith(each, 1)]
+        return sorted(set(found)) if len(found) > 1 else found

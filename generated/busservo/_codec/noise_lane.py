@@ -10,13 +10,14 @@ from __future__ import annotations
 from .._frame.errors import Reason
 from .._frame.table import found_entry, whole
 from .noise import Noise
-from .unknown_frame import UnknownFrame
+from .proof import Proof
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from .._frame.message import Message
     from .._frame.table import Entry, Table
     from .._frame.verdict import Verdict
-    from .decoder import Event
+    from .noise import UnknownFrame
 
 _TOO_SHORT = Reason.TOO_SHORT
 
@@ -35,18 +36,22 @@ class NoiseLane:
 
     __slots__ = (
         "_last",
+        "_proof",
         "_reason",
         "_refused",
         "_since",
         "_table",
+        "_unknown_frame",
         "at",
         "emitted",
+        "summed",
         "unknown_frames",
         "wake",
     )
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: Table, unknown_frame: type[UnknownFrame]) -> None:
         self._table = table
+        self._unknown_frame = unknown_frame
         # Headers that begin no message and are not emitted yet: the first and the last of some that
         # follow each other byte by byte and are alike, why they begin none, and how many bytes each
         # of them claims as a frame of unknown command.
@@ -58,15 +63,19 @@ class NoiseLane:
         # bytes of the stream must be there before it does.
         self.emitted = self.at = self.wake = 0
         self.unknown_frames = 0
+        # What works out checksums along the stream, and up to where one was worked out in vain.
+        self._proof = Proof(table.heads.envelopes)
+        self.summed = 0
         # How much of the frame at `at` has been judged already.
         self._since = 0
 
     def copy(self) -> NoiseLane:
         """Return a copy in the same state."""
-        other = NoiseLane(self._table)
+        other = NoiseLane(self._table, self._unknown_frame)
         for name in self.__slots__:
             setattr(other, name, getattr(self, name))
         other._refused = [*self._refused]
+        other._proof = self._proof.copy()
         return other
 
     def begin_anew(self, at: int) -> None:
@@ -75,7 +84,7 @@ class NoiseLane:
         self._reason = Reason.BAD_HEADER
 
     def search(
-        self, events: list[Event], data: bytes, base: int, at: int, *, quiet: bool
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
     ) -> Entry | None:
         """Search on from data[at], and emit the noise in front of the next message.
 
@@ -84,6 +93,7 @@ class NoiseLane:
         """
         table, refused = self._table, self._refused
         known, header, head_size = table.verdicts, table.header, table.head_size
+        self._proof.base = base
         while True:
             begun = data.find(header, at) if header else -1
             at = begun if begun >= 0 else table.next_begun(data, at)
@@ -94,7 +104,7 @@ class NoiseLane:
                 entry = entry and whole(entry, data, at)
                 if entry is None:
                     since = self._since if base + at == self.at else 0
-                    verdict = table.weigh(data, at, None, since, quiet=quiet)
+                    verdict = table.weigh(data, at, self._proof.wrong, since, quiet=quiet)
                     entry = None if verdict.kind is None else found_entry(verdict)
                 if verdict is None or entry is not None:
                     self._end(events, data, base, at)
@@ -116,7 +126,7 @@ class NoiseLane:
                 refused.append((base + at, base + last, verdict.reason, verdict.claim))
             at = last + 1
 
-    def _end(self, events: list[Event], data: bytes, base: int, at: int) -> None:
+    def _end(self, events: list[Message | Noise], data: bytes, base: int, at: int) -> None:
         """Emit the noise in front of data[at], where a frame begins."""
         if self._refused:
             self._cut(events, data, base, at, at, final=True)
@@ -130,7 +140,7 @@ class NoiseLane:
 
     def _wait(
         self,
-        events: list[Event],
+        events: list[Message | Noise],
         data: bytes,
         base: int,
         at: int,
@@ -161,7 +171,7 @@ class NoiseLane:
 
     def _cut(
         self,
-        events: list[Event],
+        events: list[Message | Noise],
         data: bytes,
         base: int,
         until: int,
@@ -228,16 +238,20 @@ class NoiseLane:
             at = held.find(header, at + 1) if header else next_begun(held, at + 1)
         return True
 
-    def _emit_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
+    def _emit_noise(
+        self, events: list[Message | Noise], data: bytes, base: int, until: int
+    ) -> None:
         """Emit the bytes in front of the place `until` as noise."""
         if self.emitted < until:
             events.append(Noise(data[self.emitted - base : until - base], self._reason))
             self.emitted = until
 
-    def _emit_unknown(self, events: list[Event], data: bytes, base: int, end: int) -> None:
+    def _emit_unknown(
+        self, events: list[Message | Noise], data: bytes, base: int, end: int
+    ) -> None:
         """Emit the bytes in front of the place `end` as a frame of unknown command."""
         frame = data[self.emitted - base : end - base]
-        events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
+        events.append(self._unknown_frame(frame, Reason.UNKNOWN_COMMAND))
         self.unknown_frames += 1
         self.begin_anew(end)
 

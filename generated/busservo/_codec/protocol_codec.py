@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from operator import index
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from .._frame.table import Table
     from .careful_decoder import CarefulDecoder
     from .decoder import StreamDecoder
+    from .lookalike import Lookalike
     from .noise import UnknownFrame
     from .noise_lane import NoiseLane
 
@@ -33,6 +35,7 @@ class ProtocolCodec:
         self.package = package
         self.directions = directions
         self.received = received
+        self._tables: dict[Direction | None, Table] = {}
 
     @cached_property
     def senders(self) -> list[str]:
@@ -54,69 +57,101 @@ class ProtocolCodec:
         return tuple(self._part("messages").MESSAGES)
 
     @cached_property
-    def decode(self) -> Callable[[bytes | bytearray | memoryview, Direction | None], Message]:
-        """The function that decodes one frame."""
-        decode: Callable[[bytes | bytearray | memoryview, Direction | None], Message]
-        decode = self._part("_codec.codec").decode
-        return decode
-
-    @cached_property
-    def twins(self) -> Callable[[Message], list[type[Message]]]:
-        """The function that returns what else a frame may be, if its sender is unknown."""
-        twins: Callable[[Message], list[type[Message]]] = self._part("_codec.codec").twins
-        return twins
-
-    @cached_property
-    def table_for(self) -> Callable[[Direction | None], Table]:
-        """The function that returns the messages of one direction, of all for None."""
-        table_for: Callable[[Direction | None], Table] = self._part("_codec.codec").table_for
-        return table_for
-
-    @cached_property
     def heads(self) -> Heads:
         """The beginnings of all frames: the envelopes, and what follows from them."""
         heads: Heads = self._part("_frame.envelopes").HEADS
         return heads
 
-    @property
-    def claimed(self) -> Callable[[bytes], int]:
-        """The function that returns how large the frame would be that bytes begin; 0 for none."""
-        return self.heads.claimed
+    @cached_property
+    def decoder(self) -> type[StreamDecoder]:
+        """What decodes a stream of bytes."""
+        decoder: type[StreamDecoder] = self._part("_codec.codec").StreamDecoder
+        return decoder
+
+    @cached_property
+    def unknown_frame(self) -> type[UnknownFrame]:
+        """The class of frames with a command that the protocol does not know."""
+        unknown: type[UnknownFrame] = self._part("_codec.codec").UnknownFrame
+        return unknown
+
+    @cached_property
+    def lookalikes(self) -> tuple[Lookalike, ...]:
+        """The protocols that are easily taken for this one."""
+        known: tuple[Lookalike, ...] = self._part("_codec.lookalikes").LOOKALIKES
+        return known
+
+    @cached_property
+    def decode(self) -> Callable[[bytes | bytearray | memoryview, Direction | None], Message]:
+        """The function that decodes one frame."""
+        from .single import decoding
+
+        return decoding(self)
+
+    def twins(self, message: Message) -> list[type[Message]]:
+        """Return the other messages that the same frame may be, if its sender is unknown."""
+        found = self.table_for(None).all_of(message.encode())
+        return [kind for kind in found if kind is not type(message)]
+
+    def table_for(self, direction: Direction | None, max_frame: int | None = None) -> Table:
+        """Return the messages of one direction, of all for None, in frames up to `max_frame` bytes.
+
+        Raises TypeError for a value that is no direction or no number, ValueError if no frame is
+        that small.
+        """
+        table = self._tables.get(direction)
+        if table is None or max_frame is not None:
+            from .._frame.table import Table, largest_of
+        if table is None:
+            ways = self.directions
+            if direction is not None and not isinstance(direction, ways):
+                example = next(iter(ways))
+                raise TypeError(f"a Direction expected, such as {example}, not {direction!r}")
+            # One direction after the other: of equal frames, that of the first is preferred.
+            chosen = ways if direction is None else [direction]
+            kinds = [kind for way in chosen for kind in self.messages if kind.DIRECTION is way]
+            table = self._tables[direction] = Table(kinds, largest_of(kinds), self.heads)
+        if max_frame is None or index(max_frame) >= table.largest:
+            return table
+        if max_frame < self.heads.least:
+            problem = f"max_frame is {max_frame}, and the smallest frame has"
+            raise ValueError(f"{problem} {self.heads.least} bytes")
+        return Table(table.messages, index(max_frame), self.heads)
+
+    def claimed(self, data: bytes) -> int:
+        """Return how large the frame would be that bytes begin; 0 for none."""
+        return self.heads.claimed(data)
 
     @staticmethod
     def size_of(kind: type[Message], length: int) -> int:
         """Return the size of the frames of a message that have this length."""
         return kind.FRAME.size(length)
 
-    @cached_property
-    def decoder(self) -> type[StreamDecoder]:
-        """What decodes a stream of bytes."""
-        decoder: type[StreamDecoder] = self._part("_codec.decoder").StreamDecoder
-        return decoder
+    def careful_decoder(self, direction: Direction | None) -> CarefulDecoder:
+        """Return what decodes a stream of bytes for those who can wait for what decides."""
+        from .careful_decoder import CarefulDecoder
 
-    @cached_property
-    def careful_decoder(self) -> type[CarefulDecoder]:
-        """What decodes a stream of bytes for those who can wait for what decides."""
-        decoder: type[CarefulDecoder] = self._part("_codec.careful_decoder").CarefulDecoder
-        return decoder
+        return CarefulDecoder(self, direction)
 
-    @cached_property
-    def unknown_frame(self) -> type[UnknownFrame]:
-        """The class of frames with a command that the protocol does not know."""
-        unknown: type[UnknownFrame] = self._part("_codec.unknown_frame").UnknownFrame
-        return unknown
+    def noise_lane(self, table: Table) -> NoiseLane:
+        """Return what tells frames of unknown command from other noise, among some messages."""
+        from .noise_lane import NoiseLane
 
-    @cached_property
-    def noise_lane(self) -> type[NoiseLane]:
-        """What tells frames of unknown command from other noise, among some messages."""
-        lane: type[NoiseLane] = self._part("_codec.noise_lane").NoiseLane
-        return lane
+        return NoiseLane(table, self.unknown_frame)
 
-    @cached_property
-    def recognise(self) -> Callable[..., str | None]:
-        """The function that recognises protocols that are easily taken for this one."""
-        recognise: Callable[..., str | None] = self._part("_codec.lookalikes").recognise
-        return recognise
+    def recognise(
+        self, data: bytes | bytearray | memoryview, *, by_checksum: bool = False
+    ) -> str | None:
+        """Return the title of the look-alike whose frames `data` holds; None if it holds few.
+
+        At least half of the bytes must be such frames, and none of them a message of this protocol.
+        If the look-alike has a checksum, it proves each frame; if it has none, its commands do,
+        unless all are to be proven `by_checksum`.
+        """
+        from .._frame.bytes_like import as_bytes
+        from .lookalike import most_likely
+
+        among = [each for each in self.lookalikes if each.checksums or not by_checksum]
+        return most_likely(among, as_bytes(data), self)
 
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""

@@ -15,5 +15,5 @@ FRAME_ENVELOPE = Envelope(
     ),
     uncounted=2,
 )
-HEADS = Heads((FRAME_ENVELOPE,), proven_in_place=False)
+HEADS = Heads((FRAME_ENVELOPE,))
 """The beginnings of all frames, whatever their envelope."""

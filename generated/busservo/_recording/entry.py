@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from .._codec.noise import Noise
 from .._frame.direction import Direction
+from .._frame.message import Message
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import typing_extensions as typing
-
-    from .._codec.decoder import Event
 else:
     from .._frame.typing_later import typing
 
@@ -45,7 +44,7 @@ class Entry:
         if direction is None and sender is not None and not isinstance(event, Noise):
             # Of noise, nothing says where it went.
             direction = event.DIRECTION
-        self.event: Event = event
+        self.event: Message | Noise = event
         self.sender = sender
         self.offset = offset
         self.line = line

@@ -20,9 +20,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from typing import Protocol
 
-    from .._codec.decoder import Event, StreamDecoder
+    from .._codec.decoder import StreamDecoder
+    from .._codec.noise import Noise
     from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
+    from .._frame.message import Message
 else:
     Protocol = object  # it is for type checkers alone
 
@@ -82,7 +84,7 @@ def _chunks(stream: Readable) -> Iterator[bytes]:
 
 
 def _streamed(
-    codec: ProtocolCodec, decoded: Iterable[list[Event]], direction: Direction | None
+    codec: ProtocolCodec, decoded: Iterable[list[Message | Noise]], direction: Direction | None
 ) -> Iterator[Entry]:
     """Yield the entries of a stream, which says neither when its bytes came nor from whom."""
     offset = 0
@@ -93,7 +95,7 @@ def _streamed(
             offset += len(bytes_of(event))
 
 
-def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Event]]:
+def _raw(chunks: Iterable[bytes], decoder: StreamDecoder) -> Iterator[list[Message | Noise]]:
     for chunk in chunks:
         yield decoder.feed(chunk)
     yield decoder.flush()
@@ -121,7 +123,7 @@ def _text(
             return
 
 
-def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Event]]:
+def _hex(text: Iterable[str], decoder: StreamDecoder) -> Iterator[list[Message | Noise]]:
     reader = HexReader()
     line = 1
     for block in text:

@@ -10,23 +10,21 @@ There are two lanes: frames back to back, here, by look-ups alone; and the way t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from .._frame.bytes_like import as_bytes
 from .._frame.direction import Direction
-from .._frame.table import is_certain
-from ..messages import Decoded
-from .codec import table_for
+from .._frame.message import Message
+from .._frame.table import is_certain, measured
 from .counters import Counters
-from .noise import Noise
 from .noise_lane import NoiseLane
+from .protocol_codec import ProtocolCodec
 
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     import typing_extensions as typing
 else:
     from .._frame.typing_later import typing
-
-Event: typing.TypeAlias = Decoded | Noise
-"""Whatever a stream decoder gives: a message or a piece of noise."""
 
 _new = object.__new__
 
@@ -46,9 +44,13 @@ class StreamDecoder:
 
     __slots__ = ("_held", "_message_bytes", "_messages", "_noise", "_scanned", "_table", "_wake")
 
+    # Each protocol has its own decoder: a subclass, which knows what its frames are.
+    _codec: typing.ClassVar[ProtocolCodec]
+
     def __init__(self, direction: Direction | None, max_frame: int | None = None) -> None:
-        self._table = table_for(direction, max_frame)
-        self._noise = NoiseLane(self._table)
+        codec = self._codec
+        self._table = codec.table_for(direction, max_frame)
+        self._noise = NoiseLane(self._table, codec.unknown_frame)
         self._held = b""
         # Where the search in the held bytes goes on, and the size below which it need not.
         self._scanned = self._wake = 0
@@ -75,20 +77,31 @@ class StreamDecoder:
         return max(1, self._wake - len(self._held))
 
     @property
+    def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
+        """The message that is held, and those of which it may be the beginning; None if none is.
+
+        None among those stands for a frame of unknown command.
+        """
+        held, table = self._held, self._table
+        message = table.find(held) if held and not self._scanned else None
+        return None if message is None else (message, table.awaited(held))
+
+    @property
     def counters(self) -> Counters:
         """What has been seen so far."""
         emitted = self._noise.emitted
         noise, unknown_frames = emitted - self._message_bytes, self._noise.unknown_frames
         return Counters(emitted + len(self._held), self._messages, noise, unknown_frames)
 
-    def __copy__(self) -> StreamDecoder:
+    def __copy__(self) -> typing.Self:
         other = _new(type(self))
         for name in StreamDecoder.__slots__:
             setattr(other, name, getattr(self, name))
         other._noise = self._noise.copy()
         return other
 
-    def feed(self, data: bytes | bytearray | memoryview) -> list[Event]:
+    # The events are those of a protocol, whose own class says which messages they may be.
+    def feed(self, data: bytes | bytearray | memoryview) -> list[typing.Any]:
         """Take in bytes, and return the events that are certain now. b"" is no sign of silence."""
         held = self._held + (data if type(data) is bytes else as_bytes(data))
         if len(held) < self._wake:
@@ -102,35 +115,36 @@ class StreamDecoder:
                 return []
         return self._read(held, quiet=False)
 
-    def flush(self) -> list[Event]:
+    def flush(self) -> list[typing.Any]:
         """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one."""
         events = self._read(self._held, quiet=True)
         self._noise.begin_anew(self._noise.emitted)
         return events
 
-    def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
+    def _read(self, data: bytes, *, quiet: bool) -> list[typing.Any]:
         """Return the events that are certain, and keep the rest of the bytes."""
         events: list[typing.Any] = []
         table, noise = self._table, self._noise
-        look_up, head_size = table.get, table.head_size
+        look_up, head_size, total = table.get, table.head_size, table.heads.total
         base, size, at = noise.emitted, len(data), self._scanned
-        # What has been summed up once is left to the search, which does so once for all.
+        # What has been tested once is left to the search, which sums it up once for all.
         summed = noise.summed - base
+        # Where a search goes on, no frame can begin before it has ended.
         entry = None if at or summed > 0 else look_up(data[:head_size])
         while True:
             begun, before = at, len(events)
             while entry is not None:
                 length, count_at, count_end, count, kind, holds, other = entry
                 if count and data[at + count_at : at + count_end] != count:
-                    entry = other
+                    entry = other or measured(entry, data, at)
                     continue
                 end = at + length
                 if end > size:
                     break
                 frame = data[at:end]
-                # Added up together with its checksum, any frame makes the same.
-                right = sum(frame) & 0xFF == 0xA9
-                if not right or (holds is not None and not holds(frame)):
+                if (total is not None and sum(frame) & 0xFF != total) or (
+                    holds is not None and not holds(frame)
+                ):
                     summed = max(summed, end)
                     entry = other
                     continue

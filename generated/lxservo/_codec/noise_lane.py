@@ -11,13 +11,13 @@ from .._frame.errors import Reason
 from .._frame.table import found_entry, whole
 from .noise import Noise
 from .proof import Proof
-from .unknown_frame import UnknownFrame
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from .._frame.message import Message
     from .._frame.table import Entry, Table
     from .._frame.verdict import Verdict
-    from .decoder import Event
+    from .noise import UnknownFrame
 
 _TOO_SHORT = Reason.TOO_SHORT
 
@@ -41,6 +41,7 @@ class NoiseLane:
         "_refused",
         "_since",
         "_table",
+        "_unknown_frame",
         "at",
         "emitted",
         "summed",
@@ -48,8 +49,9 @@ class NoiseLane:
         "wake",
     )
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: Table, unknown_frame: type[UnknownFrame]) -> None:
         self._table = table
+        self._unknown_frame = unknown_frame
         # Headers that begin no message and are not emitted yet: the first and the last of some that
         # follow each other byte by byte and are alike, why they begin none, and how many bytes each
         # of them claims as a frame of unknown command.
@@ -69,7 +71,7 @@ class NoiseLane:
 
     def copy(self) -> NoiseLane:
         """Return a copy in the same state."""
-        other = NoiseLane(self._table)
+        other = NoiseLane(self._table, self._unknown_frame)
         for name in self.__slots__:
             setattr(other, name, getattr(self, name))
         other._refused = [*self._refused]
@@ -82,7 +84,7 @@ class NoiseLane:
         self._reason = Reason.BAD_HEADER
 
     def search(
-        self, events: list[Event], data: bytes, base: int, at: int, *, quiet: bool
+        self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
     ) -> Entry | None:
         """Search on from data[at], and emit the noise in front of the next message.
 
@@ -124,7 +126,7 @@ class NoiseLane:
                 refused.append((base + at, base + last, verdict.reason, verdict.claim))
             at = last + 1
 
-    def _end(self, events: list[Event], data: bytes, base: int, at: int) -> None:
+    def _end(self, events: list[Message | Noise], data: bytes, base: int, at: int) -> None:
         """Emit the noise in front of data[at], where a frame begins."""
         if self._refused:
             self._cut(events, data, base, at, at, final=True)
@@ -138,7 +140,7 @@ class NoiseLane:
 
     def _wait(
         self,
-        events: list[Event],
+        events: list[Message | Noise],
         data: bytes,
         base: int,
         at: int,
@@ -169,7 +171,7 @@ class NoiseLane:
 
     def _cut(
         self,
-        events: list[Event],
+        events: list[Message | Noise],
         data: bytes,
         base: int,
         until: int,
@@ -236,16 +238,20 @@ class NoiseLane:
             at = held.find(header, at + 1) if header else next_begun(held, at + 1)
         return True
 
-    def _emit_noise(self, events: list[Event], data: bytes, base: int, until: int) -> None:
+    def _emit_noise(
+        self, events: list[Message | Noise], data: bytes, base: int, until: int
+    ) -> None:
         """Emit the bytes in front of the place `until` as noise."""
         if self.emitted < until:
             events.append(Noise(data[self.emitted - base : until - base], self._reason))
             self.emitted = until
 
-    def _emit_unknown(self, events: list[Event], data: bytes, base: int, end: int) -> None:
+    def _emit_unknown(
+        self, events: list[Message | Noise], data: bytes, base: int, end: int
+    ) -> None:
         """Emit the bytes in front of the place `end` as a frame of unknown command."""
         frame = data[self.emitted - base : end - base]
-        events.append(UnknownFrame(frame, Reason.UNKNOWN_COMMAND))
+        events.append(self._unknown_frame(frame, Reason.UNKNOWN_COMMAND))
         self.unknown_frames += 1
         self.begin_anew(end)
 

@@ -18,5 +18,5 @@ FRAME_ENVELOPE = Envelope(
     tail=(Checksum("checksum", 1, "little", Sum(8, inverted=True), ((2, -1),)),),
     uncounted=3,
 )
-HEADS = Heads((FRAME_ENVELOPE,), proven_in_place=True)
+HEADS = Heads((FRAME_ENVELOPE,), total=0xA9)
 """The beginnings of all frames, whatever their envelope."""

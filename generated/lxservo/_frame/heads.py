@@ -5,6 +5,8 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .envelope import Envelope
 
 # How much of a line is searched at once.
@@ -14,13 +16,21 @@ _STRETCH = 256
 class Heads:
     """The beginnings of all frames of a protocol, from its envelopes: each of these leads to it.
 
-    `proven_in_place` says whether the decoders test the only checksum themselves, as it is the same
-    for all frames.
+    `proves` says of a whole frame whether its only checksum is right, where one test does for all
+    frames: it is quicker than what the envelopes know of it. Where that is a sum, and the bytes of
+    any frame add up to the same with it, `total` is that modulo 256: decoders add it up in place.
     """
 
-    def __init__(self, envelopes: tuple[Envelope, ...], *, proven_in_place: bool) -> None:
+    def __init__(
+        self,
+        envelopes: tuple[Envelope, ...],
+        *,
+        proves: Callable[[bytes], bool] | None = None,
+        total: int | None = None,
+    ) -> None:
         self.envelopes = envelopes
-        self.proven_in_place = proven_in_place
+        self.proves = proves
+        self.total = total
         self.longest = max(1, *(envelope.body_at for envelope in envelopes))
         """How many bytes stand in front of the fields, at the most; 1 if there are none."""
         self.least = min(envelope.least for envelope in envelopes)
@@ -33,6 +43,14 @@ class Heads:
         headers = {envelope.header for envelope in envelopes}
         self._header = header = headers.pop() if len(headers) == 1 else b""
         self._begun = tuple(header[:size] for size in range(len(header) - 1, 0, -1))
+        # What begins with no header, or with a single byte as an acknowledgement may, can be
+        # anywhere in a frame by chance.
+        self.telling = {each.header for each in envelopes if each.header and each.body_at > 1}
+        """The headers that tell that a frame begins."""
+        self.telling_begun = tuple(
+            header[:size] for header in self.telling for size in range(1, len(header))
+        )
+        """The beginnings of these that more bytes may complete."""
         for envelope in envelopes:
             envelope.heads = self
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     # The size of the frame, 0 where only its count says it; from where to where that count stands,
     # and the bytes it must be (b"" at 0:0 if there is none); the class; what says of a whole frame
-    # whether all is right that the decoders do not test themselves (None if it always is); and the
+    # whether all the rest of it is right but for what it adds up to (None if it always is); and the
     # entry for another message with the same head.
     Entry: TypeAlias = (
         "tuple[int, int, int, bytes, type[Message], Callable[[bytes], bool] | None, Entry | None]"
@@ -60,10 +60,10 @@ class Table(dict[bytes, "Entry"]):
     """
 
     __slots__ = (
-        "_proofs",
         "_trials",
         "begun",
         "frames",
+        "head",
         "head_size",
         "header",
         "heads",
@@ -82,6 +82,8 @@ class Table(dict[bytes, "Entry"]):
         self.heads = heads
         # Its own: it is looked up for every frame.
         self.head_size = heads.longest
+        # Made once: making it takes as long as using it.
+        self.head = slice(self.head_size)
         self.remembered = heads.longest + 1
         self.messages = messages
         self.largest = largest
@@ -101,8 +103,6 @@ class Table(dict[bytes, "Entry"]):
         self.reach = max((_reach(kind, largest) for kind in messages), default=0)
         # What the heads seen so far may belong to; the verdicts on those that decide alone.
         self._trials: dict[bytes, list[Trial]] = {}
-        # What says whether the checksums of a message are right, where its entries do not.
-        self._proofs: dict[type[Message], Callable[[bytes], bool] | None] = {}
         self.verdicts: dict[bytes, Verdict] = {}
         # The beginnings of frames seen so far, and the size at which each can be judged further.
         self.waits: dict[bytes, int] = {}
@@ -195,8 +195,8 @@ class Table(dict[bytes, "Entry"]):
         size, at, until, count, kind, holds, _ = entry
         if len(frame) != size or (count and frame[at:until] != count):
             return None
-        proves = self._proofs[kind]
-        right = (holds is None or holds(frame)) and (proves is None or proves(frame))
+        total = self.heads.total
+        right = (total is None or sum(frame) & 0xFF == total) and (holds is None or holds(frame))
         return kind if right else None
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
@@ -264,17 +264,20 @@ class Table(dict[bytes, "Entry"]):
             return None
         if any(not each.size and self._may_grow(each, len(trials)) for each in known):
             return None
-        # What the decoders test themselves is left out of what the entry holds.
-        in_place = self.heads.proven_in_place
         entry: Entry | None = None
         # The last first: each is put in front of the others.
         for each in reversed([each for each in known if each.size == size]):
             kind = each.kind
-            proofs = kind.FRAME.provers(kind.IDS)
-            self._proofs[kind] = together(proofs if in_place else [])
-            holds = together([*_tests(kind), *([] if in_place else proofs)])
+            holds = together([*_tests(kind), *self._proofs(kind)])
             entry = (each.size, *_counted(kind, each.count), kind, holds, entry)
         return entry
+
+    def _proofs(self, kind: type[Message]) -> list[Callable[[bytes], bool]]:
+        """Return what says whether the checksums of a message are right, but for a mere total."""
+        heads = self.heads
+        if heads.total is not None:
+            return []
+        return kind.FRAME.provers(kind.IDS) if heads.proves is None else [heads.proves]
 
     def _may_grow(self, each: Known, trials: int) -> bool:
         """Return whether a frame whose count says its size may be another, or be too large."""

@@ -9,7 +9,7 @@ from framegen.site import rendering
 from framegen.targets.docs import markdown_pages
 from framegen.targets.python import _environment
 from framegen.targets.python.copies import copies
-from framegen.targets.python.files import ONLY_WITH, PROVEN
+from framegen.targets.python.files import ONLY_WITH
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.templates import environment
 from jinja2 import StrictUndefined, UndefinedError, nodes
@@ -104,9 +104,7 @@ def test_a_template_is_tidy(template: Path) -> None:
 
 # What the library of a protocol with neither address nor checksum does without, save that it has
 # the numbers of its own byte order.
-_NOT_NEEDED = set[str]().union(
-    *(files for what, files in ONLY_WITH.items() if what != "poses"), PROVEN
-)
+_NOT_NEEDED = set[str]().union(*(files for what, files in ONLY_WITH.items() if what != "poses"))
 _NUMBERS = {BUSSERVO: "_frame/little.py", DEMO: "_frame/big.py"}
 
 

@@ -20,7 +20,6 @@ ONLY_WITH = {
     "addresses": {"_client/address.py", "_client/async_devices.py", "_client/devices.py"},
     "failures": {"_client/failures.py"},
     "counted replies": {"_client/counted.py"},
-    "proof": {"_codec/proof.py"},
     # Each method needs some of these, and each kind of field some of those.
     "checksums": {
         f"_frame/{name}.py" for name in ("byte_sum", "word_sum", "crc", "fletcher", "running")
@@ -31,18 +30,13 @@ ONLY_WITH = {
         *("_frame/little.py", "_frame/little_swapped.py", "_frame/little_three_bytes.py"),
     },
 }
-# What takes the place of another file where each frame proves that it is one.
-PROVEN = {"_codec/certain_decoder.py": "_codec/careful_decoder.py"}
 
 
 def placed(files: dict[str, str], library: LibraryView, client: ClientView) -> dict[str, str]:
     """Return those of all files that the library has a use for, each in its place."""
     used = _used(library, client)
-    unused = set[str]().union(*ONLY_WITH.values(), PROVEN) - used
-    found = {name: text for name, text in files.items() if name not in unused}
-    if library.proven:
-        found |= {place: files[name] for name, place in PROVEN.items()}
-    return found
+    unused = set[str]().union(*ONLY_WITH.values()) - used
+    return {name: text for name, text in files.items() if name not in unused}
 
 
 def _used(library: LibraryView, client: ClientView) -> set[str]:
@@ -53,7 +47,6 @@ def _used(library: LibraryView, client: ClientView) -> set[str]:
         "addresses": client.bus is not None,
         "failures": bool(client.failing),
         "counted replies": any(each.counted for each in library.model.exchanges),
-        "proof": bool(library.checksums),
     }
     used = {name for what, there in has.items() if there for name in ONLY_WITH[what]}
     used |= {f"_frame/{name}.py" for name in library.modules}

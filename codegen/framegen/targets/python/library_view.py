@@ -86,8 +86,8 @@ class LibraryView:
         """The assignment of what holds all of them."""
         names = [each.constant for each in self.envelopes]
         envelopes = Bracketed("(", names, ")", lone=",")
-        in_place = f"proven_in_place={self.proof is not None}"
-        return Bracketed("HEADS = Heads(", [envelopes, in_place], ")").fitted(0)
+        proof = [self.proof.given] if self.proof else []
+        return Bracketed("HEADS = Heads(", [envelopes, *proof], ")").fitted(0)
 
     @property
     def import_parts(self) -> list[str]:
@@ -97,11 +97,6 @@ class LibraryView:
         for method in checksums_of(self.model):
             parts.setdefault(method.module, set()).add(method.name)
         return [relative_import(module, parts[module]) for module in sorted(parts)]
-
-    @property
-    def checksums(self) -> bool:
-        """Whether any frame has a checksum."""
-        return any(frame.checksums for frame in self.model.envelopes.values())
 
     @property
     def proof(self) -> ProofView | None:
@@ -119,23 +114,9 @@ class LibraryView:
         return any(begun(self.model))
 
     @property
-    def outgrown(self) -> bool:
-        """Whether a frame that the client receives may be the beginning of a longer one."""
-        received = self.model.roles.received
-        return any(short.direction == received for short, _ in begun(self.model))
-
-    @property
     def address(self) -> bool:
         """Whether any frame has the number of a device."""
         return any(frame.address is not None for frame in self.model.envelopes.values())
-
-    @property
-    def measured(self) -> bool:
-        """Whether of some messages only a count says how long they are."""
-        return any(
-            message.items is not None and message.frame.length_part is None
-            for message in self.model.messages.values()
-        )
 
     @property
     def directions(self) -> list[DirectionView]:
@@ -339,7 +320,7 @@ class LibraryView:
     @property
     def lookalikes(self) -> str:
         """The tuple of the look-alikes, as code."""
-        before = "LOOKALIKES: tuple[Lookalike, ...] = ("
+        before = "LOOKALIKES = ("
         entries = [each.entry for each in self._lookalikes]
         return Bracketed(before, entries, ")", lone=",").fitted(0)
 
@@ -351,10 +332,10 @@ class LibraryView:
     @property
     def import_for_lookalikes(self) -> list[str]:
         """The imports of what recognises look-alikes."""
-        parts = {"bytes_like": {"as_bytes"}}
+        parts: dict[str, set[str]] = {"lookalike": {"Lookalike"}} if self._lookalikes else {}
         for method in self.lookalike_methods:
-            parts.setdefault(method.module, set()).add(method.name)
-        return [relative_import(f"._frame.{module}", parts[module]) for module in sorted(parts)]
+            parts.setdefault(f"._frame.{method.module}", set()).add(method.name)
+        return [relative_import(module, parts[module]) for module in sorted(parts)]
 
     @property
     def _lookalikes(self) -> list[LookalikeView]:

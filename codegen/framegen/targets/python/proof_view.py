@@ -1,4 +1,4 @@
-"""The test of a checksum as the decoders have it: in place, where the same does for all frames."""
+"""The test of a checksum as decoders make it: one line, where the same does for all frames."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from framegen.model.checksums import CHECKSUMS, Crc, Sum
 from framegen.model.slots import Constant
 from framegen.targets.python.checksum_view import ChecksumView
 from framegen.targets.python.escape import literal
+from framegen.targets.python.names import envelope_name
 
 if TYPE_CHECKING:
     from framegen.model.envelope import Envelope
@@ -34,17 +35,36 @@ class ProofView:
         row = CHECKSUMS[self.checksum.method]
         if isinstance(row, Crc) and self._is_divided_on:
             # A number with its remainder behind it has always the same one.
-            return f"checksum_of({self._rest}) == 0x{self._residue(row):X}"
+            return f"_checksum_of({self._rest}) == 0x{self._residue(row):X}"
         if self.calls or not isinstance(row, Sum):
-            return f"checksum_of({self._covered}) == {self._number}"
+            return f"_checksum_of({self._covered}) == {self._number}"
         mask = (1 << 8 * self.checksum.size) - 1
         if self._is_added_on:
-            # What was subtracted is there again; and what stands in front is always the same.
-            if self._in_front is None:
-                return f"sum({self._rest}) & 0xFF == 0x{row.offset & mask:02X}"
-            return f"sum(frame) & 0xFF == 0x{row.offset + self._in_front & mask:02X}"
+            # What was subtracted is there again.
+            return f"sum({self._rest}) & 0xFF == 0x{row.offset & mask:02X}"
         sign = {1: "", -1: "~" if row.offset else "-"}[row.factor]
         return f"{sign}sum({self._covered}) & 0x{mask:X} == {self._number}"
+
+    @property
+    def total(self) -> int | None:
+        """What the bytes of any frame add up to, modulo 256; None if they are not always the same.
+
+        What was subtracted is there again; and what stands in front is always the same, too.
+        """
+        row = CHECKSUMS[self.checksum.method]
+        if not self._is_added_on or self._in_front is None or not isinstance(row, Sum):
+            return None
+        return (row.offset + self._in_front) & 0xFF
+
+    @property
+    def is_called(self) -> bool:
+        """Whether decoders call it: it is more than what all bytes add up to."""
+        return self.total is None
+
+    @property
+    def given(self) -> str:
+        """How the decoders are told, as an argument."""
+        return "proves=proves" if self.is_called else f"total=0x{self.total:02X}"
 
     @property
     def why(self) -> str:
@@ -72,6 +92,11 @@ class ProofView:
     def calls(self) -> bool:
         """Whether it calls what works the checksum out, and does not do so itself."""
         return self.method.name != "Sum"
+
+    @property
+    def checksum_of(self) -> str:
+        """What works it out, where it is called."""
+        return f"{envelope_name(self.frame.name)}.checksums[0].method.of"
 
     @property
     def method(self) -> ChecksumView:

@@ -42,9 +42,9 @@ PYTHON_CLASSES = words(
 LIBRARY_CLASSES = words(
     """
     AbsentError Address AllDevices Allowed Always AsyncAllDevices AsyncClient AsyncController
-    AsyncMotion AsyncOneDevice Client ClosedError Column Controller Counters Decoded DecodeError
-    Device Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError Event
-    Exchange EXCHANGES F32 F64 FailureError Failures Field HEADS I16 I24 I32 I64 I8
+    AsyncMotion AsyncOneDevice Client ClosedError CODEC Column Controller Counters Decoded
+    DecodeError Device Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError
+    Event Exchange EXCHANGES F32 F64 FailureError Failures Field HEADS I16 I24 I32 I64 I8
     IncompleteReplyError Items Kind LIBRARY LimitError LIMITS Limits LineCounters LineError
     LINK List Message MESSAGES MixedElement Motion Noise NoReplyError NoReportError NotHeldError
     Number OneDevice Optional Packed PortAddressError PortBusyError PortNotFoundError

@@ -18,7 +18,7 @@ from busservo import (
     ServoPositions,
     StreamDecoder,
 )
-from busservo._codec.careful_decoder import CarefulDecoder
+from busservo._library import CODEC
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -45,7 +45,7 @@ MESSAGES = [
 
 
 def careful(*pieces: bytes, flushed: bool = False) -> list[Message | Noise]:
-    decoder = CarefulDecoder(RECEIVED)
+    decoder = CODEC.careful_decoder(RECEIVED)
     events: list[Message | Noise] = [event for piece in pieces for event in decoder.feed(piece)]
     while flushed and decoder.pending:
         events += decoder.flush()
@@ -105,7 +105,7 @@ def test_whole_messages_are_reported_whatever_they_end_in(first: Message, second
 
 
 def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
-    decoder = CarefulDecoder(RECEIVED)
+    decoder = CODEC.careful_decoder(RECEIVED)
     doubtful = BatteryVoltage(0x5555)
     assert decoder.feed(doubtful.encode()) == []
     assert decoder.pending == 6
@@ -129,7 +129,7 @@ def test_a_header_in_the_middle_of_a_message_is_no_reason_to_wait(message: Messa
 
 
 def test_how_much_is_held_and_how_much_is_missing() -> None:
-    decoder = CarefulDecoder(RECEIVED)
+    decoder = CODEC.careful_decoder(RECEIVED)
     assert (decoder.pending, decoder.missing) == (0, 1)
     decoder.feed(ServoPositions([(1, 500), (2, 500)]).encode()[:5])
     assert (decoder.pending, decoder.missing) == (5, 6)
@@ -142,7 +142,7 @@ def test_how_much_is_held_and_how_much_is_missing() -> None:
 
 def test_a_message_that_stays_doubtful_is_noise() -> None:
     """A second hole: whether the reply was whole cannot be known any more."""
-    decoder = CarefulDecoder(RECEIVED)
+    decoder = CODEC.careful_decoder(RECEIVED)
     assert decoder.feed(bytes.fromhex("55 55 04 0F 55 55 05 08")) == []
     events = decoder.flush()
     assert messages(events) == []
@@ -183,7 +183,7 @@ def test_a_line_of_whole_frames_is_reported_as_it_is(line: list[Message]) -> Non
 
 @given(pieces)
 def test_without_doubtful_messages_it_agrees_with_the_stream_decoder(line: list[bytes]) -> None:
-    plain, doubting = StreamDecoder(RECEIVED), CarefulDecoder(RECEIVED)
+    plain, doubting = StreamDecoder(RECEIVED), CODEC.careful_decoder(RECEIVED)
     whole = b"".join(line).replace(b"\x55\x55\x55", b"\x55\x55\x04")
     expected = [*plain.feed(whole), *plain.flush()]
     found = [*doubting.feed(whole)]
@@ -246,9 +246,9 @@ def test_an_acknowledgement_makes_no_other_frame_doubtful(end: dict[str, object]
     compiled = compiled_of(data)
     assert compiled.findings == []
     with library(library_files(compiled)) as made:
-        module = import_module(f"{made.__name__}._codec.careful_decoder")
+        codec = import_module(f"{made.__name__}._library").CODEC
         for value in range(256):
-            decoder = module.CarefulDecoder(made.Direction.METER_TO_HOST)
+            decoder = codec.careful_decoder(made.Direction.METER_TO_HOST)
             message, done = made.messages.Value(value), made.messages.Done()
             assert decoder.feed(message.encode()) == [message]
             assert decoder.feed(done.encode() + message.encode()) == [done, message]

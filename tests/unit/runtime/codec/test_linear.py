@@ -213,7 +213,7 @@ def lines_per_byte(pattern: bytes, size: int) -> float:
 # A port hands over some bytes at a time, a file many: traffic is then so cheap that noise, of which
 # each piece is reported with its reason, is many times as dear.
 @nobody_traces
-@pytest.mark.parametrize(("size", "times"), [(2048, 55), (64, 25), (1, 13)])
+@pytest.mark.parametrize(("size", "times"), [(2048, 55), (64, 25), (1, 14)])
 @in_turn("pattern", lambda: DEAR)
 def test_no_bytes_cost_many_times_normal_traffic(pattern: str, size: int, times: float) -> None:
     normal = lines_per_byte(NORMAL, size)

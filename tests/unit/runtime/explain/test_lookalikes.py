@@ -1,12 +1,11 @@
 """The library names the protocols that are easily taken for it: by their frames, in any company."""
 
 from collections.abc import Iterator
-from types import ModuleType
 from typing import Any
 
 import pytest
 from busservo import Message, strategies
-from busservo._codec import lookalikes
+from busservo._library import CODEC
 from framegen.explain import explain
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.model import Model
@@ -26,6 +25,7 @@ from tests.factories import (
     library,
     library_of,
 )
+from tests.handed import handed_by
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES
 
@@ -70,12 +70,12 @@ ASK = servo_bus_frame(7, 28)
     ],
 )
 def test_the_frames_of_a_look_alike_are_recognised(data: bytes, title: str | None) -> None:
-    assert lookalikes.recognise(data) == title
+    assert CODEC.recognise(data) == title
 
 
 @given(st.lists(strategies.messages(), max_size=5))
 def test_what_is_of_this_protocol_is_never_taken_for_another(messages: list[Message]) -> None:
-    assert lookalikes.recognise(b"".join(message.encode() for message in messages)) is None
+    assert CODEC.recognise(b"".join(message.encode() for message in messages)) is None
 
 
 def examples(model: Model) -> list[tuple[bytes, str]]:
@@ -90,13 +90,13 @@ def examples(model: Model) -> list[tuple[bytes, str]]:
 def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
     found = recognise(LAYOUT.plain, data)
     assert found is not None
-    assert found.lookalike.title == lookalikes.recognise(data) == title
+    assert found.lookalike.title == CODEC.recognise(data) == title
 
 
 def test_another_protocol_has_look_alikes_of_its_own() -> None:
     layout = compiled_file(DEMO).model
     with library(library_of(DEMO)) as made:
-        found = __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
+        found = handed_by(made.__name__).codec
         for data, title in examples(layout):
             assert found.recognise(data) == title
             assert found.recognise(data[:-1]) is None
@@ -167,10 +167,10 @@ def with_proven_look_alikes() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def proven() -> Iterator[ModuleType]:
-    """Return the module that recognises them, of a library of its own."""
+def proven() -> Iterator[Any]:
+    """Return what recognises them, of a library of its own."""
     with library(files_of(with_proven_look_alikes())) as made:
-        yield __import__(f"{made.__name__}._codec.lookalikes", fromlist=["recognise"])
+        yield handed_by(made.__name__).codec
 
 
 @pytest.fixture(scope="module")
@@ -186,7 +186,7 @@ def proven_model() -> Model:
     spare=st.integers(0, 255),
 )
 def test_a_look_alike_is_recognised_by_any_checksum(
-    proven: ModuleType,
+    proven: Any,
     proven_model: Model,
     header: str,
     parameters: bytes,
@@ -215,10 +215,10 @@ def test_what_proves_a_look_alike_is_said_of_its_frame(proven_model: Model) -> N
 
 
 def test_headers_of_a_look_alike_that_claim_much_are_not_summed_again_and_again(
-    proven: ModuleType, monkeypatch: pytest.MonkeyPatch
+    proven: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     summed = 0
-    [found] = [each for each in proven.LOOKALIKES if each.title == "By C2"]
+    [found] = [each for each in proven.lookalikes if each.title == "By C2"]
     kind = type(found.methods[0].running())
     go_on = kind._go_on
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
-from busservo._codec.noise_lane import NoiseLane
 from busservo._frame.element import Element
 from busservo._frame.envelopes import FRAME_ENVELOPE, HEADS
 from busservo._frame.lists import List
 from busservo._frame.little import U16
 from busservo._frame.number import U8
 from busservo._frame.table import Table, largest_of
+from busservo._library import CODEC
 
 from tests.strategies import bytes_of, joined, noise, single_bytes
 
@@ -87,7 +87,7 @@ def decoder_of_dials() -> StreamDecoder:
     """Return a decoder that knows this message alone."""
     decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
     decoder._table = Table([DialsTurn], largest_of([DialsTurn]), HEADS)
-    decoder._noise = NoiseLane(decoder._table)
+    decoder._noise = CODEC.noise_lane(decoder._table)
     return decoder
 
 

@@ -19,9 +19,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
     from typing import Any
 
-    from .._codec.decoder import Event, StreamDecoder
+    from .._codec.decoder import StreamDecoder
     from .._codec.protocol_codec import ProtocolCodec
     from .._frame.direction import Direction
+    from .._frame.message import Message
     from .ends import Ends
     from .form import LogLines
 
@@ -95,7 +96,7 @@ def logged(
 
 
 def _of_stream(
-    ends: Ends, event: Event, who: str | None, offset: int, line: int, at: float | None
+    ends: Ends, event: Message | Noise, who: str | None, offset: int, line: int, at: float | None
 ) -> Entry:
     """Return an entry of a stream of which `who` alone is known to send it, None for either."""
     sender = who or sender_of(ends.codec, event)
@@ -120,7 +121,7 @@ def _stream_of(
     return codec.decoder(ends.only[who]), who
 
 
-def sender_of(codec: ProtocolCodec, event: Event) -> str | None:
+def sender_of(codec: ProtocolCodec, event: Message | Noise) -> str | None:
     """Return who alone sends such an event; None for noise, and for what either end may send."""
     return None if isinstance(event, Noise) or codec.twins(event) else event.DIRECTION.sender
 
@@ -166,7 +167,7 @@ def _sender(
 
 def _events(
     ends: Ends, data: bytes, sender: str | None, what: str, *, is_noise: bool
-) -> list[Event]:
+) -> list[Message | Noise]:
     """Return the events of a line's bytes, as its sender's: one, or more if lines were joined.
 
     Bytes recorded as noise stay noise, even if they would be a message by themselves; save for a
@@ -189,10 +190,12 @@ def _events(
     return [Noise(data, reason or (reasons or [Reason.BAD_HEADER])[0])] if data else []
 
 
-def _streamed(codec: ProtocolCodec, data: bytes, direction: Direction | None) -> list[Event]:
+def _streamed(
+    codec: ProtocolCodec, data: bytes, direction: Direction | None
+) -> list[Message | Noise]:
     decoder = codec.decoder(direction)
     return [*decoder.feed(data), *decoder.flush()]
 
 
-def _noise_in(events: Iterable[Event]) -> int:
+def _noise_in(events: Iterable[Message | Noise]) -> int:
     return sum(len(event.data) for event in events if isinstance(event, Noise))

@@ -9,24 +9,18 @@ from __future__ import annotations
 
 from copy import copy
 
-from .._frame.envelopes import HEADS
-from .._frame.errors import Reason
-from .decoder import StreamDecoder
+from ..frame.errors import Reason
 from .event_bytes import bytes_of
 from .noise import Noise
 
-# What begins with no header, or with a single byte as an acknowledgement may, can be anywhere
-# in a frame by chance: there is nothing to doubt by.
-_HEADERS = {each.header for each in HEADS.envelopes if each.header and each.body_at > 1}
-# The beginnings of these that more bytes may complete.
-_BEGUN = tuple(header[:size] for header in _HEADERS for size in range(1, len(header)))
-
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from .._frame.direction import Direction
-    from .._frame.message import Message
+    from ..frame.direction import Direction
+    from ..frame.message import Message
+    from .decoder import StreamDecoder
+    from .protocol_codec import ProtocolCodec
 
 
 class CarefulDecoder:
@@ -36,6 +30,7 @@ class CarefulDecoder:
     """
 
     __slots__ = (
+        "_codec",
         "_decoder",
         "_direction",
         "_doubted",
@@ -45,9 +40,10 @@ class CarefulDecoder:
         "_rival_events",
     )
 
-    def __init__(self, direction: Direction | None) -> None:
+    def __init__(self, codec: ProtocolCodec, direction: Direction | None) -> None:
+        self._codec = codec
         self._direction = direction
-        self._decoder = StreamDecoder(direction)
+        self._decoder = self._begun()
         # The message that is held, and the bytes that have come since.
         self._doubted: Message | None = None
         self._later = b""
@@ -63,13 +59,8 @@ class CarefulDecoder:
 
     @property
     def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
-{% if library.outgrown %}
         """The message that is held, and those of which it may be the beginning; None if none is."""
         return None if self._doubted is not None else self._decoder.undecided
-{% else %}
-        """The message that is held, and those of which it may be the beginning: there never is."""
-        return None
-{% endif %}
 
     @property
     def pending(self) -> int:
@@ -115,10 +106,14 @@ class CarefulDecoder:
     def _believe(self) -> None:
         """Release the message that is held, which was whole: what follows it begins anew."""
         self._doubted, self._later = None, b""
-        self._decoder = StreamDecoder(self._direction)
+        self._decoder = self._begun()
+
+    def _begun(self) -> StreamDecoder:
+        """Return a decoder that has seen nothing yet."""
+        return self._codec.decoder(self._direction)
 
     def __copy__(self) -> CarefulDecoder:
-        other = CarefulDecoder(self._direction)
+        other = CarefulDecoder(self._codec, self._direction)
         other._decoder, other._rival = copy(self._decoder), copy(self._rival)
         other._doubted, other._rival_at = self._doubted, self._rival_at
         other._later, other._rival_events = self._later, [*self._rival_events]
@@ -127,19 +122,11 @@ class CarefulDecoder:
     def _sifted(self, events: Sequence[Message | Noise]) -> Sequence[Message | Noise]:
         """Return the events up to a message that is in doubt; what follows is decoded again."""
         for number, event in enumerate(events):
-{% if library.checksums %}
-            # What its checksum proves was whole.
-            if isinstance(event, Noise) or event.FRAME.checksums:
+            # What its checksum proves was whole, and in most others nothing begins.
+            if isinstance(event, Noise) or event.FRAME.checksums or not self._beginnings(event):
                 continue
             if not (self._is_torn(event) or self._doubt(event)):
                 continue
-{% else %}
-            # In most messages, nothing begins that could be another.
-            if isinstance(event, Noise) or not _beginnings(event.encode()):
-                continue
-            if not (self._is_torn(event) or self._doubt(event)):
-                continue
-{% endif %}
             rest = b"".join(map(bytes_of, events[number + 1 :])) + self._decoder.held
             found = [] if self._doubted is not None else self._refuted(event)
             return [*events[:number], *found, *(self.feed(rest) if rest else ())]
@@ -147,18 +134,13 @@ class CarefulDecoder:
 
     def _is_torn(self, message: Message) -> bool:
         """Return whether a message ends in whole frames, which have filled its gap."""
-{% if library.outgrown %}
-        return any(
-            events and not any(isinstance(event, Noise) for event in events)
-            for _ in self._rivals(message)
-            for events in [[*self._rival_events, *copy(self._rival).flush()]]
-        )
-{% else %}
-        return any(
-            self._rival_events and not any(isinstance(event, Noise) for event in self._rival_events)
-            for _ in self._rivals(message)
-        )
-{% endif %}
+        for _ in self._rivals(message):
+            events = self._rival_events
+            if self._rival.undecided is not None:
+                events = [*events, *copy(self._rival).flush()]
+            if events and not any(isinstance(event, Noise) for event in events):
+                return True
+        return False
 
     def _doubt(self, message: Message) -> bool:
         """Hold a message back if a frame may begin in its last bytes."""
@@ -174,8 +156,8 @@ class CarefulDecoder:
     def _rivals(self, message: Message) -> Iterator[int]:
         """Decode anew from each place in a message where another may begin, one after the other."""
         frame = message.encode()
-        for at in _beginnings(frame):
-            self._rival, self._rival_at = StreamDecoder(self._direction), at
+        for at in self._beginnings(message):
+            self._rival, self._rival_at = self._begun(), at
             self._rival_events = [*self._rival.feed(frame[at:])]
             yield at
 
@@ -201,15 +183,16 @@ class CarefulDecoder:
         torn = Noise(doubted.encode()[: self._rival_at], Reason.TOO_SHORT)
         return [torn, *self._sifted(self._rival_events)]
 
-
-def _beginnings(frame: bytes) -> list[int]:
-    """Return each place behind a frame's own header where another stands, or may begin."""
-    found: list[int] = []
-    for header in _HEADERS:
-        at = frame.find(header, 1)
-        while at > 0:
-            found.append(at)
-            at = frame.find(header, at + 1)
-    if frame.endswith(_BEGUN, 1):
-        found += [len(frame) - len(begun) for begun in _BEGUN if frame.endswith(begun, 1)]
-    return sorted(set(found)) if len(found) > 1 else found
+    def _beginnings(self, message: Message) -> list[int]:
+        """Return each place behind a frame's own header where another stands, or may begin."""
+        frame, heads = message.encode(), self._codec.heads
+        found: list[int] = []
+        for header in heads.telling:
+            at = frame.find(header, 1)
+            while at > 0:
+                found.append(at)
+                at = frame.find(header, at + 1)
+        begun = heads.telling_begun
+        if frame.endswith(begun, 1):
+            found += [len(frame) - len(each) for each in begun if frame.endswith(each, 1)]
+        return sorted(set(found)) if len(found) > 1 else found

@@ -9,39 +9,21 @@ There are two lanes: frames back to back, here, by look-ups alone; and the way t
 
 from __future__ import annotations
 
-from .._frame.bytes_like import as_bytes
-from .._frame.direction import Direction
-{% if library.measured %}
-from .._frame.table import is_certain, measured
-{% else %}
-from .._frame.table import is_certain
-{% endif %}
-from ..messages import Decoded
-{% if library.proof and library.proof.calls %}
-from .codec import checksum_of, table_for
-{% else %}
-from .codec import table_for
-{% endif %}
+from collections.abc import Sequence
+
+from ..frame.bytes_like import as_bytes
+from ..frame.direction import Direction
+from ..frame.message import Message
+from ..frame.table import is_certain, measured
 from .counters import Counters
-from .noise import Noise
 from .noise_lane import NoiseLane
+from .protocol_codec import ProtocolCodec
 
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-{% if library.outgrown %}
-    from collections.abc import Sequence
-
-{% endif %}
     import typing_extensions as typing
-{% if library.outgrown %}
-
-    from .._frame.message import Message
-{% endif %}
 else:
-    from .._frame.typing_later import typing
-
-Event: typing.TypeAlias = Decoded | Noise
-"""Whatever a stream decoder gives: a message or a piece of noise."""
+    from ..frame.typing_later import typing
 
 _new = object.__new__
 
@@ -61,9 +43,13 @@ class StreamDecoder:
 
     __slots__ = ("_held", "_message_bytes", "_messages", "_noise", "_scanned", "_table", "_wake")
 
+    # Each protocol has its own decoder: a subclass, which knows what its frames are.
+    _codec: typing.ClassVar[ProtocolCodec]
+
     def __init__(self, direction: Direction | None, max_frame: int | None = None) -> None:
-        self._table = table_for(direction, max_frame)
-        self._noise = NoiseLane(self._table)
+        codec = self._codec
+        self._table = codec.table_for(direction, max_frame)
+        self._noise = NoiseLane(self._table, codec.unknown_frame)
         self._held = b""
         # Where the search in the held bytes goes on, and the size below which it need not.
         self._scanned = self._wake = 0
@@ -89,7 +75,6 @@ class StreamDecoder:
         """How many bytes must come, at the least, before the next event."""
         return max(1, self._wake - len(self._held))
 
-{% if library.outgrown %}
     @property
     def undecided(self) -> tuple[Message, Sequence[type[Message] | None]] | None:
         """The message that is held, and those of which it may be the beginning; None if none is.
@@ -100,7 +85,6 @@ class StreamDecoder:
         message = table.find(held) if held and not self._scanned else None
         return None if message is None else (message, table.awaited(held))
 
-{% endif %}
     @property
     def counters(self) -> Counters:
         """What has been seen so far."""
@@ -108,14 +92,15 @@ class StreamDecoder:
         noise, unknown_frames = emitted - self._message_bytes, self._noise.unknown_frames
         return Counters(emitted + len(self._held), self._messages, noise, unknown_frames)
 
-    def __copy__(self) -> StreamDecoder:
+    def __copy__(self) -> typing.Self:
         other = _new(type(self))
         for name in StreamDecoder.__slots__:
             setattr(other, name, getattr(self, name))
         other._noise = self._noise.copy()
         return other
 
-    def feed(self, data: bytes | bytearray | memoryview) -> list[Event]:
+    # The events are those of a protocol, whose own class says which messages they may be.
+    def feed(self, data: bytes | bytearray | memoryview) -> list[typing.Any]:
         """Take in bytes, and return the events that are certain now. b"" is no sign of silence."""
         held = self._held + (data if type(data) is bytes else as_bytes(data))
         if len(held) < self._wake:
@@ -129,62 +114,44 @@ class StreamDecoder:
                 return []
         return self._read(held, quiet=False)
 
-    def flush(self) -> list[Event]:
+    def flush(self) -> list[typing.Any]:
         """Decode the bytes held back, as the line is quiet: they are no frame, but may hide one."""
         events = self._read(self._held, quiet=True)
         self._noise.begin_anew(self._noise.emitted)
         return events
 
-    def _read(self, data: bytes, *, quiet: bool) -> list[Event]:
+    def _read(self, data: bytes, *, quiet: bool) -> list[typing.Any]:
         """Return the events that are certain, and keep the rest of the bytes."""
         events: list[typing.Any] = []
         table, noise = self._table, self._noise
-        look_up, head_size = table.get, table.head_size
+        look_up, head_size, total = table.get, table.head_size, table.heads.total
         base, size, at = noise.emitted, len(data), self._scanned
-{% if library.checksums %}
-        # What has been summed up once is left to the search, which does so once for all.
+        # What has been tested once is left to the search, which sums it up once for all.
         summed = noise.summed - base
-        entry = None if at or summed > 0 else look_up(data[:head_size])
-{% else %}
         # Where a search goes on, no frame can begin before it has ended.
-        entry = None if at else look_up(data[:head_size])
-{% endif %}
+        entry = None if at or summed > 0 else look_up(data[:head_size])
         while True:
             begun, before = at, len(events)
             while entry is not None:
                 length, count_at, count_end, count, kind, holds, other = entry
                 if count and data[at + count_at : at + count_end] != count:
-{% if library.measured %}
                     entry = other or measured(entry, data, at)
-{% else %}
-                    entry = other
-{% endif %}
                     continue
                 end = at + length
                 if end > size:
                     break
                 frame = data[at:end]
-{% if library.proof %}
-                # {{ library.proof.why }}
-                right = {{ library.proof.holds }}
-                if not right or (holds is not None and not holds(frame)):
-{% else %}
-                if holds is not None and not holds(frame):
-{% endif %}
-{% if library.checksums %}
+                if (total is not None and sum(frame) & 0xFF != total) or (
+                    holds is not None and not holds(frame)
+                ):
                     summed = max(summed, end)
-{% endif %}
                     entry = other
                     continue
                 message = _new(kind)
                 message._frame = frame
                 events.append(message)
                 at = end
-{% if library.checksums %}
                 entry = look_up(data[at : at + head_size]) if at >= summed else None
-{% else %}
-                entry = look_up(data[at : at + head_size])
-{% endif %}
             if at > begun:
                 self._messages += len(events) - before
                 self._message_bytes += at - begun
@@ -196,9 +163,7 @@ class StreamDecoder:
             if entry is not None and not quiet and (entry[5] is None or is_certain(entry[4])):
                 self._hold(data, at, at, at + entry[0])
                 return events
-{% if library.checksums %}
             noise.summed = base + summed
-{% endif %}
             entry = noise.search(events, data, base, at, quiet=quiet)
             at = noise.at - base
             if entry is None:

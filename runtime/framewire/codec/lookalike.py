@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from .._frame.errors import DecodeError
-from .codec import decode
+from ..frame.errors import DecodeError
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
     from typing import Any, Literal, Protocol
+
+    from .protocol_codec import ProtocolCodec
 
     class Method(Protocol):
         """What works out a checksum."""
@@ -69,8 +70,8 @@ class Lookalike:
         self.checksums = checksums
         self.methods = methods
 
-    def covered(self, data: bytes) -> int:
-        """Return how many bytes of `data` are frames of this protocol."""
+    def covered(self, data: bytes, codec: ProtocolCodec) -> int:
+        """Return how many bytes of `data` are frames of this protocol, and no messages of ours."""
         found = at = 0
         header = next((text for place, text in self.constants if place.start == 0), b"")
         # Whatever claims to be a frame, no byte is summed again and again.
@@ -83,7 +84,7 @@ class Lookalike:
                 self._is_frame(frame)
                 and self._is_sealed(frame, data, at, running)
                 and (self.checksums or frame.rfind(header) <= 0)
-                and not _is_message(frame)
+                and not _is_message(frame, codec)
             ):
                 found += len(frame)
                 at += len(frame)
@@ -115,21 +116,21 @@ class Lookalike:
         return True
 
 
-def most_likely(lookalikes: Iterable[Lookalike], data: bytes) -> str | None:
+def most_likely(lookalikes: Iterable[Lookalike], data: bytes, codec: ProtocolCodec) -> str | None:
     """Return the title of the protocol whose frames make up most of `data`, at least half of it."""
     searched = data[:_SEARCHED]
 
     def shares() -> Iterator[tuple[int, str]]:
         for each in lookalikes:
-            yield each.covered(searched), each.title
+            yield each.covered(searched, codec), each.title
 
     covered, title = max(shares(), key=lambda share: share[0], default=(0, ""))
     return title if covered and 2 * covered >= len(searched) else None
 
 
-def _is_message(frame: bytes) -> bool:
+def _is_message(frame: bytes, codec: ProtocolCodec) -> bool:
     try:
-        decode(frame, None)
+        codec.decode(frame, None)
     except DecodeError:
         return False
     return True
