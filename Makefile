@@ -43,7 +43,7 @@ SITE = build/site
 BASE =
 # What a release is called.
 VERSION =
-# Which mutants, and how many of them: make mutants ONLY='busservo._client.*' SAMPLE=60 SEED=7
+# Which mutants, and how many of them: make mutants ONLY='framewire.client.*' SAMPLE=60 SEED=7
 ONLY =
 
 # Where Python keeps nothing of what it has compiled, each process of the tests compiles it again.

@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import busservo
 import serial
-from busservo._frame.protocol import BAUD, BITS_PER_BYTE
+from busservo._library import LINK
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -38,7 +38,7 @@ SERVOS = [1, 2, 3, 4, 5, 6]
 BYTES = len(busservo.ServoPositionsRead(SERVOS).encode()) + len(
     busservo.ServoPositions([(servo, 500) for servo in SERVOS]).encode()
 )
-BEST = BYTES * BITS_PER_BYTE / BAUD
+BEST = BYTES * LINK.bits_per_byte / LINK.baud
 
 
 class Taken(NamedTuple):
@@ -63,7 +63,7 @@ class Watch:
 def with_nothing(port: str, reads: int) -> Taken:
     """Return the time of a read by pyserial alone: what this machine allows at this moment."""
     request = busservo.ServoPositionsRead(SERVOS).encode()
-    with serial.serial_for_url(port, BAUD, timeout=1) as line:
+    with serial.serial_for_url(port, LINK.baud, timeout=1) as line:
         line.write(request)
         line.read(BYTES - len(request))
         watch = Watch()

@@ -7,7 +7,7 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
-from tests.factories import BUSSERVO, DEMO, library_of
+from tests.factories import BUSSERVO, DEMO, ROOT, library_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -18,8 +18,11 @@ _PASCAL = re.compile(r"[A-Z][A-Za-z0-9]*")
 
 @cache
 def _modules() -> dict[str, list[ast.Module]]:
-    """Return the modules of libraries by path: those that are alike once."""
-    found: dict[str, dict[str, ast.Module]] = {}
+    """Return the modules of libraries, and of the runtime, by path: those that are alike once."""
+    found: dict[str, dict[str, ast.Module]] = {
+        file.relative_to(ROOT).as_posix(): {"": ast.parse(file.read_text(encoding="utf-8"))}
+        for file in (ROOT / "runtime").rglob("*.py")
+    }
     # One of plain frames, with poses, and one with all that there is besides.
     for file in (BUSSERVO, DEMO.with_name("everything.yaml")):
         for path, text in library_of(file).items():
@@ -34,8 +37,8 @@ def _modules() -> dict[str, list[ast.Module]]:
 def bound_names(*, everywhere: bool = False) -> frozenset[str]:
     """Return the names that a name of a spec may meet: all of modules that are made for a spec.
 
-    Those that are the same in every library bind others, in scopes of their own. Of these, what
-    stands in classes, which a class of the spec may have for a base; or all, `everywhere`.
+    Those of the runtime bind others, in scopes of their own. Of these, what stands in classes,
+    which a class of the spec may have for a base; or all, `everywhere`.
     """
     met = set[str]()
     for alike in _modules().values():

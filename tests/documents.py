@@ -38,15 +38,14 @@ from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import busservo
-import busservo._cli
+import busservo.__main__
 import framegen.cli
 import lxservo
-import lxservo._cli
-from busservo._client.async_opening import open_async_controller
-from busservo._client.opening import open_controller
+import lxservo.__main__
+from busservo import open_async_controller, open_controller
 from busservo_simulator import ActionGroup, Step, VirtualController
 from busservo_simulator.clock import RealClock
-from lxservo._client.opening import open_controller as open_servos
+from lxservo import open_controller as open_servos
 from lxservo_simulator import VirtualBus
 
 from tests.timeouts import GENEROUS, undoubted
@@ -87,9 +86,9 @@ _CHANGED = (
     ),
 )
 _COMMANDS: dict[str, Callable[[Sequence[str]], object]] = {
-    "busservo": busservo._cli.main,
+    "busservo": busservo.__main__.main,
     "framegen": framegen.cli.main,
-    "lxservo": lxservo._cli.main,
+    "lxservo": lxservo.__main__.main,
 }
 _GIT_PROGRAM = shutil.which("git") or "git"
 # Whoever commits, and when, the same is printed.

@@ -27,7 +27,7 @@ HERE = Path(__file__).parent
 # The files that judge each package, the innermost of those named here, by folder; and those files
 # first that soonest cannot be imported.
 JUDGES = {
-    "busservo._client": {
+    "framewire.client": {
         "unit/runtime/client": "session request_states possible_replies client async_client "
         "reports closing motion pose gaps acknowledgements local_echo virtual_board hid_port "
         "faults conversations",

@@ -7,7 +7,6 @@ import importlib
 import importlib.util
 import json
 import re
-import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -24,43 +23,21 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from types import ModuleType
 
-LIBRARY = ROOT / "generated" / "busservo"
-TEMPLATES = ROOT / "codegen" / "framegen" / "targets" / "python" / "templates"
-COMMAND = "_cli"
-# What differs from library to library. All else is copied, and the same for every spec.
-MADE = sorted(
-    path.relative_to(TEMPLATES).as_posix().removesuffix(".jinja")
-    for path in TEMPLATES.rglob("*.py*.jinja")
-)
+COMMAND = "_command.py"
 
 
 @dataclass(frozen=True)
 class Library:
-    """The generated library of one spec: its modules that are not the same in every library."""
+    """The generated library of one spec: its modules."""
 
     name: str
     modules: dict[str, str]
 
     def write(self, folder: Path) -> None:
-        """Write its own modules, in a package of its name."""
+        """Write it, as a package of its name."""
+        (folder / self.name).mkdir()
         for path, text in self.modules.items():
-            file = folder / self.name / path
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text, encoding="utf-8", newline="")
-            if "/" in path:
-                (file.parent / "__init__.py").write_text('"""A part."""\n', encoding="utf-8")
-
-    def write_whole(self, folder: Path) -> None:
-        """Write all that type checkers need: the command and the doctor do without the messages."""
-        for file in [*LIBRARY.rglob("*.py"), *LIBRARY.rglob("*.pyi")]:
-            path = file.relative_to(LIBRARY)
-            if path.parts[0] not in {COMMAND, "__main__.py"}:
-                copy = folder / self.name / path
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                if path.as_posix() in self.modules:
-                    copy.write_text(self.modules[path.as_posix()], encoding="utf-8", newline="")
-                else:
-                    shutil.copy(file, copy)
+            (folder / self.name / path).write_text(text, encoding="utf-8", newline="")
 
     @cached_property
     def code(self) -> str:
@@ -71,8 +48,9 @@ class Library:
 def library_of(name: str, files: dict[str, str]) -> Library:
     """Return the library among the files of a spec, under the name `name`."""
     [root] = {path.rpartition("/")[0] for path in files if path.endswith("/py.typed")}
-    made = {path: files.get(f"{root}/{path}") for path in MADE}
-    return Library(name, {path: text for path, text in made.items() if text is not None})
+    made = {path.removeprefix(f"{root}/"): text for path, text in files.items()}
+    modules = {path: text for path, text in made.items() if path.endswith((".py", ".pyi"))}
+    return Library(name, modules)
 
 
 class _Said(ast.NodeTransformer):
@@ -94,25 +72,16 @@ def _code(text: str) -> str:
 
 @contextmanager
 def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
-    """Import a library written below `folder`; modules that are the same in all are shared."""
-    home = folder / library.name
-    spec = importlib.util.spec_from_file_location(
-        library.name, home / "__init__.py", submodule_search_locations=[str(home), str(LIBRARY)]
-    )
-    assert spec is not None
-    assert spec.loader is not None
-    made = sys.modules[library.name] = importlib.util.module_from_spec(spec)
+    """Import every module of a library written below `folder`."""
+    sys.path.insert(0, str(folder))
     try:
-        spec.loader.exec_module(made)
-        for part in LIBRARY.glob("_*/"):
-            if (home / part.name / "__init__.py").exists() and part.name != COMMAND:
-                importlib.import_module(f"{library.name}.{part.name}").__path__.append(str(part))
+        made = importlib.import_module(library.name)
         for path in library.modules:
-            if not path.startswith((COMMAND, "__init__.")):
-                name = path.removesuffix(".py").replace("/", ".")
-                importlib.import_module(f"{library.name}.{name}")
+            if not path.startswith("__init__."):
+                importlib.import_module(f"{library.name}.{path.removesuffix('.py')}")
         yield made
     finally:
+        sys.path.remove(str(folder))
         for name in [name for name in sys.modules if name.split(".")[0] == library.name]:
             del sys.modules[name]
 
@@ -166,8 +135,8 @@ def type_checked(folder: Path, cache: Path) -> dict[str, list[str]]:
     )
     assert done.returncode in (0, 1), done.stdout + done.stderr
     found = [(line.split(":")[0], line) for line in done.stdout.splitlines() if ": error:" in line]
-    made = [folder / name / path for name in names for path in MADE if COMMAND not in path]
-    files = [str(file) for file in made if file.exists()]
+    made = [file for name in names for file in sorted((folder / name).glob("*.py"))]
+    files = [str(file) for file in made if file.name != COMMAND]
     looked = _run(["pyright", "--outputjson", "--pythonpath", sys.executable, *files], folder)
     assert looked.returncode in (0, 1), looked.stdout + looked.stderr
     found += [

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypedDict
 from unittest import mock
 
-from busservo._cli.checks import probe
-from busservo._client import session
 from framegen.conformance.device import session as firmware_session
+from framewire.client import session
+from framewire.command.checks import probe
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 class Compiled:
     """A spec as text, with the place of each value, its findings and its model.
 
-    `tolerated` are findings that do not count: what today's rules say of an edition of old.
+    `tolerated` are findings that do not count: what today's rules say of an edition of old. If it
+    `carries_runtime`, its library brings what all of them have in common, and needs nothing else.
     """
 
     source: Source
@@ -36,6 +37,7 @@ class Compiled:
     read: Spec | None
     derived: Model | None
     tolerated: tuple[Finding, ...] = ()
+    carries_runtime: bool = False
 
     @property
     def spec(self) -> Spec:

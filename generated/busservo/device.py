@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-from ._codec.codec import StreamDecoder
-from ._codec.noise import Noise
-from ._codec.rejects import Rejects
-from ._frame.directions import Direction
-from ._frame.envelopes import HEADS
-from ._frame.message import Message
+from framewire.client import device
+
+from ._library import CODEC, Direction
 from .messages import (
     ActionGroupCompleted,
     ActionGroupRun,
@@ -26,11 +23,9 @@ from .messages import (
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import typing_extensions as typing
 else:
-    from ._frame.typing_later import typing
+    from framewire.frame.typing_later import typing
 
 Report: typing.TypeAlias = (
     ActionGroupCompleted | ActionGroupStarted | ActionGroupStopped | BatteryVoltage | ServoPositions
@@ -38,7 +33,7 @@ Report: typing.TypeAlias = (
 """Whatever this end sends."""
 
 
-class Device:
+class Device(device.Device):
     """The controller's end of the line: override a handler to say what it does.
 
     `receive` takes bytes of the host, and returns the bytes to send back. A handler that is not
@@ -46,45 +41,16 @@ class Device:
     reason.
     """
 
-    def __init__(self) -> None:
-        self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
-        self._queue: list[Report] = []
-        self.rejects = Rejects(HEADS.begins)
+    _codec = CODEC
+    _incoming = Direction.HOST_TO_CONTROLLER
 
-    def receive(self, data: bytes | bytearray | memoryview) -> bytes:
-        """Take in bytes, in pieces of any size, and return the bytes of all that is to be sent."""
-        self.accept(data)
-        return b"".join(report.encode() for report in self.take())
+    if TYPE_CHECKING:
 
-    def accept(self, data: bytes | bytearray | memoryview) -> None:
-        """Take in bytes; the messages to send wait for `take`. Never raises on input."""
-        self._receive(self._decoder.feed(data))
+        def send(self, report: Report) -> None:
+            """Queue a message to be sent."""
 
-    def quiet(self) -> None:
-        """End the frame in progress: the line has been quiet for too long to wait for its rest."""
-        self._receive(self._decoder.flush())
-
-    def restart(self) -> None:
-        """Discard half a frame and all messages to be sent: the device was switched off."""
-        self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
-        self._queue = []
-
-    def send(self, report: Report) -> None:
-        """Queue a message to be sent. Raises TypeError for a message of the other end."""
-        if report.DIRECTION is Direction.HOST_TO_CONTROLLER:
-            raise TypeError(f"{type(report).__name__} is sent to this end, never by it")
-        self._queue.append(report)
-
-    def take(self) -> list[Report]:
-        """Return the messages that wait to be sent, in order, and empty the queue."""
-        pending, self._queue = self._queue, []
-        return pending
-
-    def accepted(self, message: Message) -> None:
-        """Handle any message, before its own handler; override it to see them all."""
-
-    def rejected(self, noise: Noise) -> None:
-        """Handle a piece of noise that is counted in `rejects`; override it to see them."""
+        def take(self) -> list[Report]:
+            """Return the messages that wait to be sent."""
 
     def on_servo_move(self, message: ServoMove) -> None:
         """Turn one or more servos to positions, all of them in the same time."""
@@ -119,25 +85,12 @@ class Device:
         Return the ServoPositions as the reply, or None to stay silent.
         """
 
-    def _receive(self, events: Iterable[Message | Noise]) -> None:
-        for event in events:
-            if isinstance(event, Noise):
-                if self.rejects.add(event):
-                    self.rejected(event)
-                continue
-            self.rejects.end()
-            self.accepted(event)
-            reply: Report | None = getattr(self, _HANDLERS[type(event)])(event)
-            if reply is not None:
-                self.send(reply)
-
-
-_HANDLERS: dict[type[Message], str] = {
-    ServoMove: "on_servo_move",
-    ActionGroupRun: "on_action_group_run",
-    ActionGroupStop: "on_action_group_stop",
-    ActionGroupSpeed: "on_action_group_speed",
-    BatteryVoltageRead: "on_battery_voltage_read",
-    ServoUnload: "on_servo_unload",
-    ServoPositionsRead: "on_servo_positions_read",
-}
+    _handlers = (
+        (ServoMove, "on_servo_move"),
+        (ActionGroupRun, "on_action_group_run"),
+        (ActionGroupStop, "on_action_group_stop"),
+        (ActionGroupSpeed, "on_action_group_speed"),
+        (BatteryVoltageRead, "on_battery_voltage_read"),
+        (ServoUnload, "on_servo_unload"),
+        (ServoPositionsRead, "on_servo_positions_read"),
+    )

@@ -5,19 +5,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ._frame.directions import Direction
-from ._frame.element import Element
-from ._frame.envelopes import FRAME_ENVELOPE
-from ._frame.lists import List
-from ._frame.little import U16
-from ._frame.message import Message
-from ._frame.number import U8
+from framewire.frame.element import Element
+from framewire.frame.lists import List
+from framewire.frame.little import U16
+from framewire.frame.message import Message
+from framewire.frame.number import U8
+
+from ._envelopes import FRAME_ENVELOPE
+from ._library import Direction
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import typing_extensions as typing
 else:
-    from ._frame.typing_later import typing
+    from framewire.frame.typing_later import typing
 
 Column: typing.TypeAlias = tuple[int, ...]
 

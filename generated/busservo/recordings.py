@@ -4,37 +4,17 @@
     for entry in read("line.hex"):
         print(entry.time, entry.sender, entry.event)
 
-A recording is read piece by piece, and never held as a whole. Each line of one says when its bytes
-came and from whom: bytes of two lines are never joined. Plain hex and raw bytes are one stream, and
-so is each way of a log of other programs, such as `12:01:02.123 -> 01 02`, `TX: 01 02`, a line of
-Python's logging, or a table with columns `tx` and `rx`; TX is what this end sends.
+What they look like is told at `read`.
 """
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
+from framewire.recording.entry import Entry, RecordingError
+from framewire.recording.form import FORMS
+from framewire.recording.reader import Recordings
 
-from ._frame.directions import Direction
 from ._library import CODEC
-from ._recording import reader
-from ._recording.entry import Entry, RecordingError
-from ._recording.form import FORMS
-from ._recording.reader import Readable
 
 __all__ = ["FORMS", "Entry", "RecordingError", "read"]
 
-
-def read(
-    source: str | os.PathLike[str] | Readable,
-    *,
-    form: str = "auto",
-    direction: Direction | None = None,
-) -> Iterator[Entry]:
-    """Return each message and each piece of noise of a recording, in order.
-
-    `source` is the name of a file, or a stream of bytes. `form` is one of FORMS. `direction` is the
-    sender of bytes for which the recording names none. While it is read, raises RecordingError for
-    content that makes no sense, and OSError for a file that cannot be read.
-    """
-    return reader.read(CODEC, source, form, direction)
+read = Recordings(CODEC).read

@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-from ._codec.codec import StreamDecoder
-from ._codec.noise import Noise
-from ._codec.rejects import Rejects
-from ._frame.directions import Direction
-from ._frame.envelopes import HEADS
-from ._frame.message import Message
+from framewire.client import device
+
+from ._library import CODEC, Direction
 from .messages import (
     LastMove,
     Led,
@@ -56,11 +53,9 @@ from .messages import (
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import typing_extensions as typing
 else:
-    from ._frame.typing_later import typing
+    from framewire.frame.typing_later import typing
 
 Report: typing.TypeAlias = (
     LastMove
@@ -81,7 +76,7 @@ Report: typing.TypeAlias = (
 """Whatever this end sends."""
 
 
-class Device:
+class Device(device.AddressedDevice):
     """The servo's end of the line: override a handler to say what it does.
 
     `receive` takes bytes of the host, and returns the bytes to send back. A handler that is not
@@ -95,46 +90,18 @@ class Device:
     not sent, since nobody answers there. A handler that does answer calls `send`.
     """
 
-    def __init__(self, *addresses: int) -> None:
-        self.addresses = frozenset(addresses)
-        self._decoder = StreamDecoder(Direction.HOST_TO_SERVO)
-        self._queue: list[Report] = []
-        self.rejects = Rejects(HEADS.begins)
+    _codec = CODEC
+    _incoming = Direction.HOST_TO_SERVO
+    _addresses = ("servo_id",)
+    _silent = frozenset([254])
 
-    def receive(self, data: bytes | bytearray | memoryview) -> bytes:
-        """Take in bytes, in pieces of any size, and return the bytes of all that is to be sent."""
-        self.accept(data)
-        return b"".join(report.encode() for report in self.take())
+    if TYPE_CHECKING:
 
-    def accept(self, data: bytes | bytearray | memoryview) -> None:
-        """Take in bytes; the messages to send wait for `take`. Never raises on input."""
-        self._receive(self._decoder.feed(data))
+        def send(self, report: Report) -> None:
+            """Queue a message to be sent."""
 
-    def quiet(self) -> None:
-        """End the frame in progress: the line has been quiet for too long to wait for its rest."""
-        self._receive(self._decoder.flush())
-
-    def restart(self) -> None:
-        """Discard half a frame and all messages to be sent: the device was switched off."""
-        self._decoder = StreamDecoder(Direction.HOST_TO_SERVO)
-        self._queue = []
-
-    def send(self, report: Report) -> None:
-        """Queue a message to be sent. Raises TypeError for a message of the other end."""
-        if report.DIRECTION is Direction.HOST_TO_SERVO:
-            raise TypeError(f"{type(report).__name__} is sent to this end, never by it")
-        self._queue.append(report)
-
-    def take(self) -> list[Report]:
-        """Return the messages that wait to be sent, in order, and empty the queue."""
-        pending, self._queue = self._queue, []
-        return pending
-
-    def accepted(self, message: Message) -> None:
-        """Handle any message, before its own handler; override it to see them all."""
-
-    def rejected(self, noise: Noise) -> None:
-        """Handle a piece of noise that is counted in `rejects`; override it to see them."""
+        def take(self) -> list[Report]:
+            """Return the messages that wait to be sent."""
 
     def on_move(self, message: Move) -> None:
         """Turn to a position, at even speed, and arrive after the given time."""
@@ -273,61 +240,33 @@ class Device:
         Return the LedErrors as the reply, or None to stay silent.
         """
 
-    def _receive(self, events: Iterable[Message | Noise]) -> None:
-        for event in events:
-            if isinstance(event, Noise):
-                if self.rejects.add(event):
-                    self.rejected(event)
-                continue
-            self.rejects.end()
-            address = _address_of(event)
-            if self._is_for_others(address):
-                continue
-            self.accepted(event)
-            reply: Report | None = getattr(self, _HANDLERS[type(event)])(event)
-            if reply is not None and address not in _SILENT:
-                self.send(reply)
-
-    def _is_for_others(self, address: int | None) -> bool:
-        if address is None or address in _SILENT:
-            return False
-        return bool(self.addresses) and address not in self.addresses
-
-
-def _address_of(message: Message) -> int | None:
-    names = [name for name in _ADDRESSES if name in message.__match_args__]
-    return getattr(message, names[0]) if names else None
-
-
-_ADDRESSES = ("servo_id",)
-_SILENT = frozenset([254])
-_HANDLERS: dict[type[Message], str] = {
-    Move: "on_move",
-    MoveRead: "on_move_read",
-    MovePrepare: "on_move_prepare",
-    PreparedMoveRead: "on_prepared_move_read",
-    MoveStart: "on_move_start",
-    MoveStop: "on_move_stop",
-    ServoIdWrite: "on_servo_id_write",
-    ServoIdRead: "on_servo_id_read",
-    OffsetAdjust: "on_offset_adjust",
-    OffsetSave: "on_offset_save",
-    OffsetRead: "on_offset_read",
-    PositionLimitsWrite: "on_position_limits_write",
-    PositionLimitsRead: "on_position_limits_read",
-    VoltageLimitsWrite: "on_voltage_limits_write",
-    VoltageLimitsRead: "on_voltage_limits_read",
-    TemperatureLimitWrite: "on_temperature_limit_write",
-    TemperatureLimitRead: "on_temperature_limit_read",
-    TemperatureRead: "on_temperature_read",
-    VoltageRead: "on_voltage_read",
-    PositionRead: "on_position_read",
-    ModeWrite: "on_mode_write",
-    ModeRead: "on_mode_read",
-    TorqueWrite: "on_torque_write",
-    TorqueRead: "on_torque_read",
-    LedWrite: "on_led_write",
-    LedRead: "on_led_read",
-    LedErrorsWrite: "on_led_errors_write",
-    LedErrorsRead: "on_led_errors_read",
-}
+    _handlers = (
+        (Move, "on_move"),
+        (MoveRead, "on_move_read"),
+        (MovePrepare, "on_move_prepare"),
+        (PreparedMoveRead, "on_prepared_move_read"),
+        (MoveStart, "on_move_start"),
+        (MoveStop, "on_move_stop"),
+        (ServoIdWrite, "on_servo_id_write"),
+        (ServoIdRead, "on_servo_id_read"),
+        (OffsetAdjust, "on_offset_adjust"),
+        (OffsetSave, "on_offset_save"),
+        (OffsetRead, "on_offset_read"),
+        (PositionLimitsWrite, "on_position_limits_write"),
+        (PositionLimitsRead, "on_position_limits_read"),
+        (VoltageLimitsWrite, "on_voltage_limits_write"),
+        (VoltageLimitsRead, "on_voltage_limits_read"),
+        (TemperatureLimitWrite, "on_temperature_limit_write"),
+        (TemperatureLimitRead, "on_temperature_limit_read"),
+        (TemperatureRead, "on_temperature_read"),
+        (VoltageRead, "on_voltage_read"),
+        (PositionRead, "on_position_read"),
+        (ModeWrite, "on_mode_write"),
+        (ModeRead, "on_mode_read"),
+        (TorqueWrite, "on_torque_write"),
+        (TorqueRead, "on_torque_read"),
+        (LedWrite, "on_led_write"),
+        (LedRead, "on_led_read"),
+        (LedErrorsWrite, "on_led_errors_write"),
+        (LedErrorsRead, "on_led_errors_read"),
+    )

@@ -3,18 +3,19 @@
 
 from __future__ import annotations
 
-from ._frame.directions import Direction
-from ._frame.envelopes import FRAME_ENVELOPE
-from ._frame.fixed import Reserved
-from ._frame.little import I16, U16
-from ._frame.message import Message
-from ._frame.number import I8, U8
+from framewire.frame.fixed import Reserved
+from framewire.frame.little import I16, U16
+from framewire.frame.message import Message
+from framewire.frame.number import I8, U8
+
+from ._envelopes import FRAME_ENVELOPE
+from ._library import Direction
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import typing_extensions as typing
 else:
-    from ._frame.typing_later import typing
+    from framewire.frame.typing_later import typing
 
 
 class Move(Message):

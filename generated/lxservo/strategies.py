@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framewire.frame.strategies import any_noise as _any_noise
+from framewire.frame.strategies import any_of as _any_of
 from hypothesis import strategies as st
 
-from ._frame.envelopes import HEADS as _HEADS
-from ._frame.strategies import any_noise as _any_noise
-from ._frame.strategies import any_of as _any_of
+from ._envelopes import HEADS as _HEADS
 from .messages import (
     MESSAGES,
     LastMove,
@@ -60,10 +60,10 @@ from .messages import (
 )
 
 if TYPE_CHECKING:
+    from framewire.frame.message import Message
     from hypothesis.strategies import SearchStrategy
 
-    from ._frame.directions import Direction
-    from ._frame.message import Message
+    from ._library import Direction
 
 
 def move() -> SearchStrategy[Move]:

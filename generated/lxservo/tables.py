@@ -9,27 +9,23 @@ It needs NumPy and PyArrow, which the extra `tables` of this package brings.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from framewire.tables.extra import are_there
+
 from ._library import CODEC
-from ._tables.extra import are_there
 
 # Before all that imports them: whoever has not got them is told how to get them.
 if TYPE_CHECKING or are_there("numpy", "pyarrow", library=CODEC.package):
-    import pyarrow as pa
+    from framewire.tables.archive import pieces
 
-from ._frame.directions import Direction
-from ._recording.layout import NOISE
-from ._tables import captures
-from ._tables.archive import cuts, pieces
-from ._tables.archive.dataset import Report, archive
-from ._tables.archive.pieces import PIECE
-from ._tables.reader import BLOCK, Batches
-from ._tables.schema import schemas_of
-from ._tables.source import Source
-from ._tables.tables import Tables
+from framewire.recording.layout import NOISE
+from framewire.tables.archive.dataset import Report, archive
+from framewire.tables.archive.pieces import PIECE
+from framewire.tables.captures import Captures
+from framewire.tables.reader import BLOCK, Batches
+from framewire.tables.source import Source
+from framewire.tables.tables import Tables
 
 __all__ = [
     "BLOCK",
@@ -64,109 +60,12 @@ class Piece(pieces.Piece):
     codec = CODEC
 
 
-def read(source: Source, *, form: str = "auto", direction: Direction | None = None) -> Tables:
-    """Read a capture into memory, as one table a message, and one of noise.
+_captures = Captures(CODEC, Piece)
 
-    `source` is the name of a file, bytes of any kind (a memory map, an array), or a stream of
-    bytes. `form` is one of recordings.FORMS. `direction` is the sender of bytes for which the
-    capture names none; None for a line on which both ends are received.
-
-    The events are exactly those of StreamDecoder, with neighbouring noise joined. Raises
-    RecordingError for text that makes no sense, OSError for a file that cannot be read, and
-    TypeError for a source that is no bytes.
-    """
-    return captures.read(CODEC, source, form, direction)
-
-
-def read_batches(
-    source: Source,
-    *,
-    form: str = "auto",
-    direction: Direction | None = None,
-    block: int = BLOCK,
-) -> Iterator[Batches]:
-    """Yield the same stretch by stretch, of `block` bytes, so that memory is bounded.
-
-    Each stretch is a dict of record batches by the name of their table, without those that would be
-    empty. The batches of a table, one after the other, are the table that `read` returns.
-    Raises as `read` does, and ValueError for a block of less than a byte.
-    """
-    return captures.read_batches(CODEC, source, form, direction, block)
-
-
-def write_parquet(
-    source: Source,
-    folder: str | os.PathLike[str],
-    *,
-    form: str = "auto",
-    direction: Direction | None = None,
-) -> dict[str, int]:
-    """Write the tables of a capture as FOLDER/<Table>.parquet, and return the rows of each.
-
-    A table without rows has no file. The folder is made; files of an earlier capture are replaced.
-    Raises FileExistsError if it holds anything else, RecordingError and OSError as `read`, and
-    leaves no file half-written.
-    """
-    return captures.write_parquet(CODEC, source, folder, form, direction)
-
-
-def write_arrow(
-    source: Source,
-    file: str | os.PathLike[str],
-    *,
-    form: str = "auto",
-    direction: Direction | None = None,
-) -> dict[str, int]:
-    """Write a capture as one Arrow IPC file, and return the rows of each table.
-
-    It has all events in the order of the capture: `event` is the name of a message, `noise` or
-    `unknown`, and each message that occurs has a column of structs, null in the rows of others. The
-    capture is read twice; a stream is copied to disk for that. Raises FileExistsError if the file
-    is there and no Arrow file, RecordingError and OSError as `read`, and leaves no file
-    half-written.
-    """
-    return captures.write_arrow(CODEC, source, file, form, direction)
-
-
-def schemas() -> dict[str, pa.Schema]:
-    """Return the schema of each table, by name: one a message, and `noise`."""
-    return schemas_of(CODEC).every()
-
-
-def safe_cuts(
-    file: str | os.PathLike[str] | bytes | bytearray | memoryview,
-    size: int,
-    *,
-    direction: Direction | None = None,
-) -> list[int]:
-    """Return places of a raw capture, about `size` bytes apart, where any decoder holds nothing.
-
-    `file` is its name, or its bytes, as a memory map. A decoder that began at the beginning of the
-    capture, or at an earlier one of these places, has emitted all that is in front of each. They
-    are found by a few frames around them. Where noise leaves no such place, the next is further
-    away. Raises OSError for a file that cannot be read, and ValueError for a size below 1.
-    """
-    return cuts.safe_cuts(CODEC, file, size, direction)
-
-
-def scan(
-    paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
-    *,
-    size: int = PIECE,
-    form: str = "auto",
-    direction: Direction | None = None,
-) -> list[Piece]:
-    """Return the pieces of captures: independent work for any number of processes or machines.
-
-    `paths` are files, patterns such as "captures/*.bin", and folders, or one of these. Of a folder
-    all files are taken, and of those in it, but hidden ones and datasets. Raw captures are cut
-    about every `size` bytes, where any decoder holds nothing; text recordings are one piece each.
-    `form` and `direction` are as in `read`. A file that cannot be read, or is not there, is a piece
-    whose work says so.
-
-    Links are followed to files of the folder alone, and not to folders: a link that leads out of
-    what is scanned is no capture of it, unless it is named itself.
-
-    Captures are named below the folder that is scanned, or that holds all that is scanned.
-    """
-    return pieces.scan(Piece, paths, size, form, direction)
+read = _captures.read
+read_batches = _captures.read_batches
+write_parquet = _captures.write_parquet
+write_arrow = _captures.write_arrow
+schemas = _captures.schemas
+safe_cuts = _captures.safe_cuts
+scan = _captures.scan

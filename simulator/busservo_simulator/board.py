@@ -13,9 +13,9 @@ from busservo import (
     ServoPosition,
     ServoPositions,
 )
-from busservo._frame.protocol import BAUD
-from busservo._serial import link_errors
+from busservo._library import LINK
 from busservo.device import Device
+from framewire.line import link_errors
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
@@ -57,7 +57,7 @@ class Board(Device):
     speed of 0 % is ignored.
     """
 
-    baud = BAUD
+    baud = LINK.baud
     errors = link_errors
 
     def __init__(

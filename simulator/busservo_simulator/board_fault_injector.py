@@ -12,7 +12,7 @@ from busservo import (
     ServoPosition,
     ServoPositions,
 )
-from busservo._frame.envelopes import FRAME_ENVELOPE
+from busservo._envelopes import FRAME_ENVELOPE
 
 from busservo_simulator.fault_injector import FaultInjector
 

@@ -10,8 +10,8 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from busservo._cli import console
-from busservo._frame.pluralize import pluralize
+from framewire.command import console
+from framewire.frame.pluralize import pluralize
 
 from busservo_simulator.line_options import completion
 from busservo_simulator.tcp_end import LOOPBACK

@@ -7,7 +7,7 @@ import math
 import re
 from typing import TYPE_CHECKING, TypeVar
 
-from busservo._cli import console, shell_completion
+from framewire.command import console, shell_completion
 
 from busservo_simulator.line_faults import LineFaults, described
 from busservo_simulator.servo_list import parse_servos

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from busservo import __version__
-from busservo._frame.protocol import BAUD
+from busservo._library import LINK
 
 from busservo_simulator.faults import Faults
 from busservo_simulator.line_options import (
@@ -38,7 +38,7 @@ examples:
 faults, each by its chance from 0 to 1:
 {listed_faults(Faults)}
 
-Bytes take as long as on the real line, at {BAUD} baud, unless --baud says otherwise.
+Bytes take as long as on the real line, at {LINK.baud} baud, unless --baud says otherwise.
 A host that sets another rate on the pty than the board's reads garbage, and is read as garbage.
 TCP has no rate that could be wrong. Mono's SerialPort opens no pty: have it talk to --tcp.
 
@@ -53,7 +53,7 @@ def parser_of(program: str) -> argparse.ArgumentParser:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of the command."""
-    add_line_arguments(parser, BAUD)
+    add_line_arguments(parser, LINK.baud)
     board = parser.add_argument_group("what it is")
     board.add_argument(
         "--servos",

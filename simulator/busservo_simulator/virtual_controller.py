@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Mapping
 
-    from busservo._codec.rejects import Rejects
     from busservo.device import Report
+    from framewire.codec.rejects import Rejects
 
     from busservo_simulator.action_group import ActionGroup
     from busservo_simulator.battery import Battery

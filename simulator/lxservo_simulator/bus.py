@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from busservo_simulator.event_log import EventLog
 from busservo_simulator.fault_injector import FaultInjector
 from busservo_simulator.line_faults import LineFaults
+from framewire.line import link_errors
 from lxservo import (
     LastMove,
     Led,
@@ -24,8 +25,7 @@ from lxservo import (
     Voltage,
     VoltageLimits,
 )
-from lxservo._frame.protocol import BAUD
-from lxservo._serial import link_errors
+from lxservo._library import LINK
 from lxservo.device import Device
 
 from lxservo_simulator.servo import BusServo
@@ -81,7 +81,7 @@ class ServoBus(Device):
     they do on a wire, one frame behind the other.
     """
 
-    baud = BAUD
+    baud = LINK.baud
     errors = link_errors
 
     def __init__(self, servos: Iterable[int] = DEFAULT_SERVOS) -> None:

@@ -15,7 +15,7 @@ from busservo_simulator.line_options import (
 )
 from busservo_simulator.tcp_end import LOOPBACK
 from lxservo import __version__
-from lxservo._frame.protocol import BAUD
+from lxservo._library import LINK
 
 if TYPE_CHECKING:
     import argparse
@@ -36,7 +36,7 @@ examples:
 faults, each by its chance from 0 to 1:
 {listed_faults(LineFaults)}
 
-Bytes take as long as on the real line, at {BAUD} baud, unless --baud says otherwise.
+Bytes take as long as on the real line, at {LINK.baud} baud, unless --baud says otherwise.
 
 What happens is printed line by line: the seconds since the start, who, and what. Ctrl-C ends it.
 """
@@ -49,7 +49,7 @@ def parser_of(program: str) -> argparse.ArgumentParser:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of the command."""
-    add_line_arguments(parser, BAUD)
+    add_line_arguments(parser, LINK.baud)
     bus = parser.add_argument_group("what it is")
     bus.add_argument(
         "--servos",

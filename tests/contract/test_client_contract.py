@@ -10,7 +10,7 @@ import json
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from busservo import AsyncController, Controller
-from busservo._client.exchanges import EXCHANGES
+from busservo._exchanges import EXCHANGES
 from framegen.model.exchanges import STEPS_PER_SECOND
 from pydantic import ValidationError
 

@@ -23,6 +23,7 @@ from framegen.language.values import Direction
 from framegen.model import codec
 from framegen.model.codec import NotAFrame
 from framegen.model.layout import MessageLayout
+from framewire.frame.parts import message_parts
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -134,7 +135,7 @@ def test_what_an_end_sends_to_two_others_is_read_back(greenhouse: ModuleType) ->
 def test_a_direction_is_asked_for_by_both_ends_where_one_sends_in_two(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    command: Any = importlib.import_module("greenhouse._cli")
+    command: Any = importlib.import_module("greenhouse.__main__")
     for way, found in (("gateway_to_station", "1 message"), ("gateway_to_display", "0 messages")):
         assert command.main(["decode", "--direction", way, example_of("VentsOpen")]) == 0
         assert f": {found}," in capsys.readouterr().err
@@ -146,8 +147,7 @@ def test_parts_of_frames_are_called_as_the_author_calls_them(greenhouse: ModuleT
     unknown = greenhouse.UnknownFrame(bytes.fromhex("C3 5A A5 FF 00 01 2A"), None)
     assert unknown.numbers == {"kind": 255}
     message = greenhouse.VentsOpen.decode(bytes.fromhex(example_of("VentsOpen")))
-    parts: Any = importlib.import_module("greenhouse._frame.parts")
-    names = [name for _, name, _ in parts.message_parts(message)]
+    names = [name for _, name, _ in message_parts(message)]
     assert names[:3] == [name for name in SPEC["frame"] if name != "payload"]
 
 
@@ -543,7 +543,7 @@ def test_derived_values_are_there_on_messages_and_elements() -> None:
 
 def test_limits_hold_for_a_number_and_for_numbers_in_a_list() -> None:
     with library(files("shapes")) as made:
-        limits = importlib.import_module(f"{made.__name__}._client.exchanges").LIMITS
+        limits = importlib.import_module(f"{made.__name__}._exchanges").LIMITS
         limits.check(made.Limited(9, [1, 9]), limits.usual)
         for level, numbers, place in [(10, [1], "level: 10"), (1, [1, 0], "numbers[1]: 0")]:
             with pytest.raises(made.LimitError) as refused:
@@ -554,7 +554,8 @@ def test_limits_hold_for_a_number_and_for_numbers_in_a_list() -> None:
 
 def without_command(compiled: Compiled) -> dict[str, str]:
     """Return the library without its command, for what is done with codec and clients alone."""
-    return {path: text for path, text in library_files(compiled).items() if "/_cli/" not in path}
+    files = library_files(compiled)
+    return {path: text for path, text in files.items() if not path.endswith("/_command.py")}
 
 
 # Each order of bytes meets every value of the other four, which meet one another in full.
@@ -627,8 +628,8 @@ def many() -> dict[str, dict[str, str]]:
 @pytest.mark.parametrize("name", ["kiln", "shapes", "bare"])
 def test_every_verb_of_a_library_has_help(capsys: pytest.CaptureFixture[str], name: str) -> None:
     with library(many()[name]):
-        main = importlib.import_module(f"{name}._cli").main
-        verbs = {*importlib.import_module(f"{name}._cli.examples").VERBS} - {"simulate"}
+        main = importlib.import_module(f"{name}.__main__").main
+        verbs = {*importlib.import_module(f"{name}._command").VERBS} - {"simulate"}
         assert len(verbs) > 5
         for verb in verbs:
             assert main([verb, "--help"]) == 0
@@ -640,9 +641,9 @@ def test_the_doctor_of_a_library_finds_its_way_without_a_board(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     with library(many()[name]):
-        main = importlib.import_module(f"{name}._cli").main
+        main = importlib.import_module(f"{name}.__main__").main
         # There is nobody to be waited for.
-        monkeypatch.setattr(f"{name}._cli.checks.rate.EXTRA_TIME", 0.0)
+        monkeypatch.setattr("framewire.command.checks.rate.EXTRA_TIME", 0.0)
         status = main(["doctor", "--port", "loop://", "--timeout", "0.01", "--json"])
     out, err = capsys.readouterr()
     assert status in {0, 1}, err
@@ -667,8 +668,7 @@ def test_no_check_is_switched_off_in_the_generated_part() -> None:
     for name in (
         "__init__.py",
         "messages.py",
-        "_frame/protocol.py",
-        "_frame/directions.py",
+        "_library.py",
         "strategies.py",
     ):
         text = files("greenhouse")[f"generated/greenhouse/{name}"]

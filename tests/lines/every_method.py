@@ -51,7 +51,7 @@ def converse(made: ModuleType, model: Model) -> None:
 def converse_alone(made: ModuleType, model: Model) -> None:
     """Do so without a look at the frames of the examples."""
     device = _device(made, model)
-    spent = made._frame.protocol.BITS_PER_BYTE / made._frame.protocol.BAUD
+    spent = made._library.LINK.bits_per_byte / made._library.LINK.baud
     line = Line(device, spent)
     # However slow the line is, and whatever is sent in front of a reply: it will come.
     settings = {"reply_timeout": 9e9, "clock": line.clock, "background": False}
@@ -129,7 +129,7 @@ def _device(made: ModuleType, model: Model) -> Any:
 
 
 def _snake(made: ModuleType, exchange: Exchange) -> str:
-    handlers = made.device._HANDLERS
+    handlers = dict(made.Device._handlers)
     name: str = handlers[getattr(made, exchange.request.name)]
     return name.removeprefix("on_")
 

@@ -12,8 +12,8 @@ from tests.timeouts import GENEROUS
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from busservo._serial.transport import Transport
     from busservo_simulator import VirtualController
+    from framewire.line.transport import Transport
 
 # How long silence lasts until it is believed, by the clock of a board whose time nobody waits for.
 SILENCE = 5.0

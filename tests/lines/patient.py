@@ -5,17 +5,17 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from busservo._cli.checks.checks import checks_of, examine
-from busservo._cli.checks.diagnosis import Diagnosis
-from busservo._cli.examples import PROGRAM
-from busservo._serial.serial_port import SerialPortSeen
+from busservo._command import PROGRAM
 from busservo_simulator import VirtualClock, VirtualController
+from framewire.command.checks.checks import checks_of, examine
+from framewire.command.checks.diagnosis import Diagnosis
+from framewire.line.serial_port import SerialPortSeen
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from busservo._cli.checks.result import Result
     from busservo_simulator import Faults
+    from framewire.command.checks.result import Result
 
 CHECKS = checks_of(PROGRAM.library)
 PORT = "virtual board"

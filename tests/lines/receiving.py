@@ -17,9 +17,9 @@ from busservo import (
     ServoPositionsRead,
     StreamDecoder,
 )
-from busservo._client.exchanges import EXCHANGES
-from busservo._codec.rejects import Rejects
-from busservo._frame.envelopes import HEADS
+from busservo._envelopes import HEADS
+from busservo._exchanges import EXCHANGES
+from framewire.codec.rejects import Rejects
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

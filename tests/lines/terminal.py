@@ -32,7 +32,8 @@ _PROGRAM = """
 import fcntl, signal, sys, termios
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from busservo._cli import main, progress
+from busservo.__main__ import main
+from framewire.command import progress
 progress.PROGRESS_INTERVAL = 0.02
 sys.exit(main())
 """

@@ -190,7 +190,7 @@ def _changed_wrongly(
         if typed < most and made.code not in seen:
             typed += 1
             seen.add(made.code)
-            made.write_whole(whole)
+            made.write(whole)
     for checked in (linted(sources), type_checked(whole, folder / "cache")):
         for name, faults in checked.items():
             failures[str(changed[int(name[1:])][0])] += faults

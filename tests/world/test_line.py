@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import busservo
 import lxservo
 import pytest
-from busservo import recordings
-from busservo._codec.decoder import StreamDecoder
-from busservo._frame.directions import RECEIVED
+from busservo import StreamDecoder, recordings
+from busservo._library import CODEC
 from busservo_simulator import Faults, VirtualController
 from framegen.cli import main
 from lxservo_simulator import VirtualBus
@@ -194,7 +193,7 @@ def test_nothing_on_a_bad_line_is_lost(
         found = events(live.recording(), "controller")
         assert data_of(found) == made.host.given
         assert len(found) > 10
-        decoder = StreamDecoder(RECEIVED)
+        decoder = StreamDecoder(CODEC.received)
         known = [*decoder.feed(made.host.given), *decoder.flush()]
         whole = [event for event in known if isinstance(event, busservo.Message)]
         # Where a frame was given up after a silence, more may be found than in one piece.

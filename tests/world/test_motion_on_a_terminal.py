@@ -7,8 +7,8 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo._cli.posefile import read_poses
-from busservo._client.exchanges import POSE
+from busservo._exchanges import POSE
+from framewire.command.posefile import read_poses
 
 if sys.platform != "linux":
     pytest.skip("terminals differ by system, and only Linux's are tried", allow_module_level=True)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import recordings
-from busservo._cli.entries import EntryLines
 from busservo._library import CODEC
+from framewire.command.entries import EntryLines
 
 from tests.factories import in_larger_unit, vectors_of
 from tests.unit.site.browser import (

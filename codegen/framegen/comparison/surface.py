@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cache, lru_cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import framewire
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -77,13 +80,16 @@ class Surface:
 
 
 def read_surface(files: Mapping[str, str]) -> Surface:
-    """Read the surface of a library from its files, by path below the package."""
+    """Read the surface of a library from its files, by path below the package.
+
+    What the runtime gives is the same in all of them, and is read where that is.
+    """
     found: dict[str, Entry] = {}
     homes = _exported(files["__init__.pyi"])
     inner: dict[str, dict[str, Entry]] = {}
     for name, home in homes.items():
         if home not in inner:
-            inner[home] = _module(files[f"{home.replace('.', '/')}.py"])
+            inner[home] = _module(files.get(f"{home}.py") or _of_runtime(home))
         owned = {each: entry for each, entry in inner[home].items() if _owner(each) == name}
         found |= owned or {name: Entry("name")}
     for module in _PUBLIC:
@@ -92,6 +98,14 @@ def read_surface(files: Mapping[str, str]) -> Surface:
             f"{module}.{name}": each for name, each in names.items() if not _is_in(name, found)
         }
     return Surface(found)
+
+
+@cache
+def _of_runtime(module: str) -> str:
+    """Return the text of a module of the runtime."""
+    _, *inside = module.split(".")
+    file = Path(str(framewire.__file__)).parent.joinpath(*inside)
+    return file.with_suffix(".py").read_text(encoding="utf-8")
 
 
 def _is_in(name: str, found: Mapping[str, Entry]) -> bool:
@@ -112,7 +126,7 @@ def _exported(stub: str) -> dict[str, str]:
     }
 
 
-@lru_cache(maxsize=64)  # most modules are the same in all libraries
+@lru_cache(maxsize=64)  # many modules are the same in both editions
 def _module(text: str) -> dict[str, Entry]:
     found: dict[str, Entry] = {}
     for node in ast.parse(text).body:

@@ -62,8 +62,8 @@ MODULES = words(
 # What the library or its users import besides, and what makes it.
 PACKAGES = words(
     """
-    framegen hid hypothesis jinja2 matplotlib numpy pandas polars pyarrow pydantic pytest serial
-    shtab tomli typing_extensions yaml
+    framegen framewire hid hypothesis jinja2 matplotlib numpy pandas polars pyarrow pydantic pytest
+    serial shtab tomli typing_extensions yaml
     """
 )
 

@@ -58,25 +58,25 @@ class ProtocolCodec:
     @cached_property
     def heads(self) -> Heads:
         """The beginnings of all frames: the envelopes, and what follows from them."""
-        heads: Heads = self._part("_frame.envelopes").HEADS
+        heads: Heads = self._part("_envelopes").HEADS
         return heads
 
     @cached_property
     def decoder(self) -> type[StreamDecoder]:
         """What decodes a stream of bytes."""
-        decoder: type[StreamDecoder] = self._part("_codec.codec").StreamDecoder
+        decoder: type[StreamDecoder] = self._part("_codec").StreamDecoder
         return decoder
 
     @cached_property
     def unknown_frame(self) -> type[UnknownFrame]:
         """The class of frames with a command that the protocol does not know."""
-        unknown: type[UnknownFrame] = self._part("_codec.codec").UnknownFrame
+        unknown: type[UnknownFrame] = self._part("_codec").UnknownFrame
         return unknown
 
     @cached_property
     def lookalikes(self) -> tuple[Lookalike, ...]:
         """The protocols that are easily taken for this one."""
-        known: tuple[Lookalike, ...] = self._part("_codec.lookalikes").LOOKALIKES
+        known: tuple[Lookalike, ...] = self._part("_lookalikes").LOOKALIKES
         return known
 
     @cached_property
@@ -98,23 +98,27 @@ class ProtocolCodec:
         that small.
         """
         table = self._tables.get(direction)
-        if table is None or max_frame is not None:
-            from ..frame.table import Table, largest_of
         if table is None:
-            ways = self.directions
-            if direction is not None and not isinstance(direction, ways):
-                example = next(iter(ways))
-                raise TypeError(f"a Direction expected, such as {example}, not {direction!r}")
-            # One direction after the other: of equal frames, that of the first is preferred.
-            chosen = ways if direction is None else [direction]
-            kinds = [kind for way in chosen for kind in self.messages if kind.DIRECTION is way]
-            table = self._tables[direction] = Table(kinds, largest_of(kinds), self.heads)
+            table = self._tables[direction] = self._table_of(direction)
         if max_frame is None or index(max_frame) >= table.largest:
             return table
         if max_frame < self.heads.least:
             problem = f"max_frame is {max_frame}, and the smallest frame has"
             raise ValueError(f"{problem} {self.heads.least} bytes")
-        return Table(table.messages, index(max_frame), self.heads)
+        return type(table)(table.messages, index(max_frame), self.heads)
+
+    def _table_of(self, direction: Direction | None) -> Table:
+        """Make the table of one direction, or of both."""
+        from ..frame.table import Table, largest_of
+
+        ways = self.directions
+        if direction is not None and not isinstance(direction, ways):
+            example = next(iter(ways))
+            raise TypeError(f"a Direction expected, such as {example}, not {direction!r}")
+        # One direction after the other: of equal frames, that of the first is preferred.
+        chosen = ways if direction is None else [direction]
+        kinds = [kind for way in chosen for kind in self.messages if kind.DIRECTION is way]
+        return Table(kinds, largest_of(kinds), self.heads)
 
     def claimed(self, data: bytes) -> int:
         """Return how large the frame would be that bytes begin; 0 for none."""

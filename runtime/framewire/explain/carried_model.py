@@ -10,7 +10,7 @@ from .protocol import Protocol
 
 def protocol(package: str) -> Protocol:
     """Read the model that a library of this name carries."""
-    return Protocol(json.loads(get_data(f"{package}._explanation", "model.json") or b""))
+    return Protocol(json.loads(get_data(package, "protocol.json") or b""))
 
 
 def classes(model: Protocol) -> dict[str, str]:

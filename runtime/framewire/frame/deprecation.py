@@ -11,14 +11,15 @@ if TYPE_CHECKING:
 
     from .message import Message
 
-_PACKAGE = __name__.partition(".")[0]
+_RUNTIME = __name__.partition(".")[0]
 
 
 def warn_deprecated(kind: type[Message]) -> None:
-    """Warn of a deprecated message at the line, outside of this library, that makes it."""
+    """Warn of a deprecated message at the line, outside of its library, that makes it."""
+    inside = {_RUNTIME, kind.__module__.partition(".")[0]}
     frame: FrameType | None = sys._getframe(1)
     level = 2
-    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == _PACKAGE:
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] in inside:
         frame, level = frame.f_back, level + 1
     what = f"{kind.__name__} is deprecated: {kind.DEPRECATED}"
     warn(what, DeprecationWarning, stacklevel=level)

@@ -66,7 +66,7 @@ class Ends:
 
     def exchange(self, which: Which, kind: type) -> Any:
         """Return the exchange of a request, as the library of an edition has it."""
-        return self.part(which, "_client.exchanges").EXCHANGES[kind]
+        return self.part(which, "_exchanges").EXCHANGES[kind]
 
     @contextmanager
     def client(self, which: Which, device: Any, **settings: Any) -> Iterator[Any]:
@@ -99,7 +99,7 @@ class Ends:
             assert failed is (play.kind != "reply") or exchange.failures.refusal is not kind
             return said
 
-        handlers = self.part(device, "device")._HANDLERS
+        handlers = dict(self.part(device, "device").Device._handlers)
         for name in handlers.values():
             setattr(there, name, answer if name in self._asked(device) else _nothing)
         # Who expects an echo is on a line that has one: what becomes of it is no matter of plays.
@@ -135,8 +135,8 @@ class Ends:
             return bool([*controller.reports(timeout=LONG)])
 
     def _asked(self, which: Which) -> set[str]:
-        handlers = self.part(which, "device")._HANDLERS
-        exchanges = self.part(which, "_client.exchanges").EXCHANGES
+        handlers = dict(self.part(which, "device").Device._handlers)
+        exchanges = self.part(which, "_exchanges").EXCHANGES
         return {handlers[kind] for kind in exchanges}
 
     def _ends(self, which: Which, controller: Any, request: Any) -> Seen:

@@ -90,7 +90,7 @@ def namespace(made: ModuleType) -> dict[str, Any]:
     for module in ("messages", "device", "strategies", "recordings"):
         names[module] = importlib.import_module(f"{made.__name__}.{module}")
     # Some are imported when they are first used.
-    importlib.import_module(f"{made.__name__}._frame.protocol")
+    importlib.import_module(f"{made.__name__}._library")
     exec(_HELPERS, names)  # noqa: S102 - it is our own
     return names
 
@@ -210,7 +210,7 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
     for way in made.Direction:
         yield f"Direction.{way.name}"
         yield f"StreamDecoder(Direction.{way.name}).feed(b'')"
-    exchanges = importlib.import_module(f"{made.__name__}._client.exchanges")
+    exchanges = importlib.import_module(f"{made.__name__}._exchanges")
     for kind, exchange in exchanges.EXCHANGES.items():
         usual = usual_values(kind)
         reply = _reply(exchange, usual)

@@ -197,7 +197,7 @@ def _other_code(one: Edition, other: Edition) -> Iterator[str]:
     before, after = library_files(one.compiled), library_files(other.compiled)
     for name in before.keys() | after.keys():
         texts = before.get(name, ""), after.get(name, "")
-        if texts[0] != texts[1] and name.endswith(".py") and "/_cli/" not in name:
+        if texts[0] != texts[1] and name.endswith(".py") and not name.endswith("/_command.py"):
             codes = [ast.dump(_bare(ast.parse(text))) for text in texts]
             if codes[0] != codes[1]:
                 yield name

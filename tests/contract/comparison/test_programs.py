@@ -325,9 +325,10 @@ def test_what_keeps_a_library_from_being_made_is_no_example() -> None:
 def test_names_of_the_frame_are_told_as_one() -> None:
     made = after("lamp", ["address: added"])
     assert made is not None
-    names = "`OneDevice`, `Controller.device` and `UnknownFrame.address`"
-    assert f"+ added: {names} are new" in told(Pair(made.old, made.new))
-    assert f"removed: {names} are gone" in told(Pair(made.new, made.old))
+    added = "`OneDevice`, `UnknownFrame.address` and `Controller.device`"
+    assert f"+ added: {added} are new" in told(Pair(made.old, made.new))
+    removed = "`OneDevice`, `Controller.device` and `UnknownFrame.address`"
+    assert f"removed: {removed} are gone" in told(Pair(made.new, made.old))
 
 
 def test_of_many_names_some_are_told() -> None:

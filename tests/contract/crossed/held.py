@@ -200,7 +200,7 @@ class _Messages:
             yield f"is explained as {there}, not {here}"
 
     def _in_a_notebook(self, message: Any) -> Iterator[str]:
-        parts = import_module(f"{self.made.__name__}._frame.parts")
+        parts = import_module("framewire.frame.parts")
         frame = message.encode()
         cells = [*parts.message_parts(message)]
         if b"".join(data for data, _, _ in cells) != frame:

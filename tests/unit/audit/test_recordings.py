@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import Controller, Message, Noise, NoReplyError, UnknownFrame, strategies
-from busservo._cli.checks.checks import examine
-from busservo._cli.checks.report import Report
 from busservo.recordings import read
 from busservo_simulator import Faults
+from framewire.command.checks.checks import examine
+from framewire.command.checks.report import Report
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -11,7 +11,7 @@ import unicodedata
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import busservo._cli
+import busservo.__main__
 import busservo_simulator.cli
 import framegen.cli
 import pytest
@@ -284,7 +284,7 @@ FRAMEGEN = [
     ["schema", HOSTILE],
 ]
 MAINS = {
-    "busservo": busservo._cli.main,
+    "busservo": busservo.__main__.main,
     "framegen": framegen.cli.main,
     "busservo-simulator": busservo_simulator.cli.main,
 }
@@ -341,7 +341,7 @@ def test_a_device_cannot_command_the_terminal(
     port = ListPortInfo("/dev/ttyUSB0")
     port.description = HOSTILE
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [port])
-    assert busservo._cli.main(["ports", *form]) == 0
+    assert busservo.__main__.main(["ports", *form]) == 0
     output, _ = capsys.readouterr()
     assert hidden_in(output) == ""
     assert output.count("\n") == 1

@@ -41,7 +41,7 @@ for line in sys.stdin:
 # Cannot decode lines, and encodes nothing; for all else it asks the library.
 LIMITED = """
 import sys
-from busservo._cli.answer import Answerer
+from framewire.command.answer import Answerer
 from busservo._library import LIBRARY
 answer = Answerer(LIBRARY).answer
 for line in sys.stdin:
@@ -209,7 +209,11 @@ SVG = "{http://www.w3.org/2000/svg}"
 @in_turn(
     "source, status, text",
     lambda: [
-        ("import sys; from busservo._cli import main; sys.exit(main(['answer']))", 0, "conforms"),
+        (
+            "import sys; from busservo.__main__ import main; sys.exit(main(['answer']))",
+            0,
+            "conforms",
+        ),
         (LIMITED, 0, r"conforms, \d+ stream not supported"),
         (STUBBORN, 1, r"\d+ of \d+"),
         ("raise SystemExit(1)", 1, "0 of 1"),

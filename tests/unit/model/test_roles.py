@@ -34,7 +34,7 @@ def test_a_report_before_the_commands_does_not_swap_the_roles(data: Data) -> Non
     name = data["protocol"]["name"]
     before, after = files_of(data), files_of(moved)
     # What lists messages lists them in the order of the spec; what each end does is the same.
-    for file in ("_client/controller", "_client/async_controller", "_frame/directions"):
+    for file in ("_controller", "_async_controller", "_library"):
         path = f"generated/{name}/{file}.py"
         assert _without_banner(before[path]) == _without_banner(after[path]), path
 

@@ -7,7 +7,6 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from framegen.targets.python.copies import copies
 
 GENERATOR = Path(__file__).parents[3] / "codegen" / "framegen"
 
@@ -47,10 +46,10 @@ ALONE = {
 
 
 def modules() -> Iterator[tuple[str, Path]]:
-    """Yield every module of the generator with its part, except those copied into libraries."""
+    """Yield every module of the generator with its part."""
     for file in sorted(GENERATOR.rglob("*.py")):
         parts = file.relative_to(GENERATOR).with_suffix("").parts
-        if "runtime" not in parts and parts not in (("__init__",), ("targets", "__init__")):
+        if parts not in (("__init__",), ("targets", "__init__")):
             yield _part(parts), file
 
 
@@ -127,7 +126,8 @@ COMMON = Path(__file__).parents[3] / "runtime" / "framewire"
 # From the bottom up.
 COMMON_LAYERS = [
     {"frame"},
-    {"codec", "explain"},
+    {"explain"},
+    {"codec"},
     {"recording", "line"},
     {"client"},
     {"tables"},
@@ -149,8 +149,11 @@ def test_imports_of_the_common_runtime_point_downwards() -> None:
     assert upwards(COMMON_LAYERS, found) == []
 
 
-# What strategies and tables need; imported by those who ask for them.
-OF_OTHERS = {"hypothesis", "numpy", "pyarrow", "shtab", "typing_extensions"}
+# What ports, strategies, tables and settings need; imported by those who ask for them.
+OF_OTHERS = {
+    *("hypothesis", "matplotlib", "numpy", "pyarrow", "shtab", "tomli", "typing_extensions"),
+    *("hid", "serial"),
+}
 
 
 def test_the_common_runtime_works_wherever_it_is_copied_to() -> None:
@@ -177,124 +180,38 @@ def test_the_common_runtime_works_wherever_it_is_copied_to() -> None:
 
 # ------------------------------------------------------------------ a library
 
-LIBRARY = Path(__file__).parents[3] / "generated" / "busservo"
+LIBRARY = Path(__file__).parents[3] / "generated" / "lxservo"
 # From the bottom up.
 LIBRARY_LAYERS = [
-    {"_frame"},
-    {"messages", "_explanation"},
-    {"_codec"},
-    {"_recording"},
-    {"_serial"},
-    {"_client"},
     {"_library"},
-    {"line and client of the protocol"},
-    {"_version", "recordings", "device", "strategies", "_tables"},
-    {"tables"},
-    {"_cli"},
+    {"_envelopes", "_lookalikes", "_version", "recordings", "tables"},
+    {"messages"},
+    {"_codec", "_exchanges"},
+    {"device", "strategies", "_devices", "_async_devices"},
+    {"_controller", "_async_controller"},
+    {"_command"},
     {"__main__"},
     {"__init__"},
 ]
-PARTS = sorted(file.relative_to(LIBRARY) for file in LIBRARY.rglob("*.py"))
-TEMPLATES = GENERATOR / "targets" / "python" / "templates"
-# What is made for a protocol, by module; the rest is the same for all.
-MADE = {
-    ".".join(template.relative_to(TEMPLATES).parts).removesuffix(".py.jinja")
-    for template in TEMPLATES.rglob("*.py.jinja")
-}
-# The rooms in which what is made for a protocol stands on what is the same for all.
-ON_TOP = ("_client", "_serial")
 
 
-def modules_needed(path: Path, *, to_run: bool = False) -> Iterator[str]:
-    """Yield the name of every module of the library that one of its modules imports from.
+def modules_needed(file: Path, *, to_run: bool = False) -> Iterator[str]:
+    """Yield the modules of a library that one of them imports from.
 
     `to_run` leaves out what is imported for typing alone.
     """
-    for node in statements(LIBRARY / path, to_run=to_run):
-        if isinstance(node, ast.ImportFrom) and 0 < node.level <= len(path.parts):
-            room = path.parts[: len(path.parts) - node.level]
-            names = [node.module] if node.module else [alias.name for alias in node.names]
-            yield from (".".join([*room, name]) for name in names)
-
-
-def needed(path: Path) -> Iterator[str]:
-    """Yield every part of the library that one of its modules imports from."""
-    return map(part_with, modules_needed(path))
-
-
-def part_of(path: Path) -> str:
-    return part_with(".".join(path.with_suffix("").parts))
-
-
-def part_with(module: str) -> str:
-    """Return the part that a module is in: its room, or what is made for the protocol on top."""
-    room = module.partition(".")[0]
-    return "line and client of the protocol" if module in MADE and room in ON_TOP else room
+    for node in statements(file, to_run=to_run):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            yield from [node.module] if node.module else [alias.name for alias in node.names]
 
 
 def test_imports_of_a_library_point_downwards() -> None:
-    assert upwards(LIBRARY_LAYERS, ((part_of(path), path, needed(path)) for path in PARTS)) == []
+    files = sorted(LIBRARY.glob("*.py"))
+    found = ((file.stem, file, modules_needed(file, to_run=True)) for file in files)
+    assert upwards(LIBRARY_LAYERS, found) == []
 
 
-# ------------------------------------------------------------------ rooms that are given all
-
-# The rooms whose code is the same for every protocol and is given what the specification decides,
-# each with what it imports all the same to run: the names that all share.
-GIVEN: dict[str, set[str]] = {
-    "_explanation": set(),
-    "_recording": {"_codec.event_bytes"},
-    "_tables": {"_codec.event_bytes"},
-    "_client": {"_frame.message"},
-    "_serial": {"_frame.message"},
-    # Its `__init__` is the function that a shell calls: it says whose command it is.
-    "_cli": {
-        *("_cli.examples", "_codec.event_bytes", "_frame.items", "_frame.number"),
-    },
-}
-
-
-@pytest.mark.parametrize("room", GIVEN)
-def test_a_room_that_is_given_the_protocol_imports_nothing_of_it(room: str) -> None:
-    known = {".".join(Path(each).with_suffix("").parts) for each in copies()}
-    modules = {path: ".".join(path.with_suffix("").parts) for path in PARTS}
-    for path, name in modules.items():
-        if path.parts[0] in GIVEN and name not in MADE:
-            known.add(name)
-    imports = {
-        (name, other)
-        for path, name in modules.items()
-        if path.parts[0] == room and name not in MADE
-        for other in modules_needed(path, to_run=True)
-    }
-    assert imports
-    assert {each for each in imports if each[1] not in known | GIVEN[room]} == set()
-    assert {other for _, other in imports} >= GIVEN[room]
-
-
-def test_what_reads_frames_is_given_the_envelopes() -> None:
-    modules = {path: ".".join(path.with_suffix("").parts) for path in PARTS}
-    importing = {
-        name
-        for path, name in modules.items()
-        if "_frame.envelopes" in modules_needed(path) and path.parts[0] in ("_frame", "_codec")
-    }
-    assert importing
-    assert importing <= MADE
-
-
-def test_what_reads_numbers_is_given_their_byte_order() -> None:
-    """It is the same for every protocol: what is made for one is imported for all else alone."""
-    same = [path for path in PARTS if ".".join(path.with_suffix("").parts) not in MADE]
-    imports = {
-        other
-        for path in same
-        if path.parts[0] == "_frame" or path.stem == "lookalike"
-        for other in modules_needed(path, to_run=True)
-    }
-    assert imports & MADE == {"_codec.codec"}
-
-
-# ------------------------------------------------------------------ the tables of a library
+# ------------------------------------------------------------------ its tables
 
 # From the bottom up.
 TABLES_LAYERS = [
@@ -306,19 +223,20 @@ TABLES_LAYERS = [
     {"noise_rows"},
     {"reader"},
     {"tables", "files", "stats"},
-    {"archive", "captures"},
+    {"archive"},
+    {"captures"},
     {"__init__"},
 ]
-TABLES = [path.relative_to("_tables") for path in PARTS if path.parts[0] == "_tables"]
+TABLES = [path.relative_to("tables") for path in COMMON_PARTS if path.parts[0] == "tables"]
 
 
 def needed_in_tables(path: Path) -> Iterator[str]:
     """Yield every part of the tables that a module of another part imports."""
-    for node in statements(LIBRARY / "_tables" / path):
+    for node in statements(COMMON / "tables" / path):
         if isinstance(node, ast.ImportFrom) and node.module and node.level == len(path.parts):
             yield node.module.partition(".")[0]
 
 
 def test_imports_of_tables_point_downwards() -> None:
-    found = ((part_of(path), path, needed_in_tables(path)) for path in TABLES)
+    found = ((path.with_suffix("").parts[0], path, needed_in_tables(path)) for path in TABLES)
     assert upwards(TABLES_LAYERS, found) == []

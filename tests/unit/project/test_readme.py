@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
-from busservo._cli.examples import VERBS as BUSSERVO
+from busservo._command import VERBS as BUSSERVO
 from framegen.cli import VERBS as FRAMEGEN
 from framegen.site.guides.markdown import slugs
-from lxservo._cli.examples import VERBS as LXSERVO
+from lxservo._command import VERBS as LXSERVO
 
 from tests.documents import PAGES, ROOT, copy_project, played, refresh
 from tests.in_turn import in_turn

@@ -6,8 +6,8 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo._frame.protocol import BAUD
-from busservo._serial.opening import open_transport
+from busservo import open_transport
+from busservo._library import LINK
 from busservo_simulator import VirtualController
 
 from tests.lines.at_board import virtual_board
@@ -46,7 +46,7 @@ def connect(request: pytest.FixtureRequest) -> Iterator[Callable[..., tuple[Any,
         board.start()
         boards.append(board)
         memory = request.param == "memory"
-        baud = options.get("baud") or BAUD
+        baud = options.get("baud") or LINK.baud
         hosts.append(Host(board.transport if memory else open_transport(board.port, baud=baud)))
         return board, hosts[-1]
 

@@ -10,8 +10,13 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead, ServoPositions, ServoPositionsRead
-from busservo._serial.opening import open_transport
+from busservo import (
+    BatteryVoltage,
+    BatteryVoltageRead,
+    ServoPositions,
+    ServoPositionsRead,
+    open_transport,
+)
 from busservo_simulator import Faults, line_options
 from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES

@@ -15,9 +15,9 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo._serial.link_errors import DisconnectedError, TransportError
 from busservo_simulator import Faults, VirtualController
 from busservo_simulator.faults import CHANCES, DURATIONS
+from framewire.line.link_errors import DisconnectedError, TransportError
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import virtual_board

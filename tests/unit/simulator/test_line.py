@@ -17,11 +17,11 @@ from busservo import (
     ServoPositionsRead,
     strategies,
 )
-from busservo._serial.link_errors import ClosedError, DisconnectedError, PortNotFoundError
 from busservo_simulator import Board, Faults, VirtualClock, VirtualController
 from busservo_simulator.channel import Channel
 from busservo_simulator.faults import CHANCES
 from busservo_simulator.line import Line
+from framewire.line.link_errors import ClosedError, DisconnectedError, PortNotFoundError
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -22,12 +22,12 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
     ServoUnload,
+    open_transport,
 )
-from busservo._serial.link_errors import TransportError
-from busservo._serial.opening import open_transport
 from busservo_simulator import VirtualClock, VirtualController
 from busservo_simulator.tcp_end import TcpEnd
 from busservo_simulator.waker import Waker
+from framewire.line.link_errors import TransportError
 
 from tests.in_turn import in_turn
 from tests.lines.hosts import Host

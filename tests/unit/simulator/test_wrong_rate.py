@@ -15,9 +15,9 @@ from busservo import (
     Direction,
     ServoPositions,
     StreamDecoder,
+    open_transport,
     strategies,
 )
-from busservo._serial.opening import open_transport
 from busservo_simulator import Board, VirtualController
 from busservo_simulator.line import Line
 from busservo_simulator.uart import sampled

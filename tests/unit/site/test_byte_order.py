@@ -64,7 +64,7 @@ def references() -> Iterator[dict[Path, tuple[Reference, Callable[[list[str]], i
     with library(library_of(EVERYTHING)) as everything:
         packages = {SPECS["busservo"]: "busservo", EVERYTHING: everything.__name__}
         yield {
-            spec: (Reference(compiled_file(spec)), import_module(f"{name}._cli").main)
+            spec: (Reference(compiled_file(spec)), import_module(f"{name}.__main__").main)
             for spec, name in packages.items()
         }
 

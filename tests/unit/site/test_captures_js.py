@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import Reason, recordings
-from busservo._cli.entries import EntryLines
-from busservo._codec.event_bytes import bytes_of
 from busservo._library import CODEC
-from busservo._recording.form import log_lines
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.codec.event_bytes import bytes_of
 from framewire.codec.hextext import HexError, read_hex
+from framewire.command.entries import EntryLines
+from framewire.recording.form import log_lines
 
 from tests.hex_cases import HEX, LOGS, NO_LOGS, random_texts
 from tests.in_turn import in_turn

@@ -6,7 +6,6 @@ from functools import cache
 from typing import Any
 
 import pytest
-from busservo._codec.hextext import HexError, read_hex
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode, encode, values_of
@@ -15,6 +14,7 @@ from framegen.model.model import Model, derive
 from framegen.model.stream import ReferenceDecoder
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.codec.hextext import HexError, read_hex
 
 from tests.factories import BUSSERVO, compiled_file, data_of
 from tests.hex_cases import HEX, NO_HEX, random_texts

@@ -15,6 +15,7 @@ from framegen.model.model import derive
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.line_data import line_data
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.client.session import Session
 from hypothesis import settings
 
 from tests.factories import compiled_of, data_of, library, library_files
@@ -71,13 +72,13 @@ def part(made: ModuleType, name: str) -> Any:
 
 def sent_by(made: ModuleType) -> Any:
     """Return the direction of what the client sends."""
-    return next(iter(part(made, "_client.exchanges").EXCHANGES)).DIRECTION
+    return next(iter(part(made, "_exchanges").EXCHANGES)).DIRECTION
 
 
 def said_by_the_client(made: ModuleType, frame: bytes, bounds: Any) -> str | None:
     """Return why the client does not send a frame, None if it does."""
-    limits = part(made, "_client.exchanges").LIMITS
-    session = part(made, "_client.session").Session(
+    limits = part(made, "_exchanges").LIMITS
+    session = Session(
         part(made, "_library").LIBRARY,
         baud=9600,
         reply_timeout=1.0,

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ActionGroupRun, ActionGroupSpeed, ServoMove, ServoUnload
-from busservo._cli.usage_error import UsageError
-from busservo._cli.values import message_from_text
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.command.usage_error import UsageError
+from framewire.command.values import message_from_text
 
 from tests.factories import compiled_file, compiled_of, data_of, renamed, vectors_of
 from tests.in_turn import in_turn

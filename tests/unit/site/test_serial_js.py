@@ -12,17 +12,17 @@ from busservo import (
     BatteryVoltageRead,
     ServoPositions,
     ServoPositionsRead,
+    StreamDecoder,
     recordings,
 )
-from busservo._client.base_client import REPLY_TIMEOUT
-from busservo._client.local_echo import LocalEcho
-from busservo._codec.decoder import StreamDecoder
-from busservo._codec.gap import GAP
-from busservo._frame.directions import RECEIVED
+from busservo._library import CODEC
 from framegen.model.codec import encode
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.line_data import line_data
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.client.base_client import REPLY_TIMEOUT
+from framewire.client.local_echo import LocalEcho
+from framewire.codec.gap import GAP
 
 from tests.bad_specs import BASES
 from tests.factories import compiled_file
@@ -34,8 +34,8 @@ from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from busservo._client.request import Request
     from framegen.model.model import Model
+    from framewire.client.request import Request
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 MODEL = reference("busservo").model
@@ -445,7 +445,7 @@ def test_python_reads_a_recording_of_the_page() -> None:
         )
     ]
     made = answers(_RECORDED, {"entries": entries})
-    decoder = StreamDecoder(RECEIVED)
+    decoder = StreamDecoder(CODEC.received)
     expected = [*decoder.feed(stream), *decoder.flush()]
     read = [*recordings.read(io.BytesIO(made["text"].encode()))]
     assert b"".join(bytes(data) for *_, data in entries) == stream

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import busservo
-import busservo._cli
+import busservo.__main__
 import pytest
 from busservo_simulator import VirtualClock, VirtualController
 from framegen.model.codec import encode, values_of
@@ -146,7 +146,7 @@ def test_the_command_of_a_message_is_taken(
         assert words[2:] == ["--only", message]
         return
     with VirtualController(via="tcp") as board:
-        assert busservo._cli.main([verb, "--port", board.port, *words[2:]]) == 0
+        assert busservo.__main__.main([verb, "--port", board.port, *words[2:]]) == 0
     asks = SERVO.kind(message) in ("query", "reply")
     assert bool(capsys.readouterr().out) == asks
 

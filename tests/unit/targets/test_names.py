@@ -15,9 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import busservo
 import pytest
-from busservo._client.async_client import AsyncClient
-from busservo._client.client import Client
-from busservo._frame.element import Element
 from framegen.cli import main
 from framegen.language.package_names import BUILTINS, DEVICES, KEYWORDS, why_taken
 from framegen.render import render, render_target, snippets
@@ -28,6 +25,9 @@ from framegen.targets.filenames import file_stem
 from framegen.targets.python import reserved
 from framegen.targets.python.names import names_of
 from framegen.targets.table import TARGETS
+from framewire.client.async_client import AsyncClient
+from framewire.client.client import Client
+from framewire.frame.element import Element
 
 from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
 from tests.factories import (
@@ -65,7 +65,7 @@ MINE |= {"HostMessage", "ControllerMessage"}
 MODULES = sorted(
     path.relative_to(PACKAGE).as_posix()
     for path in PACKAGE.rglob("*.py")
-    if "_cli" not in path.parts and MINE & {*re.findall(r"\w+", path.read_text(encoding="utf-8"))}
+    if path.name != "_command.py" and MINE & {*re.findall(r"\w+", path.read_text(encoding="utf-8"))}
 )
 CROWDS = {"names": taken_names, "elements": taken_elements, "pose": taken_pose}
 
@@ -135,9 +135,7 @@ def public(kind: type) -> set[str]:
 
 
 def test_the_modules_that_know_messages_are_known() -> None:
-    assert {"device.py", "_client/exchanges.py", "_client/controller.py", "messages.py"} <= set(
-        MODULES
-    )
+    assert {"device.py", "_exchanges.py", "_controller.py", "messages.py"} <= set(MODULES)
 
 
 @in_turn("module", lambda: MODULES)
@@ -147,7 +145,7 @@ def test_what_a_module_needs_is_reserved(module: str) -> None:
     assert needed - {*taken("message")} == needed - {*taken("element")} == set()
 
 
-@pytest.mark.parametrize("module", ["_client/controller.py", "_client/async_controller.py"])
+@pytest.mark.parametrize("module", ["_controller.py", "_async_controller.py"])
 def test_what_a_method_needs_is_reserved(module: str) -> None:
     # Comprehensions have a scope of their own; busservo's `targets` and `servo_ids` are fields.
     needed = variables_in(module) - {"_", "each", "targets", "servo_ids"}
@@ -341,7 +339,7 @@ def test_the_command_says_the_names_that_the_library_has(
         return out or err
 
     with library(files_of_crowd("names")) as made:
-        command = import_module(f"{made.__name__}._cli").main
+        command = import_module(f"{made.__name__}.__main__").main
         words = ["Ask0", "class_=7"]
         frame = said("encode", *words).strip()
         shown = said("decode", "--direction", "any_", frame)

@@ -62,7 +62,7 @@ def each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 def test_what_is_printed_has_each_key_once_and_each_number() -> None:
     with library(library_files(crowded())) as made:
-        entries: Any = import_module(f"{made.__name__}._cli.events")
+        entries: Any = import_module("framewire.command.events")
         codec = handed_by(made.__name__).codec
         events = made.StreamDecoder(None).feed(line())
         said = [
@@ -99,7 +99,7 @@ def test_the_pages_save_it_under_the_same_names() -> None:
     program = SAVE.replace("controller_to_host", "desk_to_lamp")
     (saved,) = run_script([*codec_scripts(model), *SAVERS], program, asked)
     with library(library_files(crowded())) as made:
-        entries: Any = import_module(f"{made.__name__}._cli.events")
+        entries: Any = import_module("framewire.command.events")
         codec = handed_by(made.__name__).codec
         events = made.StreamDecoder(None).feed(line())
         said = [json.loads(entries.in_json(event, None, codec)) for event in events]

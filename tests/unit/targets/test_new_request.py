@@ -169,7 +169,7 @@ async def work():
 
 asyncio.run(work())
 print(board.rejects)
-from busservo._cli import main
+from busservo.__main__ import main
 assert main(["send", "--port", port, "--baud", "inf", "LampSet", "fade_s=0", "lamps=7:9"]) == 0
 assert main(["send", "--port", port, "--baud", "inf", "LampsRead", "lamp_ids=7"]) == 0
 assert main(["encode", "LampSet", "fade_s=0", "lamps=7:9"]) == 0

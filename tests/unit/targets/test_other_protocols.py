@@ -21,6 +21,7 @@ from framegen.targets.vectors import TARGET as VECTORS
 from tests.factories import (
     BUSSERVO,
     DEMO,
+    ROOT,
     Data,
     compiled_file,
     data_of,
@@ -82,7 +83,7 @@ def prose(text: str) -> tuple[str, ...]:
     for node in ast.walk(ast.parse(text)):
         # What is a name is code, such as that of a module in a table of modules.
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            lines += [] if node.value == "_client.controller" else node.value.split("\n")
+            lines += [] if node.value == "._controller" else node.value.split("\n")
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
             lines.append(token.string)
@@ -147,7 +148,7 @@ def call(folder: Path, capsys: pytest.CaptureFixture[str]) -> Call:
 
     def call(name: str, *words: str) -> tuple[int, str]:
         assert folder.joinpath(name).is_dir()
-        status = importlib.import_module(f"{name}._cli").main([*words])
+        status = importlib.import_module(f"{name}.__main__").main([*words])
         return status, capsys.readouterr().out
 
     return call
@@ -258,7 +259,7 @@ def install(folder: Path, version: str, origin: str = "") -> None:
 
 def version_of(folder: Path, *installed: Path) -> str:
     program = (
-        f"import sys; sys.path[:0] = {[str(each) for each in (folder, *installed)]!r}; "
+        f"import sys; sys.path[:0] = {[*map(str, (folder, *installed, ROOT / 'runtime'))]!r}; "
         "import greenhouse; assert 'importlib.metadata' not in sys.modules; "
         "print(greenhouse.__version__)"
     )

@@ -37,7 +37,7 @@ OF_ONE_THING = PROSE - {"title"}
 MOST = 8
 
 # Modules that hold the words which the command prints; all else has words in docstrings alone.
-FOR_READERS = {"_cli/examples.py", "_codec/lookalikes.py"}
+FOR_READERS = {"_command.py", "_lookalikes.py"}
 
 
 def compiled(text: str) -> Compiled:
@@ -267,7 +267,7 @@ def test_other_words_leave_the_code_as_it_is(name: str) -> None:
     before, after = files(in_json(name)), files(reworded_json(name))
     assert before.keys() == after.keys()
     touched = {path for path in changed(before, after) if path.endswith(".py")}
-    assert {f"generated/{name}/messages.py", f"generated/{name}/_cli/examples.py"} <= touched
+    assert {f"generated/{name}/messages.py", f"generated/{name}/_command.py"} <= touched
     for path in touched:
         assert bare(path, before[path]) == bare(path, after[path]), path
 
@@ -300,8 +300,8 @@ def test_a_new_message_changes_what_shows_it() -> None:
     pages = {"README.md", "examples.md", "messages/HornBlow.md", "sequences.md"}
     modules = {
         *("__init__.py", "__init__.pyi", "messages.py", "strategies.py", "vectors.json"),
-        *(f"_client/{name}.py" for name in ("exchanges", "controller", "async_controller")),
-        *("device.py", "_cli/examples.py", "_explanation/model.json"),
+        *(f"_{name}.py" for name in ("exchanges", "controller", "async_controller")),
+        *("device.py", "_command.py", "protocol.json"),
     }
     assert touched == {f"docs/reference/busservo/{page}" for page in pages} | {
         f"generated/busservo/{module}" for module in modules
@@ -331,9 +331,9 @@ def test_a_new_named_value_changes_what_shows_it() -> None:
     assert changed(before, files(as_text(data))) == {
         "docs/reference/busservo/examples.md",
         "docs/reference/busservo/messages/ServoMove.md",
-        "generated/busservo/_client/async_controller.py",
-        "generated/busservo/_client/controller.py",
-        "generated/busservo/_explanation/model.json",
+        "generated/busservo/_async_controller.py",
+        "generated/busservo/_controller.py",
+        "generated/busservo/protocol.json",
         "generated/busservo/messages.py",
     }
 
@@ -346,6 +346,6 @@ def test_a_new_version_changes_what_states_it() -> None:
     assert changed(files(text), files(later)) == {
         "docs/reference/busservo/README.md",
         "docs/reference/busservo/changelog.md",
-        "generated/busservo/_frame/protocol.py",
+        "generated/busservo/_library.py",
         "generated/busservo/vectors.json",
     }

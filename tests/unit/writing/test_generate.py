@@ -37,7 +37,7 @@ DEMO = ROOT / "tests" / "specs" / "demo.yaml"
 TEXT = DEMO.read_text(encoding="utf-8")
 GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
-CODEC = f"{LIBRARY}/_codec/codec.py"
+CODEC = f"{LIBRARY}/_codec.py"
 SCHEMA = "spec/framegen.schema.json"
 
 
@@ -327,7 +327,7 @@ def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Captu
     files = 3 * (len(OUTPUT.files) + 1) + len(SHARED.files) + 1
     assert capsys.readouterr().err == f"{files} files from 3 specs: none would change\n"
     for name in ("greenhouse", "glasshouse", "shed"):
-        assert (three / "generated" / name / "_codec/codec.py").exists()
+        assert (three / "generated" / name / "_codec.py").exists()
         assert (three / "generated" / f"{name}.manifest").exists()
     assert main(["check"]) == 0
     capsys.readouterr()
@@ -338,9 +338,9 @@ def test_all_specs_of_a_root_are_written_side_by_side(three: Path, capsys: Captu
 def test_one_spec_of_several_is_written_alone(three: Path) -> None:
     before = snapshot(three)
     for name in ("glasshouse", "shed"):
-        (three / "generated" / name / "_codec/codec.py").unlink()
+        (three / "generated" / name / "_codec.py").unlink()
     assert main(["generate", "spec/shed.yaml"]) == 0
-    del before["generated/glasshouse/_codec/codec.py"]
+    del before["generated/glasshouse/_codec.py"]
     assert snapshot(three) == before
 
 
@@ -349,7 +349,7 @@ def test_a_spec_that_is_gone_takes_its_output_along(three: Path, capsys: Capture
     capsys.readouterr()
     assert main(["generate", "spec/demo.yaml", "--check"]) == 0
     assert main(["generate", "--check"]) == 1
-    assert "orphaned: generated/shed/_codec/codec.py\n" in capsys.readouterr().err
+    assert "orphaned: generated/shed/_codec.py\n" in capsys.readouterr().err
     assert main(["generate"]) == 0
     assert [path for path in snapshot(three) if "shed" in path] == []
     assert main(["generate", "--check"]) == 0
@@ -362,7 +362,7 @@ def test_below_another_folder_no_output_of_other_projects_goes(
     assert main(["generate", "--out", str(out)]) == 0
     (three / "spec" / "shed.yaml").unlink()
     assert main(["generate", "--out", str(out)]) == 0
-    assert (out / "generated" / "shed" / "_codec/codec.py").exists()
+    assert (out / "generated" / "shed" / "_codec.py").exists()
 
 
 def test_a_finding_in_one_spec_keeps_all_of_them_from_being_written(three: Path) -> None:

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 from framegen.targets.python.carried_model import carried_model
 from framegen.targets.python.client_view import ClientView
-from framegen.targets.python.copies import copies
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
 from framegen.targets.python.escape import assigned, literal, quoted
-from framegen.targets.python.files import placed
+from framegen.targets.python.imports import CARRIED, SHARED, imports
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.python.names import bent, names_of
 from framegen.targets.python.reserved import RESERVED
@@ -30,12 +29,16 @@ if TYPE_CHECKING:
 _HERE = Path(__file__).parent
 
 
+# What only some libraries have.
+_OF_DISTRIBUTIONS = frozenset({"README.md", "pyproject.toml"})
+_OF_ADDRESSES = frozenset({"_async_devices.py", "_devices.py"})
+
+
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """Render the library's files, by path below the project's root."""
-    library = LibraryView(names_of(compiled.model).library)
-    client = ClientView(library.model)
-    files = placed({**_runtime(), **_from_templates(library, client)}, library, client)
-    files |= {"_explanation/model.json": carried_model(compiled), "py.typed": ""}
+    runtime = CARRIED if compiled.carries_runtime else SHARED
+    library = LibraryView(names_of(compiled.model).library, runtime)
+    files = _from_templates(library) | {"protocol.json": carried_model(compiled), "py.typed": ""}
     (root,) = folders(compiled.model)
     return {f"{root}/{name}": text for name, text in files.items()}
 
@@ -45,20 +48,21 @@ def folders(model: Model) -> tuple[str, ...]:
     return (f"generated/{model.spec.protocol.name}",)
 
 
-@cache
-def _runtime() -> dict[str, str]:
-    """Return the files that are the same for every protocol; read once."""
-    root = _HERE / "runtime"
-    own = {file.relative_to(root).as_posix(): file for file in sorted(root.rglob("*.py"))}
-    return copies() | {name: file.read_text(encoding="utf-8") for name, file in own.items()}
-
-
-def _from_templates(library: LibraryView, client: ClientView) -> dict[str, str]:
-    templates = _environment()
-    given = {"library": library, "client": client, "device": DeviceView(library.model)}
+def _from_templates(library: LibraryView) -> dict[str, str]:
+    client, templates = ClientView(library.model), _environment()
+    given = {
+        "library": library,
+        "client": client,
+        "device": DeviceView(library.model),
+        "runtime": library.runtime,
+    }
+    unused = frozenset[str]() if library.model.spec.protocol.distribution else _OF_DISTRIBUTIONS
+    unused |= frozenset[str]() if client.bus else _OF_ADDRESSES
+    names = (name.removesuffix(".jinja") for name in templates.list_templates(["jinja"]))
     return {
-        name.removesuffix(".jinja"): templates.get_template(name).render(given)
-        for name in sorted(templates.list_templates(extensions=["jinja"]))
+        name: templates.get_template(f"{name}.jinja").render(given)
+        for name in sorted(names)
+        if name not in unused
     }
 
 
@@ -66,7 +70,9 @@ def _from_templates(library: LibraryView, client: ClientView) -> dict[str, str]:
 def _environment() -> Environment:
     # This is Python, not HTML: the filters escape.
     made = environment(_HERE / "templates", "python", autoescape=False)
-    made.filters.update(assigned=assigned, docstring=docstring, literal=literal, quoted=quoted)
+    made.filters.update(
+        assigned=assigned, docstring=docstring, imports=imports, literal=literal, quoted=quoted
+    )
     return made
 
 

@@ -36,10 +36,6 @@ class ChecksumView:
         return f"{self.name}({', '.join(self._arguments())})"
 
     @property
-    def files(self) -> set[str]:
-        return {f"_frame/{self.module}.py", "_frame/running.py"}
-
-    @property
     def _row(self) -> Checksum:
         return CHECKSUMS[self.method]
 

@@ -14,7 +14,7 @@ from framegen.model.slots import Items
 from framegen.targets.python.bus_view import BusView
 from framegen.targets.python.errors_view import ErrorsView
 from framegen.targets.python.escape import Bracketed, Part, Text, literal
-from framegen.targets.python.exports import relative_import
+from framegen.targets.python.exports import import_from
 from framegen.targets.python.method_view import Flavour, MethodView
 from framegen.targets.python.notes import noted
 from framegen.targets.python.pose_view import PoseView
@@ -34,7 +34,10 @@ _SHARED = (
 _LISTENS = "It sends nothing, and listens. How is explained at {}: {}, reports, and closing."
 
 # What a command returns, by module.
-_RESULTS = {"motion": ["AsyncMotion", "Motion"], "request": ["Run", "Sent"]}
+_RESULTS = {
+    "framewire.client.motion": ["AsyncMotion", "Motion"],
+    "framewire.client.request": ["Run", "Sent"],
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,10 +157,10 @@ class ClientView:
     def import_shared(self) -> list[str]:
         """The imports of their classes."""
         return [
-            *(["from .address import Address"] if self.bus else []),
-            *(["from .counted import Counted"] if self.counting else []),
-            "from .exchange import Exchange",
-            *(["from .failures import Failures"] if self.failing else []),
+            *(["from framewire.client.address import Address"] if self.bus else []),
+            *(["from framewire.client.counted import Counted"] if self.counting else []),
+            "from framewire.client.exchange import Exchange",
+            *(["from framewire.client.failures import Failures"] if self.failing else []),
         ]
 
     @property
@@ -189,7 +192,7 @@ class ClientView:
         names = {each.request.name for each in self.model.exchanges}
         for each in self.model.exchanges:
             names |= {*each.reports, *(answer.name for answer in each.answers)}
-        return relative_import(".messages", names)
+        return import_from(".messages", names)
 
     @property
     def imports(self) -> list[str]:
@@ -204,25 +207,19 @@ class ClientView:
     def _imports(self, base_module: str, base: str, methods: list[MethodView]) -> list[str]:
         returned = {method.returns for method in methods}
         modules: dict[str, set[str]] = {
-            "._library": {"LIBRARY", "LINK"},
-            "._serial.transport": {"Transport"},
+            "._library": {"LIBRARY"},
             ".messages": self._messages,
-            base_module: {base},
-            "base_client": {"REPLY_TIMEOUT", "REPORT_LIMIT"},
-            "exchanges": {"LIMITS"},
-            "limits": {"Allowed"},
+            f"framewire.client.{base_module}": {base},
         }
         modules |= {module: returned.intersection(names) for module, names in _RESULTS.items()}
         if self.pose is not None:
-            modules |= {"exchanges": {"LIMITS", "POSE"}, "pose": {"HOLD_MS"}}
+            modules |= {"._exchanges": {"POSE"}, "framewire.client.pose": {"HOLD_MS"}}
         if self.bus is not None:
             prefix = base.removesuffix("Client")
-            module = f"{prefix.lower()}_devices" if prefix else "devices"
+            module = f"._{prefix.lower()}_devices" if prefix else "._devices"
             modules[module] = {f"{prefix}{each}" for each in self._device_classes}
-            modules |= {"._frame.message": {"Message"}} if self.silent else {}
-        return [
-            relative_import(module, names) for module, names in sorted(modules.items()) if names
-        ]
+            modules |= {"framewire.frame.message": {"Message"}} if self.silent else {}
+        return [import_from(module, names) for module, names in sorted(modules.items()) if names]
 
     @property
     def silent(self) -> dict[str, int]:
@@ -258,12 +255,12 @@ class ClientView:
     @property
     def device_imports(self) -> list[str]:
         """The imports of the clients of one device and of all."""
-        return self._device_imports("controller", "Controller", self.methods)
+        return self._device_imports("._controller", "Controller", self.methods)
 
     @property
     def async_device_imports(self) -> list[str]:
         """The same for asyncio."""
-        return self._device_imports("async_controller", "AsyncController", self.async_methods)
+        return self._device_imports("._async_controller", "AsyncController", self.async_methods)
 
     def _device_imports(self, module: str, client: str, methods: list[MethodView]) -> list[str]:
         addressed = [method for method in methods if method.has_address]
@@ -272,12 +269,12 @@ class ClientView:
         returned = {method.returns for method in addressed}
         modules: dict[str, set[str]] = {".messages": names, module: {client}}
         modules |= {each: returned.intersection(results) for each, results in _RESULTS.items()}
-        return [relative_import(each, found, 4) for each, found in sorted(modules.items()) if found]
+        return [import_from(each, found, 4) for each, found in sorted(modules.items()) if found]
 
     @property
     def import_gathered(self) -> str:
         """The import of the questions that are put to all, and of what answers them."""
-        return relative_import(".messages", self._gathered) if self._gathered else ""
+        return import_from(".messages", self._gathered) if self._gathered else ""
 
     @property
     def _gathered(self) -> set[str]:
@@ -296,11 +293,6 @@ class ClientView:
         elements = {each.element for each in fields if isinstance(each, Items) and each.element}
         names |= {each for each in elements if f"tuple[{each}, ...]" in shown}
         return names | ({self.pose.element} if self.pose else set())
-
-    @property
-    def collections(self) -> str:
-        """The types of arguments that the module of a client imports."""
-        return ", ".join(sorted({"Callable", "Iterable"} | self._lists_taken))
 
     @property
     def lists_taken(self) -> str:

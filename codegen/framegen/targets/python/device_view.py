@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from framegen.model.exchanges import snake_case
 from framegen.targets.python.client_view import counted
 from framegen.targets.python.escape import Bracketed, literal
-from framegen.targets.python.exports import relative_import
+from framegen.targets.python.exports import import_from
 from framegen.targets.python.spelling import direction_member
 from framegen.targets.python.union_view import type_alias
 
@@ -122,22 +122,23 @@ class DeviceView:
     def address_names(self) -> str:
         """The assignment of the names of the addresses."""
         names = [literal(name) for name in self.addresses]
-        return Bracketed("_ADDRESSES = (", names, ")", lone=",").fitted(0)
+        return Bracketed("_addresses = (", names, ")", lone=",").fitted(4)
 
     @property
     def silent_addresses(self) -> str:
         """The assignment of the addresses that nobody answers."""
         values = [str(value) for value in self.silent.values()]
-        return Bracketed("_SILENT = frozenset([", values, "])").fitted(0)
+        return Bracketed("_silent = frozenset([", values, "])").fitted(4)
 
     @property
     def counted(self) -> str:
         """What compares replies with what was asked for, by request; empty where nothing does."""
         rows = [
-            f"{each.request.name}: {counted(each)}" for each in self.model.exchanges if each.counted
+            Bracketed("(", [each.request.name, counted(each)], ")")
+            for each in self.model.exchanges
+            if each.counted
         ]
-        start = "_COUNTED: dict[type[Message], Counted] = {"
-        return Bracketed(start, rows, "}").fitted(0) if rows else ""
+        return Bracketed("_counted = (", rows, ")", lone=",").fitted(4) if rows else ""
 
     @property
     def handlers(self) -> list[HandlerView]:
@@ -153,7 +154,7 @@ class DeviceView:
     def import_messages(self) -> str:
         """The import of what it receives and sends; empty where nothing goes either way."""
         names = [*self.reports, *(handler.message for handler in self.handlers)]
-        return relative_import("messages", names) if names else ""
+        return import_from(".messages", names) if names else ""
 
     @property
     def report_type(self) -> str:

@@ -16,63 +16,63 @@ _NUMBERED = re.compile(r"(?=.)(\D*)(\d*)")
 
 # What every library exports besides its messages, and the module that each is in.
 HOMES = {
-    "MESSAGES": "messages",
-    "PROTOCOL_VERSION": "_frame.protocol",
-    "AbsentError": "_serial.link_errors",
-    "AsyncController": "_client.async_controller",
-    "AsyncMotion": "_client.motion",
-    "ClosedError": "_serial.link_errors",
-    "Controller": "_client.controller",
-    "Counters": "_codec.counters",
-    "DecodeError": "_frame.errors",
-    "Device": "device",
-    "Direction": "_frame.directions",
-    "DisconnectedError": "_serial.link_errors",
-    "DoubtfulReplyError": "_serial.link_errors",
-    "EchoError": "_serial.link_errors",
-    "EncodeError": "_frame.errors",
-    "Event": "_codec.codec",
-    "IncompleteReplyError": "_serial.link_errors",
-    "LimitError": "_frame.errors",
-    "LineCounters": "_codec.counters",
-    "Message": "_frame.message",
-    "Motion": "_client.motion",
-    "NoReplyError": "_serial.link_errors",
-    "NoReportError": "_serial.link_errors",
-    "NotHeldError": "_serial.link_errors",
-    "Noise": "_codec.noise",
-    "PortAddressError": "_serial.link_errors",
-    "PortBusyError": "_serial.link_errors",
-    "PortNotFoundError": "_serial.link_errors",
-    "PortPermissionError": "_serial.link_errors",
-    "ProtocolError": "_frame.errors",
-    "Reason": "_frame.errors",
-    "Run": "_client.request",
-    "Sent": "_client.request",
-    "StreamDecoder": "_codec.codec",
-    "Transport": "_serial.transport",
-    "TransportError": "_serial.link_errors",
-    "UnknownFrame": "_codec.codec",
-    "WriteStuckError": "_serial.link_errors",
-    "__version__": "_version",
-    "decode": "_codec.codec",
-    "open_async_controller": "_client.async_opening",
-    "open_controller": "_client.opening",
-    "open_transport": "_serial.opening",
+    "MESSAGES": ".messages",
+    "PROTOCOL_VERSION": "._library",
+    "AbsentError": "framewire.line.link_errors",
+    "AsyncController": "._async_controller",
+    "AsyncMotion": "framewire.client.motion",
+    "ClosedError": "framewire.line.link_errors",
+    "Controller": "._controller",
+    "Counters": "framewire.codec.counters",
+    "DecodeError": "framewire.frame.errors",
+    "Device": ".device",
+    "Direction": "._library",
+    "DisconnectedError": "framewire.line.link_errors",
+    "DoubtfulReplyError": "framewire.line.link_errors",
+    "EchoError": "framewire.line.link_errors",
+    "EncodeError": "framewire.frame.errors",
+    "Event": "._codec",
+    "IncompleteReplyError": "framewire.line.link_errors",
+    "LimitError": "framewire.frame.errors",
+    "LineCounters": "framewire.codec.counters",
+    "Message": "framewire.frame.message",
+    "Motion": "framewire.client.motion",
+    "NoReplyError": "framewire.line.link_errors",
+    "NoReportError": "framewire.line.link_errors",
+    "NotHeldError": "framewire.line.link_errors",
+    "Noise": "framewire.codec.noise",
+    "PortAddressError": "framewire.line.link_errors",
+    "PortBusyError": "framewire.line.link_errors",
+    "PortNotFoundError": "framewire.line.link_errors",
+    "PortPermissionError": "framewire.line.link_errors",
+    "ProtocolError": "framewire.frame.errors",
+    "Reason": "framewire.frame.errors",
+    "Run": "framewire.client.request",
+    "Sent": "framewire.client.request",
+    "StreamDecoder": "._codec",
+    "Transport": "framewire.line.transport",
+    "TransportError": "framewire.line.link_errors",
+    "UnknownFrame": "._codec",
+    "WriteStuckError": "framewire.line.link_errors",
+    "__version__": "._version",
+    "decode": "._codec",
+    "open_async_controller": "._async_controller",
+    "open_controller": "._controller",
+    "open_transport": "._library",
 }
 # What a library exports beside that whose devices have addresses, or one that nobody answers, and
 # one whose devices say what they refuse, or what has failed.
 OF_ADDRESSES = {
-    "AsyncOneDevice": "_client.async_devices",
-    "OneDevice": "_client.devices",
+    "AsyncOneDevice": "._async_devices",
+    "OneDevice": "._devices",
 }
 OF_BROADCASTS = {
-    "AllDevices": "_client.devices",
-    "AsyncAllDevices": "_client.async_devices",
+    "AllDevices": "._devices",
+    "AsyncAllDevices": "._async_devices",
 }
 OF_FAILURES = {
-    "FailureError": "_client.failures",
-    "RefusedError": "_client.failures",
+    "FailureError": "framewire.client.failures",
+    "RefusedError": "framewire.client.failures",
 }
 
 
@@ -99,12 +99,12 @@ def _natural(name: str) -> tuple[tuple[str, int, str], ...]:
     )
 
 
-def relative_import(module: str, names: Iterable[str], indent: int = 0) -> str:
+def import_from(module: str, names: Iterable[str], indent: int = 0) -> str:
     """Return an import, indented except its first line, an item a line where it is too long."""
     names = sorted(names, key=import_order)
-    line = f"from .{module} import {', '.join(names)}"
+    line = f"from {module} import {', '.join(names)}"
     if indent + len(line) <= WIDTH:
         return line
     margin = " " * indent
     listed = "".join(f"{margin}    {name},\n" for name in names)
-    return f"from .{module} import (\n{listed}{margin})"
+    return f"from {module} import (\n{listed}{margin})"

@@ -19,9 +19,10 @@ from framegen.targets.python.exports import (
     OF_BROADCASTS,
     OF_FAILURES,
     export_order,
+    import_from,
     import_order,
-    relative_import,
 )
+from framegen.targets.python.imports import SHARED
 from framegen.targets.python.list_view import ListView
 from framegen.targets.python.lookalike_view import LookalikeView
 from framegen.targets.python.message_view import MessageView
@@ -67,6 +68,8 @@ class LibraryView:
     """The library as a whole."""
 
     model: Model
+    runtime: str = SHARED
+    """Where the runtime is that it imports from."""
 
     @property
     def version(self) -> str:
@@ -96,7 +99,7 @@ class LibraryView:
         parts["heads"] = {"Heads"}
         for method in checksums_of(self.model):
             parts.setdefault(method.module, set()).add(method.name)
-        return [relative_import(module, parts[module]) for module in sorted(parts)]
+        return [import_from(f"framewire.frame.{module}", parts[module]) for module in parts]
 
     @property
     def proof(self) -> ProofView | None:
@@ -175,22 +178,17 @@ class LibraryView:
         return found
 
     @property
-    def modules(self) -> set[str]:
-        """The modules of the runtime that fields of these kinds need."""
-        found = {_snake(each.base) for each in self.elements} | {*self._field_classes.values()}
-        of_three = any(name.endswith(("_three_bytes", "_swapped")) for name in found)
-        return found | ({"three_bytes"} if of_three else set[str]())
-
-    @property
     def message_imports(self) -> list[str]:
-        """The imports of the messages' module, in the order that linters want."""
-        homes = {"Direction": "directions", "Message": "message", **self._field_classes}
-        homes |= {"warn_deprecated": "deprecation"} if self.deprecates else {}
-        homes |= {each.base: _snake(each.base) for each in self.elements}
-        homes |= {message.envelope: "envelopes" for message in self.messages}
+        """The imports of the messages' module."""
+        parts = {"Message": "message", **self._field_classes}
+        parts |= {"warn_deprecated": "deprecation"} if self.deprecates else {}
+        parts |= {each.base: _snake(each.base) for each in self.elements}
+        homes = {name: f"framewire.frame.{module}" for name, module in parts.items()}
+        homes |= {"Direction": "._library"}
+        homes |= {message.envelope: "._envelopes" for message in self.messages}
         return [
-            relative_import(f"_frame.{home}", [name for name in homes if homes[name] == home])
-            for home in sorted(set(homes.values()))
+            import_from(home, [name for name in homes if homes[name] == home])
+            for home in dict.fromkeys(homes.values())
         ]
 
     @property
@@ -207,7 +205,7 @@ class LibraryView:
     def import_unions(self) -> str:
         """The import of those types, where they are needed for typing alone."""
         names = ["Decoded", *(union.name for union in self.unions)]
-        return relative_import(".messages", names, 4)
+        return import_from(".messages", names, 4)
 
     @property
     def every_message(self) -> str:
@@ -217,7 +215,7 @@ class LibraryView:
 
     @property
     def import_message_classes(self) -> str:
-        return relative_import("messages", ["MESSAGES", *(each.name for each in self.messages)])
+        return import_from(".messages", ["MESSAGES", *(each.name for each in self.messages)])
 
     @property
     def _homes(self) -> dict[str, str]:
@@ -230,7 +228,7 @@ class LibraryView:
         homes |= OF_ADDRESSES if any(each.address for each in exchanges) else {}
         homes |= OF_BROADCASTS if any(each.silent for each in exchanges) else {}
         homes |= OF_FAILURES if any(each.refusal or each.failure for each in exchanges) else {}
-        homes |= {**dict.fromkeys([*classes, *types], "messages")}
+        homes |= {**dict.fromkeys([*classes, *types], ".messages")}
         return {name: homes[name] for name in sorted(homes, key=export_order)}
 
     @property
@@ -241,13 +239,14 @@ class LibraryView:
     @property
     def homes(self) -> list[str]:
         """The entries of a dict: each exported name and its module."""
-        return [f"{literal(name)}: {literal(module)}," for name, module in self._homes.items()]
+        homes = {name: home.replace(SHARED, self.runtime) for name, home in self._homes.items()}
+        return [f"{literal(name)}: {literal(home)}," for name, home in homes.items()]
 
     @property
     def exports(self) -> list[str]:
         """The imports of all exported names."""
-        homes = sorted(self._homes.items(), key=lambda home: (home[1], import_order(home[0])))
-        return [relative_import(module, [f"{name} as {name}"]) for name, module in homes]
+        homes = sorted(self._homes.items(), key=lambda home: import_order(home[0]))
+        return [import_from(module, [f"{name} as {name}"]) for name, module in homes]
 
     @property
     def doc(self) -> list[str]:
@@ -332,10 +331,12 @@ class LibraryView:
     @property
     def import_for_lookalikes(self) -> list[str]:
         """The imports of what recognises look-alikes."""
-        parts: dict[str, set[str]] = {"lookalike": {"Lookalike"}} if self._lookalikes else {}
+        parts: dict[str, set[str]] = {}
+        if self._lookalikes:
+            parts["framewire.codec.lookalike"] = {"Lookalike"}
         for method in self.lookalike_methods:
-            parts.setdefault(f"._frame.{method.module}", set()).add(method.name)
-        return [relative_import(module, parts[module]) for module in sorted(parts)]
+            parts.setdefault(f"framewire.frame.{method.module}", set()).add(method.name)
+        return [import_from(module, parts[module]) for module in parts]
 
     @property
     def _lookalikes(self) -> list[LookalikeView]:
@@ -351,14 +352,8 @@ class LibraryView:
         return self.model.spec.link
 
     @property
-    def hid_devices(self) -> str:
-        """An assignment: vendor, product and report size of each HID board."""
-        before = "HID_DEVICES: tuple[tuple[int, int, int], ...] = ("
-        return Bracketed(before, self._hid_boards(), ")", lone=",").fitted(0)
-
-    @property
     def hid_argument(self) -> str:
-        """The same as an argument."""
+        """Vendor, product and report size of each HID board, as an argument."""
         return Bracketed("hid_devices=(", self._hid_boards(), ")", lone=",").fitted(4, last=",")
 
     def _hid_boards(self) -> list[str]:

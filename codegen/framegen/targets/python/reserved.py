@@ -58,8 +58,8 @@ LIBRARY_CLASSES = words(
 # What every client has besides the methods of its messages.
 CLIENT_ATTRIBUTES = words(
     """
-    address broadcast close closed counters device gather on_report reconnect reports request send
-    send_latest wait_for
+    address at_port broadcast close closed counters device gather on_report reconnect reports
+    request send send_latest wait_for
     """
 )
 

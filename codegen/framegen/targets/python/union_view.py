@@ -66,7 +66,7 @@ class UnionView:
         return [
             Bracketed(
                 "def decode(",
-                [frame, f"direction: Literal[directions.Direction.{direction_member(way)}]"],
+                [frame, f"direction: Literal[_library.Direction.{direction_member(way)}]"],
                 f") -> {self.name}: ...",
             ).fitted(4)
             for way in self.ways

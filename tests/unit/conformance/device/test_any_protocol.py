@@ -137,7 +137,7 @@ def generated(name: str, until: ExitStack, *addresses: int) -> Answer:
     device = module.Device(*addresses)
     for exchange in compiled.model.exchanges:
         if exchange.reply is not None:
-            handler = module._HANDLERS[getattr(made, exchange.request.name)]
+            handler = dict(module.Device._handlers)[getattr(made, exchange.request.name)]
             setattr(device, handler, _saying(made, exchange))
     divided = is_divided(compiled.model)
 

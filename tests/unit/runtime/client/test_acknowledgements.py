@@ -26,8 +26,8 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo._client.session import Session
 from busservo._library import LIBRARY
+from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -40,7 +40,7 @@ from tests.timeouts import GENEROUS
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from busservo._client.request import Request
+    from framewire.client.request import Request
 
 REPLY_TIMEOUT = 0.25
 FRAME = 7 / 960  # of a run, and of its report

@@ -24,7 +24,7 @@ from busservo import (
     ServoMove,
     TransportError,
 )
-from busservo._client.base_client import POLL_INTERVAL
+from framewire.client.base_client import POLL_INTERVAL
 
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.receiving import unanswered

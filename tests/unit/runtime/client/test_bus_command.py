@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import lxservo
 import pytest
-from lxservo._cli import main
-from lxservo._cli.checks import heard
-from lxservo._client import session
+from framewire.client import session
+from framewire.command.checks import heard
+from lxservo.__main__ import main
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

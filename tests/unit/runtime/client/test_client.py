@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import busservo
+import framewire
 import pytest
 from busservo import (
     ActionGroupCompleted,
@@ -40,7 +41,7 @@ from busservo import (
     open_async_controller,
     open_controller,
 )
-from busservo._cli import main
+from busservo.__main__ import main
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both, by_threads
@@ -522,9 +523,10 @@ def test_nothing_is_logged_by_default(talk: Talk, caplog: pytest.LogCaptureFixtu
 def test_the_codec_imports_no_client() -> None:
     def loaded(code: str) -> str:
         shown = f"{code}; import sys; print(sorted({HEAVY} & set(sys.modules)))"
+        folders = [Path(str(each.__file__)).parents[1] for each in (busservo, framewire)]
         done = subprocess.run(
             [sys.executable, "-S", "-c", shown],
-            env={**os.environ, "PYTHONPATH": str(Path(busservo.__file__).parent.parent)},
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, folders))},
             capture_output=True,
             text=True,
             check=True,

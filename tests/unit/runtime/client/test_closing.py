@@ -24,8 +24,8 @@ from busservo import (
     open_async_controller,
     open_transport,
 )
-from busservo._client.async_opening import Opening
 from busservo_simulator import VirtualController
+from framewire.client.awaited import Awaited as Opening
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both_live
@@ -62,7 +62,7 @@ def nothing_is_left_behind() -> Iterator[None]:
 
 def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in ("client", "thread_client", "async_client", "line_threads"):
-        monkeypatch.setattr(f"busservo._client.{module}.DRAIN_TIMEOUT", 0.02)
+        monkeypatch.setattr(f"framewire.client.{module}.DRAIN_TIMEOUT", 0.02)
 
 
 async def close(controller: AsyncController) -> None:

@@ -141,7 +141,7 @@ def test_the_vectors_say_which_replies_answer(spec: Path) -> None:
     model, vectors = compiled.model, vectors_of(compiled)
     sent, received = model.roles.sent, model.roles.received
     with library(library_of(spec)) as made:
-        exchanges = importlib.import_module(f"{made.__name__}._client.exchanges").EXCHANGES
+        exchanges = importlib.import_module(f"{made.__name__}._exchanges").EXCHANGES
         for vector in vectors["replies"]:
             request, reply = (
                 made.decode(bytes.fromhex(vector[key]), made.Direction(way.key))

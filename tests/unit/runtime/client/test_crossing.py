@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import busservo
+import framewire
 from busservo import open_controller
 from busservo_simulator import VirtualController
 
@@ -16,7 +17,7 @@ from tests.timeouts import LIVE
 if TYPE_CHECKING:
     from types import FrameType
 
-PACKAGE = Path(busservo.__file__).parent
+PACKAGES = [Path(str(each.__file__)).parent for each in (busservo, framewire)]
 DESIGN = Path(__file__).parents[4] / "docs" / "design.md"
 PARAGRAPH = re.compile(r"\*\*A request crosses six modules.*?\n\n", re.DOTALL)
 
@@ -29,7 +30,7 @@ def named() -> list[str]:
 
 def module_of(frame: FrameType) -> str:
     file = Path(frame.f_code.co_filename)
-    return file.stem if file.is_relative_to(PACKAGE) else ""
+    return file.stem.lstrip("_") if any(map(file.is_relative_to, PACKAGES)) else ""
 
 
 def test_a_request_crosses_the_modules_that_the_design_names() -> None:

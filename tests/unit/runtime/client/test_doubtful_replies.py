@@ -17,12 +17,12 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo._client.exchange import Exchange
-from busservo._client.exchanges import EXCHANGES
-from busservo._client.session import Session
+from busservo._exchanges import EXCHANGES
 from busservo._library import LIBRARY
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.virtual_loop import run_virtual
+from framewire.client.exchange import Exchange
+from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     import pytest
-    from busservo._client.request import Request
+    from framewire.client.request import Request
 
 REPLY_TIMEOUT = 0.25
 # Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.

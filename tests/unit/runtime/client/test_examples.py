@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import AsyncController, Controller
-from busservo._client.exchanges import EXCHANGES
+from busservo._exchanges import EXCHANGES
 
 from tests.in_turn import in_turn
 from tests.lines.live_line import LiveLine
 from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
-    from busservo._client.exchange import Exchange
+    from framewire.client.exchange import Exchange
 
 METHODS = [pytest.param(each, id=each.method) for each in EXCHANGES.values()]
 

@@ -13,7 +13,7 @@ from busservo import (
     NoReplyError,
     ServoPositionsRead,
 )
-from busservo._codec.gap import GAP
+from framewire.codec.gap import GAP
 
 from tests.in_turn import in_turn
 from tests.lines.timed_line import client_on

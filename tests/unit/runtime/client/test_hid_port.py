@@ -28,10 +28,10 @@ from busservo import (
     open_async_controller,
     open_controller,
 )
-from busservo._codec.noise import Noise
 from busservo._library import CODEC, LINK
-from busservo._serial.hid_devices import HidDevice, hid_devices_at_hand, hid_library
-from busservo._serial.hid_port import HidPort, open_hid
+from framewire.codec.noise import Noise
+from framewire.line.hid_devices import HidDevice, hid_devices_at_hand, hid_library
+from framewire.line.hid_port import HidPort, open_hid
 
 from tests.in_turn import in_turn
 from tests.lines.live_line import answered
@@ -121,7 +121,7 @@ def plugged(**more: object) -> dict[str, object]:
 @pytest.fixture
 def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[Library]:
     made = Library(OTHER | {"path": b"/dev/hidraw0"}, plugged())
-    monkeypatch.setattr("busservo._serial.hid_port.hid_library", lambda _port: made)
+    monkeypatch.setattr("framewire.line.hid_port.hid_library", lambda _port: made)
     yield made
     assert all(each.closed for each in made.devices)
 

@@ -34,5 +34,5 @@ def test_a_library_hands_over_what_it_exports(package: Any) -> None:
     [({}, 10), ({"parity": "even"}, 11), ({"data_bits": 7, "parity": "odd", "stop_bits": 2}, 11)],
 )
 def test_a_byte_takes_all_its_bits(form: dict[str, Any], bits: int) -> None:
-    link = import_module("busservo._serial.link").Link
+    link = import_module("framewire.line.link").Link
     assert link(baud=9600, **form).bits_per_byte == bits

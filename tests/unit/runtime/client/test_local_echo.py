@@ -22,11 +22,11 @@ from busservo import (
     ServoMove,
     TransportError,
 )
-from busservo._client.exchanges import EXCHANGES
-from busservo._client.local_echo import LocalEcho
-from busservo._client.request import Request
-from busservo._client.session import Session
+from busservo._exchanges import EXCHANGES
 from busservo._library import LIBRARY
+from framewire.client.local_echo import LocalEcho
+from framewire.client.request import Request
+from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 

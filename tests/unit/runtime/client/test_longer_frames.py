@@ -41,7 +41,7 @@ def libraries() -> Iterator[Callable[[str], Any]]:
 def asked(libraries: Callable[[str], Any], name: str, question: str) -> tuple[Any, Any, Any]:
     """Return a session whose question has just left, the question, and the messages."""
     kinds = libraries(f"{name}.messages")
-    line = libraries(f"{name}._client.session").Session(
+    line = libraries("framewire.client.session").Session(
         libraries(f"{name}._library").LIBRARY,
         baud=9600,
         reply_timeout=0.25,

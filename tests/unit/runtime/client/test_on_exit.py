@@ -27,8 +27,8 @@ from busservo import (
     ServoUnload,
     open_async_controller,
 )
-from busservo._client.line_threads import LineThreads
 from busservo_simulator import VirtualController
+from framewire.client.line_threads import LineThreads
 
 from tests.factories import DEMO, library, library_of
 from tests.in_turn import in_turn

@@ -53,7 +53,7 @@ def test_present_actuators_are_found_held_and_released(blinds: Any) -> None:
 
 
 def test_verbs_name_actuators_in_the_words_of_the_spec(blinds: ModuleType) -> None:
-    positions = importlib.import_module(f"{blinds.__name__}._cli.positions")
+    positions = importlib.import_module("framewire.command.positions")
     pose = positions.the_pose(handed_by(blinds.__name__))
     assert positions.listed(pose, [4]) == "blind 4"
     assert positions.listed(pose, [4, 9]) == "blinds 4, 9"
@@ -63,7 +63,7 @@ def test_verbs_name_actuators_in_the_words_of_the_spec(blinds: ModuleType) -> No
 def examined(blinds: ModuleType, device: Any) -> dict[str, Any]:
     """Return what the doctor finds out about a device."""
     checks, diagnosis = (
-        importlib.import_module(f"{blinds.__name__}._cli.checks.{name}")
+        importlib.import_module(f"framewire.command.checks.{name}")
         for name in ("checks", "diagnosis")
     )
     line = DeviceLine(device)

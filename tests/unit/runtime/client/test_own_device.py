@@ -30,6 +30,6 @@ def test_each_method_of_the_servo_bus_is_answered_by_its_device() -> None:
 
 
 def answered(made: ModuleType, name: str) -> None:
-    for module in ("device", "_frame.protocol"):
+    for module in ("device", "_library"):
         importlib.import_module(f"{made.__name__}.{module}")
     converse_alone(made, names_of(compiled_file(FILES[name]).model).library)

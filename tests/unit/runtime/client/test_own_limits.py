@@ -15,7 +15,7 @@ from busservo import (
     ServoPositions,
     open_async_controller,
 )
-from busservo._client.exchanges import LIMITS, POSE
+from busservo._exchanges import LIMITS, POSE
 from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, library, library_of

@@ -23,9 +23,9 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo._client.exchanges import LIMITS, POSE
-from busservo._client.limits import Limits
+from busservo._exchanges import LIMITS, POSE
 from busservo_simulator import Faults, VirtualController
+from framewire.client.limits import Limits
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board

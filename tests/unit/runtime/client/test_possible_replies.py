@@ -16,14 +16,14 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo._client.session import Session
 from busservo._library import LIBRARY
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from busservo import Message
-    from busservo._client.request import Request
+    from framewire.client.request import Request
 
 REPLY_TIMEOUT = 0.25
 # Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.codec import encode
+from framewire.client.session import Session
 
 from tests.factories import Data, data_of, files_of, layout_of, library
 from tests.protocols.specs import FILES
@@ -34,9 +35,7 @@ def receiver() -> Iterator[None]:
 def session() -> tuple[Any, Any]:
     kinds = importlib.import_module("ubx.messages")
     ours = importlib.import_module("ubx._library").LIBRARY
-    made = importlib.import_module("ubx._client.session").Session(
-        ours, baud=9600, reply_timeout=0.25, report_limit=16, settle=0
-    )
+    made = Session(ours, baud=9600, reply_timeout=0.25, report_limit=16, settle=0)
     request = made.submit(kinds.MonVerPoll(), question=True)
     made.outgoing(0.0)
     made.written(request, 0.0)

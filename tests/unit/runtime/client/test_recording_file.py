@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 from busservo import ActionGroupStopped, Controller, NoReplyError, open_controller
-from busservo._cli import main
-from busservo._cli.recorder import Recorder
+from busservo.__main__ import main
 from busservo._library import CODEC
-from busservo._recording.file import RecordingFile
+from framewire.command.recorder import Recorder
+from framewire.recording.file import RecordingFile
 
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine

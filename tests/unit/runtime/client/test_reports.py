@@ -12,10 +12,9 @@ from busservo import (
     ActionGroupStopped,
     Message,
 )
-from busservo._client.report_filter import ReportFilter
-from busservo._client.session import Session
-from busservo._frame.directions import RECEIVED
-from busservo._library import LIBRARY
+from busservo._library import CODEC, LIBRARY
+from framewire.client.report_filter import ReportFilter
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 
@@ -30,7 +29,7 @@ def after(story: list[Message]) -> Session:
     """Return a session in which these commands were sent and these reports came, in this order."""
     line = Session(LIBRARY, baud=math.inf, reply_timeout=0.25, report_limit=16)
     for message in story:
-        if message.DIRECTION is RECEIVED:
+        if message.DIRECTION is CODEC.received:
             line.receive(message.encode(), 0.0)
         else:
             line.submit(message)

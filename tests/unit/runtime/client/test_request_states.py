@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoMove, TransportError
-from busservo._client import session
-from busservo._client.request import STATES, Request, State, Step
-from busservo._client.session import Session
 from busservo._library import LIBRARY
+from framewire.client import session
+from framewire.client.request import STATES, Request, State, Step
+from framewire.client.session import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable

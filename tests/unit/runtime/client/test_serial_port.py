@@ -30,10 +30,10 @@ from busservo import (
     open_transport,
 )
 from busservo._library import CODEC, LINK
-from busservo._serial.hid_port import HidPort
-from busservo._serial.port_errors import not_opened
-from busservo._serial.serial_port import SerialPort
 from busservo_simulator import VirtualController
+from framewire.line.hid_port import HidPort
+from framewire.line.port_errors import not_opened
+from framewire.line.serial_port import SerialPort
 
 from tests.in_turn import in_turn
 from tests.lines.live_line import Gate
@@ -444,7 +444,7 @@ def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
         with contextlib.suppress(BlockingIOError):
             while True:
                 one.send(bytes(65536))
-        monkeypatch.setattr("busservo._serial.serial_port._WRITE_TIMEOUT", 0.01)
+        monkeypatch.setattr("framewire.line.serial_port._WRITE_TIMEOUT", 0.01)
         port = driven_by(Paused(one.fileno(), 100, [0.0]))
         with pytest.raises(WriteStuckError, match="has taken no bytes"):
             port.write(b"UU\x02\x0f")

@@ -20,16 +20,16 @@ from busservo import (
     ServoUnload,
     TransportError,
 )
-from busservo._client.exchange import Exchange
-from busservo._client.session import Session
 from busservo._library import LIBRARY
+from framewire.client.exchange import Exchange
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from busservo._client.request import Request
+    from framewire.client.request import Request
 
 
 def session(**changed: float) -> Session:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, Controller, ServoPositions
-from busservo._client.session import Session
 from busservo._library import LIBRARY
+from framewire.client.session import Session
 
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from busservo import Message
-    from busservo._client.request import Request
+    from framewire.client.request import Request
 
 REPLY_TIMEOUT = 0.25
 TRIP = 10 / 960

@@ -15,7 +15,7 @@ from busservo import (
     Message,
     NoReplyError,
 )
-from busservo._client.exchanges import EXCHANGES
+from busservo._exchanges import EXCHANGES
 from busservo.strategies import messages
 from hypothesis import given
 from hypothesis import strategies as st

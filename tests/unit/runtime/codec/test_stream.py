@@ -268,7 +268,9 @@ def test_4_it_holds_at_most_the_largest_legal_frame(
 def bytes_held(decoder: StreamDecoder) -> int:
     """Return how many bytes a decoder keeps, in all its slots; it has no other place for them."""
     kept = [
-        getattr(decoder, name) for kind in StreamDecoder.__mro__[:-1] for name in kind.__slots__
+        getattr(decoder, name)
+        for kind in StreamDecoder.__mro__[:-1]
+        for name in vars(kind)["__slots__"]
     ]
     assert not hasattr(decoder, "__dict__")
     assert not any(isinstance(value, (list, bytearray, memoryview, tuple)) for value in kept)

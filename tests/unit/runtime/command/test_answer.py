@@ -9,8 +9,8 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo._cli import main
-from busservo._cli.usage_error import UsageError
+from busservo.__main__ import main
+from framewire.command.usage_error import UsageError
 
 from tests.documents import ROOT
 from tests.handed import answers_of

@@ -10,8 +10,9 @@ from unittest import mock
 
 import pytest
 from busservo import BatteryVoltage, Controller, Message, ServoPositions
-from busservo._cli import bench_line, main
+from busservo.__main__ import main
 from busservo_simulator import Faults, VirtualController
+from framewire.command import bench_line
 
 from tests.commands import called
 from tests.lines.virtual_line import VirtualLine

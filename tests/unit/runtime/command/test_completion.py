@@ -12,12 +12,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-import busservo._cli
+import busservo.__main__
 import busservo_simulator.cli
 import framegen.cli
 import pytest
 from busservo import MESSAGES, ServoMove
-from busservo._cli.examples import VERBS
+from busservo._command import VERBS
 from busservo_simulator.faults import CHANCES
 from framegen.checks import RULES
 from framegen.comparison.changes import CHANGE_RULES
@@ -34,7 +34,7 @@ Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
 ROOT = Path(__file__).parents[4]
 PROGRAMS: dict[str, Main] = {
-    "busservo": busservo._cli.main,
+    "busservo": busservo.__main__.main,
     "busservo-simulator": busservo_simulator.cli.main,
     "framegen": framegen.cli.main,
 }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import ServoUnload
-from busservo._cli import main
+from busservo.__main__ import main
 
 if TYPE_CHECKING:
     from pathlib import Path

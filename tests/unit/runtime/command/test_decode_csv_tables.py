@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import lxservo
-import lxservo._cli
+import lxservo.__main__
 from busservo import ActionGroupStop, ServoPosition, ServoPositions, ServoPositionsRead
-from busservo._cli import csv_tables, main
+from busservo.__main__ import main
+from framewire.command import csv_tables
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -117,8 +118,8 @@ def test_what_is_read_back_is_what_json_says(
         ([str(CAPTURES / "cut_off.hex")], main),
         ([str(CAPTURES / "noisy_line.bin")], main),
         ([str(CAPTURES / "noisy_line.bin"), "--direction", "host"], main),
-        ([str(log)], lxservo._cli.main),
-        ([bytes_of_bus], lxservo._cli.main),
+        ([str(log)], lxservo.__main__.main),
+        ([bytes_of_bus], lxservo.__main__.main),
     ]
     # Into one folder: the tables of an earlier capture are replaced.
     for words, run in rows[:3]:

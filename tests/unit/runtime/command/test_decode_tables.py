@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import lxservo
-import lxservo._cli
+import lxservo.__main__
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from busservo import BatteryVoltage, tables
-from busservo._cli import main
-from busservo._cli import recording as reading
-from busservo._tables.extra import are_there
-from busservo._tables.files import parquet
+from busservo.__main__ import main
+from framewire.command import recording as reading
+from framewire.tables.extra import are_there
+from framewire.tables.files import parquet
 
 from tests.commands import Terminal
 
@@ -134,7 +134,7 @@ def test_strict_tells_noise_by_the_exit_status(capsys: Capture, tmp_path: Path) 
 def test_other_protocols_are_written_too(capsys: Capture, tmp_path: Path) -> None:
     frame = lxservo.Position(servo_id=3, position=-7).encode()
     folder = tmp_path / "tables"
-    assert lxservo._cli.main(["decode", frame.hex(), "--parquet", str(folder)]) == 0
+    assert lxservo.__main__.main(["decode", frame.hex(), "--parquet", str(folder)]) == 0
     (row,) = rows_in(folder)
     assert (row["table"], row["servo_id"], row["position"]) == ("Position", 3, -7)
 
@@ -284,8 +284,8 @@ def test_without_the_extra_the_error_says_how_to_get_it(
 ) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     # As it is where nothing has imported them yet.
-    names = [name for name in sys.modules if name.startswith("busservo._tables")]
-    for name in (*names, "busservo._cli.arrow_tables"):
+    names = [name for name in sys.modules if name.startswith("framewire.tables")]
+    for name in (*names, "framewire.command.arrow_tables"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     assert main(["decode", "55", "--parquet", str(tmp_path / "tables")]) == 2
     output, errors = capsys.readouterr()

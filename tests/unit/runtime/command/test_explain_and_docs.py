@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 import yaml
-from busservo._cli import main
+from busservo.__main__ import main
 from framegen.cases.invalid import invalid_frames
 from framegen.cases.valid import valid_frames
 from framegen.cli import main as framegen_main
@@ -49,7 +49,7 @@ SERVO, HOUSE = (compiled_file(spec).model for spec in (BUSSERVO, DEMO))
 
 def carried_by(package: str) -> Explain:
     """Return what explains bytes by the library of that name, and by nothing of framegen."""
-    text, explain = import_module(f"{package}._explanation.text"), explanations_of(package)
+    text, explain = import_module("framewire.explain.text"), explanations_of(package)
 
     def explained(frame: bytes) -> tuple[str, dict[str, Any]]:
         found = explain(frame)
@@ -170,7 +170,9 @@ def test_both_commands_print_the_same(words: str, capsys: Capture) -> None:
 @pytest.mark.parametrize(("spec", "model"), [(BUSSERVO, SERVO), (DEMO, HOUSE)])
 def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model: Model) -> None:
     (carried,) = (
-        json.loads(text) for path, text in library_of(spec).items() if "model.json" in path
+        json.loads(text)
+        for path, text in library_of(spec).items()
+        if path.endswith("/protocol.json")
     )
     usage = ("client", "python", "shell", "method", "class")
     carried["messages"] = {
@@ -285,7 +287,7 @@ def test_a_page_shows_all_that_is_written_of_a_message(name: str, capsys: Captur
 @pytest.mark.filterwarnings("ignore:.* is deprecated:DeprecationWarning")
 def test_any_library_has_its_pages(other: tuple[Data, ModuleType], capsys: Capture) -> None:
     data, made = other
-    command = import_module(f"{made.__name__}._cli").main
+    command = import_module(f"{made.__name__}.__main__").main
     for words in ([], ["errata"], ["lookalikes"], *([name] for name in data["messages"])):
         assert command(["docs", *words]) == 0
         page, errors = capsys.readouterr()

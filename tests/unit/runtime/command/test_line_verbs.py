@@ -12,16 +12,17 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from busservo import Controller, ServoPositions, ServoPositionsRead
-from busservo._cli import link, main, send, simulate
-from busservo._cli.examples import EXAMPLES, PROGRAM, VERBS
-from busservo._cli.method_verb import MethodVerb
-from busservo._cli.questions import in_parts
-from busservo._cli.verbs import verb_named
-from busservo._client import session
-from busservo._serial.hid_devices import HidDevice
-from busservo._serial.link_errors import PortNotFoundError
-from busservo._serial.serial_port import SerialPortSeen
+from busservo.__main__ import main
+from busservo._command import EXAMPLES, PROGRAM, VERBS
 from busservo_simulator import Faults, VirtualController
+from framewire.client import session
+from framewire.command import link, send, simulate
+from framewire.command.method_verb import MethodVerb
+from framewire.command.questions import in_parts
+from framewire.command.verbs import verb_named
+from framewire.line.hid_devices import HidDevice
+from framewire.line.link_errors import PortNotFoundError
+from framewire.line.serial_port import SerialPortSeen
 from serial.tools.list_ports_common import ListPortInfo
 
 from tests.commands import called
@@ -273,14 +274,14 @@ def test_ports_are_listed_and_boards_without_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda _link: devices)
+    monkeypatch.setattr("framewire.command.ports.hid_devices_at_hand", lambda _link: devices)
     assert called(main, "ports") == (0, output, errors)
 
 
 def test_ports_are_listed_as_json(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: plugged_in()[:1])
     devices = [LOBOT, NAMELESS]
-    monkeypatch.setattr("busservo._cli.ports.hid_devices_at_hand", lambda _link: devices)
+    monkeypatch.setattr("framewire.command.ports.hid_devices_at_hand", lambda _link: devices)
     # Of two boards of a kind, each has an address of its own.
     assert [json.loads(line) for line in called(main, "ports", "--json").out.splitlines()] == [
         {"port": "/dev/ttyUSB0", "usb": "1A86:7523", "description": "USB Serial"},
@@ -355,7 +356,7 @@ def imported(commands: list[list[str]], *names: str) -> list[tuple[list[str], li
     program = f"""if True:
         import sys
         sys.path[:] = {sys.path!r}
-        from busservo._cli import main
+        from busservo.__main__ import main
         found = [(words, main(words), {{*{names!r}}} & {{*sys.modules}}) for words in {commands!r}]
         print([(words, sorted(some)) for words, _, some in found if some])
     """

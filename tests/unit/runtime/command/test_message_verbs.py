@@ -14,13 +14,13 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo._cli import main
-from busservo._cli.examples import LONG, METHODS, POSE_METHODS, PROGRAM, STOP_MESSAGE
-from busservo._cli.verbs import verb_named
-from busservo._client.exchanges import EXCHANGES
+from busservo.__main__ import main
+from busservo._command import LONG, METHODS, POSE_METHODS, PROGRAM, STOP_MESSAGE
+from busservo._exchanges import EXCHANGES
 from busservo_simulator import VirtualController
 from framegen.language.command_verbs import OF_POSES, VERBS
 from framegen.targets.python import command_lines
+from framewire.command.verbs import verb_named
 
 from tests.crowd import Crowd
 from tests.factories import BUSSERVO, compiled_of, data_of

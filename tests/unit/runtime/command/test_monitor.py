@@ -22,12 +22,13 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo._cli import main, monitor
-from busservo._cli.examples import PROGRAM
-from busservo._cli.progress import Progress
-from busservo._cli.recorder import Recorder
-from busservo._cli.usage_error import UsageError
+from busservo.__main__ import main
+from busservo._command import PROGRAM
 from busservo._library import CODEC
+from framewire.command import monitor
+from framewire.command.progress import Progress
+from framewire.command.recorder import Recorder
+from framewire.command.usage_error import UsageError
 
 from tests.commands import Terminal
 

@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[4]
 
 @pytest.mark.parametrize("package", ["busservo", "lxservo"])
 def test_a_command_is_called_as_its_library_is(package: str) -> None:
-    program = import_module(f"{package}._cli.examples").PROGRAM
+    program = import_module(f"{package}._command").PROGRAM
     assert program.library is import_module(f"{package}._library").LIBRARY
     assert (program.name, program.package) == (package, package)
     assert program.settings_file == f"{package}.toml"

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead
-from busservo._cli import main, recording
-from busservo._cli.progress import Progress
-from busservo._cli.progress_bar import progress_bar
+from busservo.__main__ import main
+from framewire.command import recording
+from framewire.command.progress import Progress
+from framewire.command.progress_bar import progress_bar
 
 from tests.commands import Terminal
 from tests.timeouts import GENEROUS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo._cli import main
+from busservo.__main__ import main
 
 from tests.commands import called
 from tests.in_turn import in_turn

@@ -21,9 +21,10 @@ from busservo import (
     ServoUnload,
     open_controller,
 )
-from busservo._cli import link, main, playback
-from busservo._cli.playback import Playback
+from busservo.__main__ import main
 from busservo_simulator import Faults, VirtualController
+from framewire.command import link, playback
+from framewire.command.playback import Playback
 
 from tests.timeouts import GENEROUS, await_that
 

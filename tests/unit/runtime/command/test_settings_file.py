@@ -9,16 +9,16 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import busservo._cli
-import lxservo._cli
+import busservo.__main__
+import lxservo.__main__
 import pytest
-from busservo._cli import link, settings, teach
-from busservo._cli.examples import PROGRAM
-from busservo._cli.settings_file import parsed
-from busservo._cli.settings_save import save
-from busservo._cli.usage_error import UsageError
-from busservo._serial.link_errors import PortNotFoundError
-from lxservo._cli import link as servo_link
+from busservo._command import PROGRAM
+from framewire.command import link, settings, teach
+from framewire.command import link as servo_link
+from framewire.command.settings_file import parsed
+from framewire.command.settings_save import save
+from framewire.command.usage_error import UsageError
+from framewire.line.link_errors import PortNotFoundError
 
 from tests.factories import ROOT
 from tests.timeouts import GENEROUS
@@ -68,7 +68,7 @@ def refused_port(monkeypatch: pytest.MonkeyPatch, module: Any = link) -> list[tu
 
 def error_of(capsys: Capture, words: list[str], main: Any = None) -> str:
     """Return the one line that a command ends with, for what it is given."""
-    assert (main or busservo._cli.main)(words) == 2
+    assert (main or busservo.__main__.main)(words) == 2
     output, errors = capsys.readouterr()
     assert output == ""
     line, end, rest = errors.partition("\n")
@@ -181,14 +181,14 @@ def test_a_file_that_cannot_be_read_is_refused_and_none_is_needed_without_a_port
     error = error_of(capsys, ["hold"])
     assert error.startswith("busservo.toml cannot be read: ")
     assert error.endswith("; set that right, or move it away")
-    assert busservo._cli.main(["encode", "BatteryVoltageRead"]) == 0
+    assert busservo.__main__.main(["encode", "BatteryVoltageRead"]) == 0
 
 
 def test_other_protocols_have_files_of_their_own(
     monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     opened = refused_port(monkeypatch, servo_link)
-    main = lxservo._cli.main
+    main = lxservo.__main__.main
     Path(FILE).write_text("port = 'COM1'")
     Path("lxservo.toml").write_text("port = 'COM7'\nlocal_echo = false")
     assert main(["read-position", "1"]) == 2
@@ -214,7 +214,7 @@ def test_an_option_counts_before_the_variable_the_file_here_and_that_of_the_user
     user.parent.mkdir(parents=True)
 
     def tried(*words: str) -> None:
-        busservo._cli.main(["battery", *words])
+        busservo.__main__.main(["battery", *words])
 
     user.write_bytes(b"\xef\xbb\xbfport = 'user'\r\nbaud = 4800\r\n")
     tried()
@@ -280,12 +280,12 @@ def test_each_servo_has_its_limits_wherever_limits_hold(
         "play wave.json": f"wave.json: poses[0].positions.1: 90 {of_1}{usual}{anything}",
     }.items():
         assert error_of(capsys, [*words.split(), *FAST]) == expected
-    assert busservo._cli.main(["hold", *FAST]) == 1
+    assert busservo.__main__.main(["hold", *FAST]) == 1
     assert capsys.readouterr().err == (
         "servos 2, 3 held\nservo 1 not held: 500 is outside the limits 100..400\n"
     )
     for words in ("move 2:3000", "move 1:450 --limits 0..1000"):
-        assert busservo._cli.main([*words.split(), "--in", "1ms", "--no-wait", *FAST]) == 0
+        assert busservo.__main__.main([*words.split(), "--in", "1ms", "--no-wait", *FAST]) == 0
     Path(FILE).write_text(f"port = '{board.port}'\nlimits = [600, 700]")
     assert "the limits 600..700 in busservo.toml; " in error_of(capsys, ["move", "1:500", *FAST])
 
@@ -296,18 +296,18 @@ def test_the_ids_of_the_file_are_meant_where_none_are_named(
     Path(FILE).write_text(f"port = '{board.port}'\nids = [1, 3, 9, 3]")
     held = ["servos 1, 3 held", "servo 9 not held: no answer"]
     for verb in ("hold", "stop"):
-        assert busservo._cli.main([verb, *FAST]) == 1
+        assert busservo.__main__.main([verb, *FAST]) == 1
         assert capsys.readouterr().err.splitlines() == held
-    assert busservo._cli.main(["hold", "2", *FAST]) == 0
+    assert busservo.__main__.main(["hold", "2", *FAST]) == 0
     assert capsys.readouterr().err == "servo 2 held\n"
-    assert busservo._cli.main(["positions", *FAST]) == 1
+    assert busservo.__main__.main(["positions", *FAST]) == 1
     output, errors = capsys.readouterr()
     assert "positions=1:500,3:500" in output
     assert "servo_ids 9" in errors
     Path(FILE).write_text(f"port = '{board.port}'\nids = [1, 3]\nlimits = [600, 700]")
     lines = iter(["", "q", "n"])
     monkeypatch.setattr(teach, "_line", lambda _prompt: next(lines))
-    assert busservo._cli.main(["teach", "new.json", "--yes", *FAST]) == 1
+    assert busservo.__main__.main(["teach", "new.json", "--yes", *FAST]) == 1
     errors = capsys.readouterr().err
     assert "500 is outside the limits 600..700 in busservo.toml; " in errors
     assert "0 poses recorded; servos 1, 3 are limp\n" in errors
@@ -370,18 +370,18 @@ def test_doctor_saves_what_it_has_found_unless_a_check_fails(
     board: VirtualController, user: Path, capsys: Capture
 ) -> None:
     patient = ("--timeout", str(GENEROUS))
-    assert busservo._cli.main(["doctor", "--port", "no-such-port", "--save"]) == 1
+    assert busservo.__main__.main(["doctor", "--port", "no-such-port", "--save"]) == 1
     assert capsys.readouterr().err.endswith("nothing saved: a check has failed\n")
     assert not user.exists()
     words = ["doctor", "--port", board.port, "--baud", "inf", "--save", *patient]
-    assert busservo._cli.main(words) == 0
+    assert busservo.__main__.main(words) == 0
     expected = f'port = "{board.port}"\nbaud = inf\nids = [1, 2, 3]\n'
     assert user.read_text() == expected
     said = f"saved in {user}: {expected.strip()}".replace("\n", ", ")
     assert capsys.readouterr().err.endswith(f"{said}\n")
     # In this folder, if the file is there.
     Path(FILE).write_text(f"# arm\nport = '{board.port}'\nids = [9]\n")
-    assert busservo._cli.main(["doctor", "--save", *patient]) == 0
+    assert busservo.__main__.main(["doctor", "--save", *patient]) == 0
     assert (
         capsys.readouterr().out.splitlines()[0].endswith("; named by busservo.toml in this folder")
     )

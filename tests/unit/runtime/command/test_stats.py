@@ -11,9 +11,9 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import busservo
-import busservo._cli
+import busservo.__main__
 import lxservo
-import lxservo._cli
+import lxservo.__main__
 import pytest
 from busservo import (
     BatteryVoltage,
@@ -24,8 +24,8 @@ from busservo import (
     ServoTarget,
     recordings,
 )
-from busservo._cli import main
-from busservo._tables.stats import extremes
+from busservo.__main__ import main
+from framewire.tables.stats import extremes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -112,7 +112,7 @@ BUS = [
 
 @pytest.mark.parametrize(
     ("library", "run", "messages"),
-    [(busservo, busservo._cli.main, SERVOS), (lxservo, lxservo._cli.main, BUS)],
+    [(busservo, busservo.__main__.main, SERVOS), (lxservo, lxservo.__main__.main, BUS)],
     ids=["busservo", "lxservo"],
 )
 @pytest.mark.parametrize("seed", range(4))
@@ -202,7 +202,7 @@ def test_values_of_many_servos_are_taken_together(
 def test_values_of_a_bus_are_given_for_each_address(capsys: Capture, tmp_path: Path) -> None:
     file = tmp_path / "line.bin"
     file.write_bytes(b"".join(each.encode() for each in BUS))
-    found = stats(capsys, str(file), run=lxservo._cli.main)["values"]
+    found = stats(capsys, str(file), run=lxservo.__main__.main)["values"]
     assert [
         (each["field"], each["of"], each["number"], each["lowest"], each["highest"])
         for each in found
@@ -326,7 +326,7 @@ def test_a_missing_extra_is_named(
     monkeypatch.setitem(sys.modules, missing, None)
     for name in [*sys.modules]:
         if name.startswith(
-            ("busservo._tables", "busservo._cli.measuring", "busservo._cli.drawing")
+            ("framewire.tables", "framewire.command.measuring", "framewire.command.drawing")
         ):
             monkeypatch.delitem(sys.modules, name)
     picture = [str(tmp_path / "a.svg")] * len(words)

@@ -6,11 +6,11 @@ import json
 from typing import TYPE_CHECKING, Any
 
 import lxservo
-import lxservo._cli
+import lxservo.__main__
 import pytest
 from busservo import BatteryVoltage, ServoPosition, ServoPositions
-from busservo._cli import main
-from busservo._recording.excerpt import Moment
+from busservo.__main__ import main
+from framewire.recording.excerpt import Moment
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -77,7 +77,7 @@ def test_ids_choose_what_is_listed(capsys: Capture, tmp_path: Path) -> None:
     assert [each["number"] for each in json.loads(output)["values"]] == [None, 4]
     assert errors == "no value is measured of 3, 5, 8\n"
     data = b"".join(lxservo.Position(servo_id=each, position=each).encode() for each in range(5))
-    assert lxservo._cli.main(["stats", "--json", "--ids", "2,3", data.hex()]) == 0
+    assert lxservo.__main__.main(["stats", "--json", "--ids", "2,3", data.hex()]) == 0
     values = json.loads(capsys.readouterr().out)["values"]
     assert [(each["number"], each["highest"]) for each in values] == [(2, 2), (3, 3)]
 

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 import lxservo
-import lxservo._cli
+import lxservo.__main__
 import numpy as np
 import pytest
 from busservo import BatteryVoltage, ServoMove, ServoPosition, ServoPositions, ServoTarget
-from busservo._cli import main
+from busservo.__main__ import main
 from busservo._library import CODEC
-from busservo._recording.layout import layouts_of
-from busservo._tables.stats import panels, traces
-from busservo._tables.stats.quantities import quantities
-from busservo._tables.stats.trace import Trace
+from framewire.recording.layout import layouts_of
+from framewire.tables.stats import panels, traces
+from framewire.tables.stats.quantities import quantities
+from framewire.tables.stats.trace import Trace
 
 from tests.in_turn import in_turn
 from tests.rows import Rows
@@ -206,7 +206,7 @@ def test_a_bus_has_a_line_for_each_address(capsys: Capture, tmp_path: Path) -> N
         lxservo.Voltage(servo_id=9, voltage_mv=6900),
     ]
     file.write_bytes(b"".join(each.encode() for each in read))
-    assert lxservo._cli.main(["stats", str(file), "--plot", str(picture)]) == 0
+    assert lxservo.__main__.main(["stats", str(file), "--plot", str(picture)]) == 0
     texts, lines = drawn(picture)
     assert [*lines] == ["Position.position.1", "Position.position.9", "Voltage.voltage_mv.9"]
     assert "°" in texts

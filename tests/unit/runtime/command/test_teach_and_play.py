@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 
 import pytest
 from busservo import Message, ServoMove, ServoPositionsRead, ServoUnload
-from busservo._cli import main
-from busservo._cli.posefile import Recorded, read_poses, write_poses
-from busservo._client.exchanges import POSE
+from busservo.__main__ import main
+from busservo._exchanges import POSE
 from busservo_simulator import VirtualController
+from framewire.command.posefile import Recorded, read_poses, write_poses
 from hypothesis import given
 from hypothesis import strategies as st
 

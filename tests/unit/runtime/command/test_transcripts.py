@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import DisconnectedError
-from busservo._cli import doctor, main, monitor
-from busservo._cli.checks.checks import examine
-from busservo._cli.examples import PROGRAM
-from busservo._cli.recorder import Recorder
-from busservo._serial.serial_port import SerialPortSeen
+from busservo.__main__ import main
+from busservo._command import PROGRAM
 from busservo_simulator import VirtualController
+from framewire.command import doctor, monitor
+from framewire.command.checks.checks import examine
+from framewire.command.recorder import Recorder
+from framewire.line.serial_port import SerialPortSeen
 
 from tests.documents import ROOT
 from tests.lines.patient import CHECKS, board_with, diagnosis_of
@@ -33,8 +34,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from busservo._cli.checks.check import Check
-    from busservo._cli.checks.result import Result
+    from framewire.command.checks.check import Check
+    from framewire.command.checks.result import Result
 
 Capture = pytest.CaptureFixture[str]
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import DecodeError, Direction, EncodeError, Message
-from busservo._frame.element import Element
-from busservo._frame.envelopes import FRAME_ENVELOPE
-from busservo._frame.lists import List
-from busservo._frame.little import I16, U16
-from busservo._frame.number import ANY_ORDER, I8, U8, Number, order_of
+from busservo._envelopes import FRAME_ENVELOPE
+from framewire.frame.element import Element
+from framewire.frame.lists import List
+from framewire.frame.little import I16, U16
+from framewire.frame.number import ANY_ORDER, I8, U8, Number, order_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self

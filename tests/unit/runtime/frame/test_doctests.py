@@ -12,8 +12,8 @@ from tests.in_turn import in_turn
 # The examples of the clients need a controller: tests/unit/runtime/client/test_examples.py has one.
 ELSEWHERE = {
     "busservo.__main__",
-    "busservo._client.controller",
-    "busservo._client.async_controller",
+    "busservo._controller",
+    "busservo._async_controller",
 }
 
 

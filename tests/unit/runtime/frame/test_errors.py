@@ -9,6 +9,7 @@ import sys
 from typing import Any
 
 import busservo
+import framewire
 import pytest
 from busservo import (
     AbsentError,
@@ -36,7 +37,7 @@ from busservo import (
     TransportError,
     WriteStuckError,
 )
-from busservo._serial.port_errors import not_opened
+from framewire.line.port_errors import not_opened
 
 from tests.in_turn import in_turn
 
@@ -96,8 +97,8 @@ def test_every_error_has_its_family() -> None:
 @each_error
 def test_an_error_is_named_as_it_is_imported(error: ProtocolError) -> None:
     kind = type(error)
-    assert kind.__module__ == "busservo"
-    assert getattr(busservo, kind.__name__) is kind
+    assert kind.__module__ == "framewire"
+    assert getattr(framewire, kind.__name__) is getattr(busservo, kind.__name__) is kind
 
 
 def test_an_error_of_somebody_else_keeps_its_name() -> None:
@@ -108,10 +109,10 @@ def test_an_error_of_somebody_else_keeps_its_name() -> None:
 
 
 def test_a_traceback_names_the_package_though_nothing_was_imported_from_it() -> None:
-    code = "from busservo._codec.codec import decode\ndecode(b'', None)"
+    code = "from busservo._codec import decode\ndecode(b'', None)"
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
-    assert done.stderr.splitlines()[-1].startswith("busservo.DecodeError: too short")
+    assert done.stderr.splitlines()[-1].startswith("framewire.DecodeError: too short")
 
 
 @each_error

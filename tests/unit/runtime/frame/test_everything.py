@@ -49,7 +49,7 @@ def lists(made: Any, **changes: Any) -> Any:
 
 def command_values(made: ModuleType) -> Any:
     """Return what shows and reads values in the command of a library."""
-    return importlib.import_module(f"{made.__name__}._cli.values")
+    return importlib.import_module("framewire.command.values")
 
 
 def test_the_address_comes_first_and_the_running_number_by_name(everything: Any) -> None:
@@ -134,7 +134,7 @@ def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size:
 
 def test_what_is_absent_has_no_value_to_compare(everything: Any) -> None:
     """Limits and replies are compared by column: of what is absent, there is none."""
-    column = importlib.import_module(f"{everything.__name__}._client.exchange").column
+    column = importlib.import_module("framewire.client.exchange").column
     assert column(everything.Tail(1), "second") == []
     assert column(everything.Tail(1, second=7), "second") == [7]
 

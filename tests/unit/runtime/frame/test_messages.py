@@ -39,9 +39,9 @@ from busservo import (
     ServoUnload,
     UnknownFrame,
 )
-from busservo._frame.element import Element
-from busservo._frame.number import U8
 from framewire.explain import refusals
+from framewire.frame.element import Element
+from framewire.frame.number import U8
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import DecodeError, Direction, EncodeError, Message, Noise, Reason, StreamDecoder
-from busservo._frame.element import Element
-from busservo._frame.envelopes import FRAME_ENVELOPE, HEADS
-from busservo._frame.lists import List
-from busservo._frame.little import U16
-from busservo._frame.number import U8
-from busservo._frame.table import Table, largest_of
+from busservo._envelopes import FRAME_ENVELOPE, HEADS
 from busservo._library import CODEC
+from framewire.frame.element import Element
+from framewire.frame.lists import List
+from framewire.frame.little import U16
+from framewire.frame.number import U8
+from framewire.frame.table import Table, largest_of
 
 from tests.strategies import bytes_of, joined, noise, single_bytes
 

@@ -22,7 +22,7 @@ from busservo import (
     ServoUnload,
     UnknownFrame,
 )
-from busservo._cli.values import fields_in_json
+from framewire.command.values import fields_in_json
 
 from tests.cases import Case, each_case
 from tests.in_turn import in_turn

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import recordings, tables
-from busservo._cli.recording import Recording
-from busservo._cli.usage_error import UsageError
-from busservo._codec.event_bytes import bytes_of
 from busservo._library import CODEC
-from busservo._tables.stats.statistics import statistics
 from busservo.recordings import RecordingError
 from framegen.audit.recording import read_recording
 from framegen.guess.capture import read_capture
 from framegen.reading.yamltree import Unusable
+from framewire.codec.event_bytes import bytes_of
+from framewire.command.recording import Recording
+from framewire.command.usage_error import UsageError
+from framewire.tables.stats.statistics import statistics
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,14 +1,11 @@
 """Hex is one language, for the library, its command and framegen: as a table, and cut anywhere."""
 
-from inspect import getsource
 from itertools import pairwise
 
-import framewire.codec.hextext
 import pytest
-from busservo._cli import main
-from busservo._codec import hextext
-from busservo._codec.hextext import HexError, HexReader, is_hex, read_hex
+from busservo.__main__ import main
 from framegen.cli import main as framegen_main
+from framewire.codec.hextext import HexError, HexReader, is_hex, read_hex
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -18,11 +15,6 @@ from tests.in_turn import in_turn
 
 # What has no place among the words of a command line.
 WORDS = [text for text in NO_HEX if "\0" not in text]
-
-
-def test_the_library_has_the_text_of_framegen() -> None:
-    _banner, ours = getsource(hextext).split("\n", 1)
-    assert ours == getsource(framewire.codec.hextext)
 
 
 @in_turn("text, data", lambda: HEX)

@@ -7,12 +7,12 @@ import json
 
 import pytest
 from busservo import Direction, recordings
-from busservo._cli import main
-from busservo._codec.event_bytes import bytes_of
-from busservo._codec.hextext import read_hex
-from busservo._recording.form import LogError, log_lines, without_log
+from busservo.__main__ import main
 from busservo.recordings import RecordingError
 from framegen.cli import main as framegen_main
+from framewire.codec.event_bytes import bytes_of
+from framewire.codec.hextext import read_hex
+from framewire.recording.form import LogError, log_lines, without_log
 
 from tests.factories import BUSSERVO
 from tests.hex_cases import HEX, LOGS, NO_HEX, NO_LOGS

@@ -24,8 +24,8 @@ from busservo import (
     UnknownFrame,
     strategies,
 )
-from busservo._recording.form import LONGEST_LINE, is_text
 from busservo.recordings import Entry, RecordingError, read
+from framewire.recording.form import LONGEST_LINE, is_text
 from hypothesis import example, given
 from hypothesis import strategies as st
 

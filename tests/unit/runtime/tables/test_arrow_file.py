@@ -9,10 +9,10 @@ import pyarrow as pa
 import pytest
 from busservo import Direction
 from busservo._library import CODEC
-from busservo._tables.files.arrow_file import arrow_written
-from busservo._tables.schema import schemas_of
 from busservo.recordings import RecordingError
 from busservo.tables import NOISE, read, read_batches, schemas, write_arrow
+from framewire.tables.files.arrow_file import arrow_written
+from framewire.tables.schema import schemas_of
 
 from tests.unit.runtime.tables.conversations import conversation, recorded
 

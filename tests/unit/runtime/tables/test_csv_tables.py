@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, dict[str, str]]]:
     """Return the rows of all files, in the order of the capture, as they are read back."""
-    tables: Any = import_module(f"{made.__name__}._cli.csv_tables")
+    tables: Any = import_module("framewire.command.csv_tables")
     recordings: Any = import_module(f"{made.__name__}.recordings")
     with TemporaryDirectory() as folder:
         entries = recordings.read(io.BytesIO(line), form="raw", direction=direction)

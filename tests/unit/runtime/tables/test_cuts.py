@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import ActionGroupStop, Direction, Noise, ServoMove, ServoUnload, StreamDecoder
-from busservo._tables.archive import cuts
 from busservo.tables import safe_cuts
+from framewire.tables.archive import cuts
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -17,10 +17,10 @@ import lxservo.tables
 import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 import pytest
-from busservo._tables.archive import dataset, manifest
-from busservo._tables.archive.manifest import Manifest
-from busservo._tables.files.parquet import ParquetFiles
 from busservo.tables import Piece, Report, archive, read, scan
+from framewire.tables.archive import dataset, manifest
+from framewire.tables.archive.manifest import Manifest
+from framewire.tables.files.parquet import ParquetFiles
 
 from tests.rows import Rows
 from tests.unit.runtime.tables.conversations import conversation, recorded

@@ -11,7 +11,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo._cli import main
+from busservo.__main__ import main
 
 from tests.documents import ROOT, copy_project, played
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from busservo import BatteryVoltage
 from busservo._library import CODEC
-from busservo._tables.stats import statistics
-from busservo._tables.stats.timeline import Intervals, Moments
+from framewire.tables.stats import statistics
+from framewire.tables.stats.timeline import Intervals, Moments
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -122,8 +122,8 @@ def filler(name: str) -> bytes:
 
 def is_vectorised(made: ModuleType, direction: Any) -> bool:
     """Tell whether a library searches at many places at once."""
-    layout: Any = import_module(f"{made.__name__}._recording.layout")
-    searchable: Any = import_module(f"{made.__name__}._tables.search.searchable")
+    layout: Any = import_module("framewire.recording.layout")
+    searchable: Any = import_module("framewire.tables.search.searchable")
     library: Any = import_module(f"{made.__name__}._library")
     return bool(searchable.is_searchable(layout.layouts_of(library.CODEC).on(direction)))
 

@@ -11,9 +11,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from busservo import Direction
-from busservo._tables.files import parquet
 from busservo.recordings import RecordingError
 from busservo.tables import read, schemas, write_parquet
+from framewire.tables.files import parquet
 
 from tests.unit.runtime.tables.conversations import conversation, recorded
 

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import busservo
 import pytest
+from framewire.command import statistics_sheet
+from framewire.tables.stats.statistics import statistics
+from framewire.tables.stats.traces import Traces
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -38,14 +41,12 @@ def part(made: ModuleType, name: str) -> Any:
 
 
 def statistics_of(made: ModuleType, line: bytes, **how: Any) -> Any:
-    measure, codec = part(made, "_tables.stats.statistics").statistics, part(made, "_library").CODEC
-    return measure(codec, line, form="raw", **how)
+    return statistics(part(made, "_library").CODEC, line, form="raw", **how)
 
 
 def traces_of(made: ModuleType) -> Any:
     library = part(made, "_library")
-    traces = part(made, "_tables.stats.traces").Traces
-    return traces(library.LINK.bits_per_byte / 9600, library.CODEC.received)
+    return Traces(library.LINK.bits_per_byte / 9600, library.CODEC.received)
 
 
 def _measured(
@@ -155,7 +156,7 @@ def test_statistics_can_be_shown_and_drawn(
     line = data.draw(lines_of(name, made))
     traces = traces_of(made)
     found = statistics_of(made, line, traces=traces)
-    sheet = part(made, "_cli.statistics_sheet")
+    sheet = statistics_sheet
     link = handed_by(made.__name__).link
     assert f'"bytes": {len(line)}' in sheet.as_json(found, 9600, link)
     sheet.show(found, "line.bin", 9600, link)

@@ -5,8 +5,8 @@ from io import BytesIO
 import pytest
 from busservo import recordings
 from busservo._library import CODEC
-from busservo._tables.by_entry import events_by_entry
-from busservo._tables.stats.timeline import Clockwork, Timeline
+from framewire.tables.by_entry import events_by_entry
+from framewire.tables.stats.timeline import Clockwork, Timeline
 
 RECORDING = """\
 # recorded of 'a line' from 2026-01-02 09:08:07.250000 +0000 on

@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
-from busservo._tables.stats import trace
+from framewire.tables.stats import trace
 
 
 def test_a_long_trace_keeps_what_can_be_seen_of_it() -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pyarrow as pa
 import pytest
 from framegen.model.checksums import CHECKSUMS
+from framewire.tables.stats.statistics import statistics
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -111,8 +112,7 @@ def test_numbers_of_any_width_are_in_the_tables(bits: int) -> None:
             line = b"".join(frame(bits, *each) for each in sent)
             rows = rows_in_tables(made, line)
             assert rows == rows_of_decoder(made, line)
-            measure = part(made, "_tables.stats.statistics").statistics
-            found = measure(part(made, "_library").CODEC, line, form="raw")
+            found = statistics(part(made, "_library").CODEC, line, form="raw")
             unknown = [row for row in rows if row.table == "unknown"]
             assert sum(each.count for each in found.unknown) == len(unknown)
             stations = {row.fields["station"] for row in rows if row.table in ("Low", "High")}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo._cli.checks import silence
+from framewire.command.checks import silence
 
 from tests.contract.protocols.conftest import libraries
 from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport

@@ -7,21 +7,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo._cli import doctor, main
-from busservo._cli.checks import reply
-from busservo._cli.checks.check import Check
-from busservo._cli.checks.checks import examine
-from busservo._cli.checks.report import Report
-from busservo._cli.checks.result import PASSED, passed
-from busservo._serial.link_errors import DisconnectedError
+from busservo.__main__ import main
 from busservo_simulator import Faults, VirtualController
+from framewire.command import doctor
+from framewire.command.checks import reply
+from framewire.command.checks.check import Check
+from framewire.command.checks.checks import examine
+from framewire.command.checks.report import Report
+from framewire.command.checks.result import PASSED, passed
+from framewire.line.link_errors import DisconnectedError
 
 from tests.lines.patient import ADAPTER, CHECKS, PORT, board_with, diagnosis_of, examined
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from busservo._cli.checks.diagnosis import Diagnosis
-    from busservo._cli.checks.result import Result
+    from framewire.command.checks.diagnosis import Diagnosis
+    from framewire.command.checks.result import Result
 
 Capture = pytest.CaptureFixture[str]
 
@@ -147,7 +148,7 @@ def test_a_report_of_no_port_at_all_is_one_too(tmp_path: Path) -> None:
 
 
 def test_a_report_of_a_board_by_usb_hid_names_it(tmp_path: Path) -> None:
-    from busservo._serial.hid_devices import HidDevice  # noqa: PLC0415 - where it is used
+    from framewire.line.hid_devices import HidDevice  # noqa: PLC0415 - where it is used
 
     found = [HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")]
     with board_with() as board:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import ActionGroupStarted
-from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
 from busservo_simulator import Faults
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from busservo._cli.checks.heard import PAUSE, Heard
-from busservo._codec.event_bytes import bytes_of
 from busservo._library import CODEC
+from framewire.codec.event_bytes import bytes_of
+from framewire.command.checks.heard import PAUSE, Heard
 from hypothesis import given
 from hypothesis import strategies as st
 

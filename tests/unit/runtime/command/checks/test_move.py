@@ -6,21 +6,22 @@ import math
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo._cli import doctor, main
-from busservo._cli.checks import move
-from busservo._cli.checks.checks import examine
-from busservo._cli.checks.move import move_check
-from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
-from busservo._cli.examples import PROGRAM
-from busservo._client.exchanges import POSE
-from busservo._client.limits import Limits
+from busservo.__main__ import main
+from busservo._command import PROGRAM
+from busservo._exchanges import POSE
 from busservo_simulator import Faults, VirtualController, servo
+from framewire.client.limits import Limits
+from framewire.command import doctor
+from framewire.command.checks import move
+from framewire.command.checks.checks import examine
+from framewire.command.checks.move import move_check
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
 
 from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from busservo._cli.checks.result import Result
+    from framewire.command.checks.result import Result
 
 OPENING = [check for check in CHECKS if check.id in {"port", "permission", "busy", "opening"}]
 

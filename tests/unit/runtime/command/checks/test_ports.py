@@ -15,12 +15,12 @@ from busservo import (
     PortNotFoundError,
     PortPermissionError,
 )
-from busservo._cli.checks import port_listed, rate
-from busservo._cli.checks.checks import examine
-from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
-from busservo._serial.hid_devices import HidDevice
-from busservo._serial.serial_port import SerialPortSeen
 from busservo_simulator import VirtualController
+from framewire.command.checks import port_listed, rate
+from framewire.command.checks.checks import examine
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
+from framewire.line.hid_devices import HidDevice
+from framewire.line.serial_port import SerialPortSeen
 
 from tests.in_turn import in_turn
 from tests.lines.patient import CHECKS, board_with, diagnosis_at, diagnosis_of, examined

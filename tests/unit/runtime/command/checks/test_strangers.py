@@ -7,8 +7,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo._cli.checks.result import FAILED, PASSED, UNKNOWN
-from busservo._cli.plain_text import plain_text
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
+from framewire.command.plain_text import plain_text
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -37,10 +37,10 @@ DIALECT = bytes.fromhex("55 55 05 0A 01 02 03")
 
 def examined(device: Stranger | Board, package: str = "busservo") -> dict[str, Any]:
     """Return the result of each check of a library's doctor."""
-    checks: Any = import_module(f"{package}._cli.checks.checks")
-    diagnosis: Any = import_module(f"{package}._cli.checks.diagnosis")
+    checks: Any = import_module("framewire.command.checks.checks")
+    diagnosis: Any = import_module("framewire.command.checks.diagnosis")
     program = program_of(package)
-    seen: Any = import_module(f"{package}._serial.serial_port").SerialPortSeen
+    seen: Any = import_module("framewire.line.serial_port").SerialPortSeen
     port = StrangersPort(device) if isinstance(device, Stranger) else VirtualPort(device)
 
     def opened(_: str, rate: float) -> VirtualPort:
@@ -337,7 +337,7 @@ def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
     libraries: Libraries, name: str
 ) -> None:
     package = name if name == "lxservo" else libraries[name].__name__
-    rate = import_module(f"{package}._frame.protocol").BAUD
+    rate = import_module(f"{package}._library").LINK.baud
     for device, made in OF_NONE.items():
         found = examined(made(rate), package)["look-alike"]
         assert found.state == UNKNOWN, (device, found)
