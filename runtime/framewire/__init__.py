@@ -57,13 +57,14 @@ __all__ = [
 # Where errors are; each is imported when it is first needed.
 _HOMES = ("frame.errors", "line.link_errors", "client.failures")
 
+if not TYPE_CHECKING:
 
-def __getattr__(name: str) -> object:
-    if name in __all__:
-        for home in _HOMES:
-            # Not importlib, which would have to be imported first.
-            error = getattr(__import__(f"{__name__}.{home}", fromlist=[name]), name, None)
-            if error is not None:
-                globals()[name] = error
-                return error
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    def __getattr__(name: str) -> object:
+        if name in __all__:
+            for home in _HOMES:
+                # Not importlib, which would have to be imported first.
+                error = getattr(__import__(f"{__name__}.{home}", fromlist=[name]), name, None)
+                if error is not None:
+                    globals()[name] = error
+                    return error
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
