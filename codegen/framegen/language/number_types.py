@@ -1,6 +1,6 @@
 """The number types that fields can have: a new type is a new row here.
 
-The Python library has a class for each, in `number.py` of its runtime.
+Python libraries have a class for each, in the room `frame` of their runtime.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ x may be a multiplication sign, as in printed manuals), or the
 backslash and x of strings in C and Python; after one of these prefixes, a single digit at the end
 of a word is a byte, too; and so is a word of 0b and eight binary digits. Nothing else is hex.
 
-The Python target copies this into each library, and the script of the decoder's page does the same.
+The script of the decoder's page reads the same.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The verb `answer`: this library at the end of a pipe, for programs in any language."""
+"""The verb `answer`: a library at the end of a pipe, for programs in any language."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Colours on terminals: none for a pipe, a file, or where NO_COLOR is set.
-
-The Python target copies this file into each library, so it imports the standard library alone.
-"""
+"""Colours on terminals: none for a pipe, a file, or where NO_COLOR is set."""
 
 from __future__ import annotations
 

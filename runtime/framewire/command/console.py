@@ -3,9 +3,6 @@
 What is printed may hold names that others chose (of ports, of files, in a spec), and these must not
 control the terminal. A stream may be closed or full, or its reader may be gone: status and error
 are then the same whether or not Python buffers the output.
-
-The Python target copies this file into each library: besides the standard library, it imports only
-what stands beside it there as well.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Parts of the command that need an extra of this package, imported when they are asked for."""
+"""Parts of the command that need an extra of its package, imported when they are asked for."""
 
 from __future__ import annotations
 

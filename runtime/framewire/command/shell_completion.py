@@ -1,7 +1,4 @@
-"""What a shell needs to complete a command line, made by shtab, which is an extra.
-
-The Python target copies this file into each library, so it imports the standard library alone.
-"""
+"""What a shell needs to complete a command line, made by shtab, which is an extra."""
 
 from __future__ import annotations
 

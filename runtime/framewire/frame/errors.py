@@ -1,4 +1,4 @@
-"""What all errors of this library are, and those about frames and values: these are ValueErrors."""
+"""What all errors of libraries are, and those about frames and values: these are ValueErrors."""
 
 from __future__ import annotations
 

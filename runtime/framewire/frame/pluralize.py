@@ -1,7 +1,4 @@
-"""Numbers in words: how many there are of something, and which.
-
-The Python target copies this file into each library, so it imports nothing of ours.
-"""
+"""Numbers in words: how many there are of something, and which."""
 
 from __future__ import annotations
 

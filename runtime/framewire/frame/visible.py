@@ -1,7 +1,4 @@
-"""Text that others chose, such as the name of a file, made harmless and plain to see on a screen.
-
-The Python target copies this file into each library, so it imports the standard library alone.
-"""
+"""Text that others chose, such as names of files, made harmless and plain to see on a screen."""
 
 from __future__ import annotations
 

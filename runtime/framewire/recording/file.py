@@ -7,8 +7,6 @@
 
 Times are seconds from its beginning. `# quiet` says that the line went quiet within a frame: what
 follows is not the rest of it. Any reader of hex can read such a file; `recordings` reads all of it.
-
-The Python target copies this file into each library, so it imports the standard library alone.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Distinguish a text recording from raw bytes, by how it begins, and read its text in lines.
 
-Whatever reads a capture asks here. The Python target copies this file into each library, so it
-imports the standard library alone.
+Whatever reads a capture asks here.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The Python library: typed messages, a codec and a stream decoder, on the standard library."""
+"""The Python library: what the spec decides of it, on a runtime that all libraries share."""
 
 from __future__ import annotations
 
