@@ -30,7 +30,7 @@ def named() -> list[str]:
 
 def module_of(frame: FrameType) -> str:
     file = Path(frame.f_code.co_filename)
-    return file.stem if any(map(file.is_relative_to, PACKAGES)) else ""
+    return file.stem.lstrip("_") if any(map(file.is_relative_to, PACKAGES)) else ""
 
 
 def test_a_request_crosses_the_modules_that_the_design_names() -> None:
