@@ -12,6 +12,8 @@ from framegen.reading.yamltree import Unusable
 
 FOLDER = "spec"
 GUIDES = "docs"
+# What all libraries of a project import, if it has that.
+_RUNTIME = Path("runtime", "framewire")
 # A key that every spec has, and hardly another file.
 _LIKE_A_SPEC = re.compile(rb"^framegen:", re.MULTILINE)
 _HEAD = 4_000
@@ -58,6 +60,11 @@ def project_root(spec: Path) -> Path:
     """Return the root of output paths: the folder above `spec/`, or that of the spec."""
     folder = spec.parent.resolve()
     return folder.parent if folder.name == FOLDER else folder
+
+
+def carries_runtime(spec: Path) -> bool:
+    """Tell whether the library of a spec brings the runtime: the project has none to share."""
+    return not (project_root(spec) / _RUNTIME).is_dir()
 
 
 def near(folder: Path) -> Path:

@@ -52,12 +52,16 @@ def render_shared(compiled: Compiled, targets: Collection[Target] | None = None)
 
 
 def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
-    """Render the files of one target, with a banner in each non-empty file that has comments."""
+    """Render the files of one target, with a banner in each non-empty file that has comments.
+
+    What is a copy stays as it is.
+    """
     spec = "" if target.shared else compiled.source.path
+    copies = tuple(f"{folder}/" for folder in target.copies(compiled.model))
     headed = target.render(compiled, snippets())
     for path, text in headed.items():
         comment = target.comments.get(splitext(path)[1])
-        if comment is not None and text:
+        if comment is not None and text and not path.startswith(copies):
             headed[path] = f"{comment.before}{banner(spec)}{comment.after}\n{text}"
     return headed
 

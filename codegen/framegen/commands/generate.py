@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,7 @@ EXAMPLES = (
     ("framegen generate --diff", "show what that would change, and change nothing"),
     ("framegen generate --check", "fail if anything would change: for CI"),
     ("framegen generate --out build", "write below another folder"),
+    ("framegen generate --runtime carried --out build", "libraries there that need nothing else"),
 )
 _WRITES = (
     ("generated/NAME/", "the library of the spec with this `name`, and its test vectors"),
@@ -41,6 +43,7 @@ ABOUT = f"""\
 
 These paths are below the folder that holds spec/, or for a spec that lies elsewhere below its own
 folder, or below --out. Only what framegen wrote is replaced or removed."""
+CARRIED, SHARED = "carried", "shared"
 # Of many files that are in nobody's way, as many are named.
 _NAMED = 3
 
@@ -60,6 +63,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="write below this folder; otherwise below the one that holds spec/, "
         "or that of a spec which lies elsewhere",
     )
+    parser.add_argument(
+        "--runtime",
+        choices=(SHARED, CARRIED),
+        help="whether libraries import what all of them have in common from the package framewire, "
+        f"or each brings it; without this, {SHARED} where the project has runtime/framewire, and "
+        f"{CARRIED} elsewhere",
+    )
 
 
 def run(arguments: Namespace) -> int:
@@ -72,6 +82,8 @@ def run(arguments: Namespace) -> int:
     targets = [_target(arguments.target)] if arguments.target else None
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
     specs = [compiled(file) for file in files]
+    if arguments.runtime is not None:
+        specs = [replace(spec, carries_runtime=arguments.runtime == CARRIED) for spec in specs]
     if print_findings(specs):
         return 1
     outputs = [*(render(spec, targets) for spec in specs), render_shared(specs[0], targets)]

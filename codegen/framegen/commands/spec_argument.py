@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from framewire.frame.pluralize import pluralize
 
 from framegen.compile import compile_spec, placed
 from framegen.language.load import read_source
-from framegen.project import default_spec, named_spec
+from framegen.project import carries_runtime, default_spec, named_spec
 from framegen.reading.yamltree import Unusable
 
 if TYPE_CHECKING:
@@ -27,11 +28,13 @@ def spec_file(word: Path) -> Path:
 def compiled(file: Path | None) -> Compiled:
     """Compile `file`, the named spec of the project, or the only spec.
 
+    Its library has the runtime from where the project says that it is.
     Raises Unusable, with the place in the text, where it is no spec at all.
     """
-    source = read_source(default_spec() if file is None else spec_file(file))
+    found = default_spec() if file is None else spec_file(file)
+    source = read_source(found)
     try:
-        return compile_spec(source)
+        return replace(compile_spec(source), carries_runtime=carries_runtime(found))
     except Unusable as error:
         raise placed(error, source) from None
 

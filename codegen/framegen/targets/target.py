@@ -75,7 +75,7 @@ class Target:
     `render` gives the files by path below the project's root: the same for the same spec, whatever
     the disk holds. It is handed the snippets of all targets, by name of the target. `folders` are
     those that hold nothing else, `comments` how a line becomes a comment, by suffix: such files get
-    the banner. `reserved` are the words that no name may be in this target, and `bent` what became
+    the banner, but for those in `copies`, folders of files that are brought as they are. `reserved` are the words that no name may be in this target, and `bent` what became
     of names that are. `snippets` shows an example of a message as code, in several ways. `shared`
     says that the files are the same for every spec: they belong to framegen.
     """
@@ -85,6 +85,7 @@ class Target:
     render: Callable[[Compiled, Snippets], dict[str, str]]
     folders: Callable[[Model], tuple[str, ...]] = _no_folders
     comments: Mapping[str, Comment] = field(default_factory=dict)
+    copies: Callable[[Model], tuple[str, ...]] = _no_folders
     reserved: tuple[Reserved, ...] = ()
     bent: Callable[[Model], list[BentName]] = _nothing_bent
     snippets: ShowExample | None = None

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from framegen.targets.python.carried_model import carried_model
+from framegen.targets.python.carried_runtime import FOLDER, carried_runtime
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
@@ -36,9 +37,10 @@ _OF_ADDRESSES = frozenset({"_async_devices.py", "_devices.py"})
 
 def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
     """Render the library's files, by path below the project's root."""
-    runtime = CARRIED if compiled.carries_runtime else SHARED
-    library = LibraryView(names_of(compiled.model).library, runtime)
+    carries = compiled.carries_runtime
+    library = LibraryView(names_of(compiled.model).library, CARRIED if carries else SHARED)
     files = _from_templates(library) | {"protocol.json": carried_model(compiled), "py.typed": ""}
+    files |= carried_runtime() if carries else {}
     (root,) = folders(compiled.model)
     return {f"{root}/{name}": text for name, text in files.items()}
 
@@ -46,6 +48,11 @@ def render(compiled: Compiled, _snippets: Snippets) -> dict[str, str]:
 def folders(model: Model) -> tuple[str, ...]:
     """Return the folder of the package."""
     return (f"generated/{model.spec.protocol.name}",)
+
+
+def copies(model: Model) -> tuple[str, ...]:
+    """Return the folder of the runtime that the package may carry."""
+    return tuple(f"{folder}/{FOLDER}" for folder in folders(model))
 
 
 def _from_templates(library: LibraryView) -> dict[str, str]:
@@ -87,6 +94,7 @@ TARGET = Target(
         ".toml": Comment("# "),
         ".md": Comment("<!-- ", " -->"),
     },
+    copies=copies,
     reserved=RESERVED,
     bent=bent,
     snippets=snippets,

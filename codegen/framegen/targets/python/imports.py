@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from jinja2 import pass_context
 
+from framegen.targets.python.carried_runtime import FOLDER
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 
 SHARED = "framewire"
 """Where the runtime is that libraries share."""
-CARRIED = "._runtime"
+CARRIED = f".{FOLDER}"
 """Where it is in a library that carries its own."""
 
 
