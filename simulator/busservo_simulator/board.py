@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import busservo
 from busservo import (
     ActionGroupCompleted,
     ActionGroupSpeed,
@@ -15,7 +16,6 @@ from busservo import (
 )
 from busservo._library import LINK
 from busservo.device import Device
-from framewire.line import link_errors
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
@@ -58,7 +58,7 @@ class Board(Device):
     """
 
     baud = LINK.baud
-    errors = link_errors
+    errors = busservo
 
     def __init__(
         self,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import lxservo
 from busservo_simulator.event_log import EventLog
 from busservo_simulator.fault_injector import FaultInjector
 from busservo_simulator.line_faults import LineFaults
-from framewire.line import link_errors
 from lxservo import (
     LastMove,
     Led,
@@ -82,7 +82,7 @@ class ServoBus(Device):
     """
 
     baud = LINK.baud
-    errors = link_errors
+    errors = lxservo
 
     def __init__(self, servos: Iterable[int] = DEFAULT_SERVOS) -> None:
         super().__init__()

@@ -75,9 +75,10 @@ class Target:
     `render` gives the files by path below the project's root: the same for the same spec, whatever
     the disk holds. It is handed the snippets of all targets, by name of the target. `folders` are
     those that hold nothing else, `comments` how a line becomes a comment, by suffix: such files get
-    the banner, but for those in `copies`, folders of files that are brought as they are. `reserved` are the words that no name may be in this target, and `bent` what became
-    of names that are. `snippets` shows an example of a message as code, in several ways. `shared`
-    says that the files are the same for every spec: they belong to framegen.
+    the banner, but for those in `copies`, folders of what is brought as it is. `reserved` are the
+    words that no name may be in this target, and `bent` what became of names that are. `snippets`
+    shows an example of a message as code, in several ways. `shared` says that the files are the
+    same for every spec: they belong to framegen.
     """
 
     name: str

@@ -72,6 +72,11 @@ class LibraryView:
     """Where the runtime is that it imports from."""
 
     @property
+    def carries(self) -> bool:
+        """Whether it is in the library itself."""
+        return self.runtime != SHARED
+
+    @property
     def version(self) -> str:
         return self.model.spec.protocol.version
 
