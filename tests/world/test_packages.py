@@ -33,7 +33,8 @@ FOLDERS = {
     "busservo-simulator": "simulator",
     "lxservo": "generated/lxservo",
 }
-# Whose project file is generated: no licence lies in that folder, only its name.
+# Whose project file is generated: no licence lies in that folder, only its name. It is built from a
+# tree in which it carries the runtime, since its wheel has to stand alone.
 GENERATED = {"lxservo"}
 
 LIBRARY = """
@@ -83,6 +84,22 @@ with VirtualController(clock=VirtualClock(follow_reads=True)) as board:
         (servo,) = controller.read_servo_positions([1])
 assert servo.position == 800, servo
 """
+SERVOS = """
+import lxservo
+from busservo_simulator import VirtualClock
+from lxservo_simulator import VirtualBus
+
+with VirtualBus(clock=VirtualClock(follow_reads=True)) as bus:
+    with lxservo.Controller(bus.transport, background=False, clock=bus.clock.now) as servos:
+        assert servos.read_position(3) == bus.servos[3].position
+    bus.unplug()
+    try:
+        bus.transport.open()
+    except lxservo.PortNotFoundError:
+        pass
+    else:
+        raise AssertionError("an unplugged bus was opened")
+"""
 
 
 def run(*command: object, cwd: Path) -> str:
@@ -100,8 +117,12 @@ def pip(*arguments: object, cwd: Path) -> str:
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a wheel of each package, built from its source distribution alone."""
-    folder = tmp_path_factory.mktemp("dist")
-    for project in FOLDERS.values():
+    folder, alone = tmp_path_factory.mktemp("dist"), tmp_path_factory.mktemp("alone")
+    for name in GENERATED:
+        spec = ROOT / "spec" / f"{name}.yaml"
+        words = ["generate", spec, "--target", "python", "--runtime", "carried", "--out", alone]
+        run(sys.executable, "-m", "framegen", *words, cwd=folder)
+    for name, project in FOLDERS.items():
         run(
             sys.executable,
             "-m",
@@ -109,7 +130,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "--no-isolation",
             "--outdir",
             folder,
-            ROOT / project,
+            (alone if name in GENERATED else ROOT) / project,
             cwd=folder,
         )
     return folder
@@ -184,6 +205,34 @@ def install(python: str, shelf: Path, tmp_path: Path) -> Callable[..., Path]:
         return folder
 
     return installed
+
+
+@pytest.mark.parametrize("name", GENERATED)
+def test_a_library_that_is_built_alone_carries_the_whole_runtime(built: Path, name: str) -> None:
+    (wheel,) = files_of(built, name, ".whl")
+    shared = ROOT / "runtime" / "framewire"
+    wanted = {
+        f"{name}/_runtime/{file.relative_to(shared).as_posix()}": file.read_bytes()
+        for file in shared.rglob("*")
+        if file.suffix in {".py", ".typed"}
+    }
+    with zipfile.ZipFile(wheel) as archive:
+        inside = [each for each in archive.namelist() if each.startswith(f"{name}/_runtime/")]
+        assert {each: archive.read(each) for each in inside} == wanted
+        assert b"framewire" not in archive.read(f"{name}/__init__.py")
+
+
+@pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
+@pytest.mark.parametrize("name", GENERATED)
+def test_a_library_that_carries_the_runtime_runs_alone(
+    built: Path, install: Callable[..., Path], name: str, ending: str, tmp_path: Path
+) -> None:
+    programs = install(*files_of(built, name, ending))
+    absent = "import importlib.util; print(importlib.util.find_spec('framewire'))"
+    assert run(programs / "python", "-c", absent, cwd=tmp_path) == "None\n"
+    shown = run(programs / name, "decode", *CAPTURED[name]["FRAME"].split(), cwd=tmp_path)
+    assert f"{CAPTURED[name]['MESSAGE']} " in shown
+    run(programs / name, "docs", CAPTURED[name]["MESSAGE"], cwd=tmp_path)
 
 
 @pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
@@ -281,11 +330,13 @@ def test_all_packages_run_together(
         files_of(built, "framegen", ".whl")[0].name.split("-")[1]
     }
     run(programs / "python", "-W", "error", "-c", BOARD, cwd=tmp_path)
+    run(programs / "python", "-W", "error", "-c", SERVOS, cwd=tmp_path)
     (tmp_path / "spec").mkdir()
     shutil.copy(ROOT / "spec" / "busservo.yaml", tmp_path / "spec")
     (tmp_path / "pyproject.toml").touch()
-    run(programs / "framegen", "generate", cwd=tmp_path)
-    run(programs / "framegen", "generate", "--check", cwd=tmp_path)
+    shared = ["generate", "--runtime", "shared"]
+    run(programs / "framegen", *shared, cwd=tmp_path)
+    run(programs / "framegen", *shared, "--check", cwd=tmp_path)
     made = tmp_path / "generated" / "busservo"
     for file in (ROOT / "generated" / "busservo").rglob("*.py"):
         same = made / file.relative_to(ROOT / "generated" / "busservo")

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from framegen.reading.source import Source
     from framegen.targets.target import Target
 
-LEFT_OUT = re.compile(r"generated/\w+/_(?:cli|client|frame|recording|serial|tables)/")
+LEFT_OUT = re.compile(
+    r"generated/\w+/_runtime/(?:client|codec|command|explain|frame|recording|tables)/"
+)
 
 
 @cache
@@ -34,7 +36,8 @@ def rendered_once(target: Target, compiled: Compiled) -> dict[str, str]:
     """Render the same text once: it gives the same files, as test_deterministic.py holds."""
     # A page shows the snippets of all targets.
     targets = tuple(each.name for each in table.TARGETS)
-    key = target.name, targets, compiled.source.path, compiled.source.text
+    source = compiled.source
+    key = target.name, targets, source.path, source.text, compiled.carries_runtime
     if key not in _RENDERED:
         files = render_target(target, compiled)
         _RENDERED[key] = {it: text for it, text in files.items() if not LEFT_OUT.match(it)}

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, TypeAlias
@@ -29,6 +30,8 @@ from tests.unit.writing.trees import Snapshot, put, snapshot, times
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from framegen.compile import Compiled
+
 __all__ = ["the_same_is_made_once"]
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -38,12 +41,18 @@ TEXT = DEMO.read_text(encoding="utf-8")
 GIT = shutil.which("git")
 LIBRARY = "generated/greenhouse"
 CODEC = f"{LIBRARY}/_codec.py"
+RUNTIME = f"{LIBRARY}/_runtime"
 SCHEMA = "spec/framegen.schema.json"
+
+
+def carrying(text: str) -> Compiled:
+    """Compile a spec, as of a project that has no runtime to share."""
+    return replace(compiled_once(Source("spec/demo.yaml", text)), carries_runtime=True)
 
 
 with pytest.MonkeyPatch.context() as patch:
     make_once(patch)
-    COMPILED = compiled_once(Source("spec/demo.yaml", TEXT))
+    COMPILED = carrying(TEXT)
     OUTPUT, SHARED = render(COMPILED), render_shared(COMPILED)
 FILES = {**OUTPUT.files, **SHARED.files}
 MANIFESTS = {OUTPUT.manifest, SHARED.manifest}
@@ -310,6 +319,68 @@ def test_an_unknown_target_is_reported(project: Path, capsys: Capture) -> None:
     )
 
 
+# ------------------------------------------------------------------ where the runtime is
+
+
+def test_a_library_carries_the_runtime_as_it_is(project: Path) -> None:
+    shared = ROOT / "runtime" / "framewire"
+    carried = below(RUNTIME, snapshot(project))
+    files = [path.removeprefix(f"{RUNTIME}/") for path, data in carried.items() if data is not None]
+    assert {"__init__.py", "py.typed", "line/transport.py"} <= set(files)
+    assert all((project / RUNTIME / it).read_bytes() == (shared / it).read_bytes() for it in files)
+    assert b"from ._runtime.line." in (project / LIBRARY / "_transport.py").read_bytes()
+
+
+def test_where_the_project_has_the_runtime_its_libraries_import_that(project: Path) -> None:
+    (project / "runtime" / "framewire").mkdir(parents=True)
+    assert main(["generate", "--check"]) == 1
+    assert main(["generate"]) == 0
+    assert not (project / RUNTIME).exists()
+    assert b"from framewire.line." in (project / LIBRARY / "_transport.py").read_bytes()
+    assert main(["generate", "--check", "--target", "python"]) == 0
+    # What counts is where the spec lies, not where its output goes.
+    assert main(["generate", "--out", "elsewhere"]) == 0
+    assert not (project / "elsewhere" / RUNTIME).exists()
+
+
+@pytest.mark.parametrize("words", [[], ["--target", "python"]])
+def test_the_runtime_goes_and_comes_back_as_it_is_said(
+    project: Path, capsys: Capture, words: list[str]
+) -> None:
+    before = snapshot(project)
+    shared = ["generate", "--runtime", "shared", *words]
+    assert main([*shared, "--check"]) == 1
+    assert f"orphaned: {RUNTIME}/line/link.py\n" in capsys.readouterr().err
+    assert main([*shared, "--diff"]) == 0
+    assert f"--- a/{RUNTIME}/line/link.py\n+++ /dev/null\n" in capsys.readouterr().out
+    assert snapshot(project) == before
+    assert main(shared) == 0
+    assert not (project / RUNTIME).exists()
+    assert main([*shared, "--check"]) == 0
+    assert main(["generate", "--check", *words]) == 1
+    capsys.readouterr()
+    assert main(["generate", "--runtime", "carried", *words]) == 0
+    assert "left alone" not in capsys.readouterr().err
+    assert snapshot(project) == before
+
+
+def test_an_edited_runtime_is_somebodys_work(project: Path, capsys: Capture) -> None:
+    file = project / RUNTIME / "line" / "link.py"
+    _edited(file)
+    for words in ([], ["--runtime", "shared"]):
+        assert main(["generate", *words]) == 2
+        assert f"\n  edited by hand: {RUNTIME}/line/link.py\n" in capsys.readouterr().err
+
+
+def test_another_place_of_the_runtime_is_refused(project: Path, capsys: Capture) -> None:
+    before = snapshot(project)
+    assert main(["generate", "--runtime", "borrowed"]) == 2
+    err = capsys.readouterr().err
+    assert "argument --runtime: invalid choice: 'borrowed'" in err
+    assert all(word in err for word in ("shared", "carried"))
+    assert snapshot(project) == before
+
+
 # ------------------------------------------------------------------ several specs
 
 
@@ -555,7 +626,7 @@ def test_after_a_merge_with_conflicts_one_run_is_enough(project: Path, attribute
         assert main(["generate", "--check"]) == 0
         found = snapshot(project)
         spec = (project / "spec" / "demo.yaml").read_text(encoding="utf-8")
-        compiled = compiled_once(Source("spec/demo.yaml", spec))
+        compiled = carrying(spec)
         with TemporaryDirectory() as fresh:
             write(Path(fresh), [render(compiled), render_shared(compiled)])
             made = snapshot(Path(fresh))
