@@ -19,7 +19,8 @@ class Reason(Enum):
     BAD_TRAILER = "bad trailer"
 
 
-_PACKAGE = __name__.partition(".")[0]
+# Where errors are imported from: this package, or the library that carries it.
+_PACKAGE = __name__.removesuffix(".frame.errors").removesuffix("._runtime")
 
 
 class ProtocolError(Exception):
