@@ -3,8 +3,10 @@
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TypeAlias
@@ -25,6 +27,7 @@ from tests.timeouts import GENEROUS
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
 ACTION = re.compile(r"uses: (\S+@[0-9a-f]{40}) # v")
+GIT = shutil.which("git")
 GUIDE = Path(__file__).parents[3] / "docs" / "write-a-spec.md"
 
 
@@ -63,10 +66,14 @@ def assert_its_tests_pass_with(spec: Path, folder: Path) -> None:
 
 
 def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run Python in a project that is not installed."""
-    path = os.pathsep.join(str(project / folder) for folder in ("generated", "simulator"))
+    """Run Python in a project that is not installed, with what others wrote and nothing of ours.
+
+    What is ours is linked to where it lies, and `-S` follows no such link.
+    """
+    folders = [project / "generated", project / "simulator", sysconfig.get_path("purelib")]
+    path = os.pathsep.join(map(str, folders))
     return subprocess.run(
-        [sys.executable, *words],
+        [sys.executable, "-S", *words],
         cwd=project,
         env=os.environ | {"PYTHONPATH": path},
         capture_output=True,
@@ -92,6 +99,23 @@ def test_the_printed_commands_lead_to_a_library_that_decodes(workplace: tuple[Pa
         0,
         "     0  device      Level level=500 ‰ | A5 5A 03 01 01 F4\n",
     )
+
+
+def test_its_library_needs_no_other_package_of_ours(workplace: tuple[Path, str]) -> None:
+    done = python(workplace[0] / "kiln", "-c", "import kiln._runtime.line; import framewire")
+    assert done.stderr.endswith("ModuleNotFoundError: No module named 'framewire'\n")
+
+
+@pytest.mark.skipif(GIT is None, reason="git is not installed")
+def test_to_forges_what_its_library_carries_is_written_elsewhere(tmp_path: Path) -> None:
+    write_files({".gitattributes": skeleton("kiln")[".gitattributes"]}, tmp_path)
+    subprocess.run([str(GIT), "init", "-q"], cwd=tmp_path, check=True)
+    for path, said in [("_runtime/frame/message.py", "true"), ("_codec.py", "unspecified")]:
+        words = [str(GIT), "check-attr", "linguist-vendored", f"generated/kiln/{path}"]
+        done = subprocess.run(
+            words, cwd=tmp_path, capture_output=True, encoding="utf-8", check=True
+        )
+        assert done.stdout.endswith(f": {said}\n")
 
 
 def test_its_site_loses_nothing_and_needs_no_server(
