@@ -39,8 +39,8 @@ SEED =
 WHOLE = afternoon newcomer packages
 # Where the pages go.
 SITE = build/site
-# Where libraries are generated that bring all they need, to be handed on alone.
-ALONE = build/alone
+# Where libraries are generated that carry what ours share, to be handed on alone.
+CARRYING = build/carrying
 # The address where they will be, for a sitemap and the like.
 BASE =
 # What a release is called.
@@ -139,14 +139,13 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 		../../$(MUTATION_VENV)/bin/python -m tests.mutants '$(or $(ONLY),*)'
 
 wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each package
-	rm -rf dist $(ALONE)
+	rm -rf dist $(CARRYING)
 	$(IN)/python -m build --no-isolation --outdir dist .
 	$(IN)/python -m build --no-isolation --outdir dist codegen
 	$(IN)/python -m build --no-isolation --outdir dist simulator
-	for library in $(LIBRARIES); do \
-		name=$$(basename $$library); \
-		$(IN)/framegen generate spec/$$name.yaml --target python --runtime carried --out $(ALONE) && \
-		$(IN)/python -m build --no-isolation --outdir dist $(ALONE)/generated/$$name || exit; \
+	for name in $(notdir $(LIBRARIES)); do \
+		$(IN)/framegen generate spec/$$name.yaml --target python --runtime carried --out $(CARRYING) && \
+		$(IN)/python -m build --no-isolation --outdir dist $(CARRYING)/generated/$$name || exit; \
 	done
 
 # Nothing is published: dist/ holds files that can be handed on.

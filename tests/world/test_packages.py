@@ -319,6 +319,27 @@ def test_the_generator_builds_a_site_where_nothing_else_of_ours_is(
 
 
 @pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
+def test_the_generator_alone_begins_a_project_that_needs_nothing_of_ours(
+    built: Path, install: Callable[..., Path], python: str, ending: str, shelf: Path, tmp_path: Path
+) -> None:
+    programs = install(*files_of(built, "framegen", ending))
+    run(programs / "framegen", "new", "kiln", cwd=tmp_path)
+    run(programs / "framegen", "generate", "kiln/spec/kiln.yaml", cwd=tmp_path)
+    run(programs / "framegen", "generate", "--check", cwd=tmp_path / "kiln")
+    apart = tmp_path / "apart"
+    apart.mkdir()
+    run(python, "-m", "venv", "--without-pip", "env", cwd=apart)
+    kiln = apart / "env" / programs.name
+    where = ["--no-index", "--find-links", shelf]
+    pip("--python", kiln / "python", "install", "-qq", *where, tmp_path / "kiln", cwd=apart)
+    shown = run(kiln / "kiln", "decode", "A5", "5A", "03", "01", "01", "F4", cwd=apart)
+    assert "Level level=500 " in shown
+    listed = pip("--python", kiln / "python", "list", "--format=freeze", cwd=apart)
+    names = {line.partition("=")[0] for line in listed.split()}
+    assert {"kiln", "pyserial"} <= names <= {"kiln", "pyserial", "tomli"}
+
+
+@pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
 def test_all_packages_run_together(
     built: Path, install: Callable[..., Path], ending: str, tmp_path: Path
 ) -> None:
@@ -331,6 +352,10 @@ def test_all_packages_run_together(
     }
     run(programs / "python", "-W", "error", "-c", BOARD, cwd=tmp_path)
     run(programs / "python", "-W", "error", "-c", SERVOS, cwd=tmp_path)
+    # The generator works with the runtime that it was made with, whatever libraries bring theirs.
+    whose = "import framegen, framewire; print(framewire.__file__)"
+    found = run(programs / "python", "-c", whose, cwd=tmp_path)
+    assert Path(found).parts[-4:-1] == ("framegen", "_runtime", "framewire")
     (tmp_path / "spec").mkdir()
     shutil.copy(ROOT / "spec" / "busservo.yaml", tmp_path / "spec")
     (tmp_path / "pyproject.toml").touch()
