@@ -328,7 +328,7 @@ def test_a_library_carries_the_runtime_as_it_is(project: Path) -> None:
     files = [path.removeprefix(f"{RUNTIME}/") for path, data in carried.items() if data is not None]
     assert {"__init__.py", "py.typed", "line/transport.py"} <= set(files)
     assert all((project / RUNTIME / it).read_bytes() == (shared / it).read_bytes() for it in files)
-    assert b"from ._runtime.line." in (project / LIBRARY / "_transport.py").read_bytes()
+    assert b"from ._runtime.line." in (project / LIBRARY / "_library.py").read_bytes()
 
 
 def test_where_the_project_has_the_runtime_its_libraries_import_that(project: Path) -> None:
@@ -336,7 +336,7 @@ def test_where_the_project_has_the_runtime_its_libraries_import_that(project: Pa
     assert main(["generate", "--check"]) == 1
     assert main(["generate"]) == 0
     assert not (project / RUNTIME).exists()
-    assert b"from framewire.line." in (project / LIBRARY / "_transport.py").read_bytes()
+    assert b"from framewire.line." in (project / LIBRARY / "_library.py").read_bytes()
     assert main(["generate", "--check", "--target", "python"]) == 0
     # What counts is where the spec lies, not where its output goes.
     assert main(["generate", "--out", "elsewhere"]) == 0
