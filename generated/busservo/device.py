@@ -51,6 +51,7 @@ class Device(device.Device):
 
         def take(self) -> list[Report]:
             """Return the messages that wait to be sent."""
+            raise NotImplementedError
 
     def on_servo_move(self, message: ServoMove) -> None:
         """Turn one or more servos to positions, all of them in the same time."""

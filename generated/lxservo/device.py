@@ -102,6 +102,7 @@ class Device(device.AddressedDevice):
 
         def take(self) -> list[Report]:
             """Return the messages that wait to be sent."""
+            raise NotImplementedError
 
     def on_move(self, message: Move) -> None:
         """Turn to a position, at even speed, and arrive after the given time."""
