@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from framewire.client import devices
+
 from .messages import (
     LastMove,
     Led,
@@ -42,17 +44,12 @@ if TYPE_CHECKING:
     from ._async_controller import AsyncController
 
 
-class AsyncOneDevice:
+class AsyncOneDevice(devices.OneDevice):
     """One device on the line: the methods that are for it, without its address."""
 
-    __slots__ = ("_bus", "address")
+    __slots__ = ()
 
-    def __init__(self, bus: AsyncController, address: int) -> None:
-        self._bus = bus
-        self.address = address
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.address} of {self._bus!r}>"
+    _bus: AsyncController
 
     async def move(self, position: int, time_ms: int, *, latest: bool = False) -> AsyncMotion:
         """Turn to a position, at even speed, and arrive after the given time.
@@ -276,17 +273,12 @@ class AsyncOneDevice:
         return await self._bus.read_led_errors(servo_id=self.address)
 
 
-class AsyncAllDevices:
+class AsyncAllDevices(devices.AllDevices):
     """All devices on the line at once: nobody answers but whom a question allows to."""
 
-    __slots__ = ("_bus", "address")
+    __slots__ = ()
 
-    def __init__(self, bus: AsyncController, address: int) -> None:
-        self._bus = bus
-        self.address = address
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self._bus!r}>"
+    _bus: AsyncController
 
     async def move(self, position: int, time_ms: int, *, latest: bool = False) -> AsyncMotion:
         """Turn to a position, at even speed, and arrive after the given time.

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from framewire.client import devices
+
 from .messages import (
     LastMove,
     Led,
@@ -42,17 +44,12 @@ if TYPE_CHECKING:
     from ._controller import Controller
 
 
-class OneDevice:
+class OneDevice(devices.OneDevice):
     """One device on the line: the methods that are for it, without its address."""
 
-    __slots__ = ("_bus", "address")
+    __slots__ = ()
 
-    def __init__(self, bus: Controller, address: int) -> None:
-        self._bus = bus
-        self.address = address
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.address} of {self._bus!r}>"
+    _bus: Controller
 
     def move(self, position: int, time_ms: int, *, latest: bool = False) -> Motion:
         """Turn to a position, at even speed, and arrive after the given time.
@@ -272,17 +269,12 @@ class OneDevice:
         return self._bus.read_led_errors(servo_id=self.address)
 
 
-class AllDevices:
+class AllDevices(devices.AllDevices):
     """All devices on the line at once: nobody answers but whom a question allows to."""
 
-    __slots__ = ("_bus", "address")
+    __slots__ = ()
 
-    def __init__(self, bus: Controller, address: int) -> None:
-        self._bus = bus
-        self.address = address
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self._bus!r}>"
+    _bus: Controller
 
     def move(self, position: int, time_ms: int, *, latest: bool = False) -> Motion:
         """Turn to a position, at even speed, and arrive after the given time.
