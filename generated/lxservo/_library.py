@@ -38,7 +38,13 @@ LINK = Link(
 )
 """The serial line."""
 
-LIBRARY = Library(_PACKAGE, protocol_version=PROTOCOL_VERSION, link=LINK, codec=CODEC)
+LIBRARY = Library(
+    _PACKAGE,
+    edition=1,
+    protocol_version=PROTOCOL_VERSION,
+    link=LINK,
+    codec=CODEC,
+)
 """The library as a whole."""
 
 open_transport = LIBRARY.open_transport

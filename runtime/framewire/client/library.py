@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from functools import cached_property
 
+from ..edition import refuse_others
 from ..line.log import Log
 from ..line.transport import Transport
 
@@ -32,13 +33,16 @@ else:
 class Library:
     """What a generated library hands to the runtime.
 
-    `package` is its import name, and `protocol_version` the version of the specification. `log`
-    returns its logger. What takes time to import is imported when it is first asked for.
+    `package` is its import name, `edition` that of the runtime which it was generated for, and
+    `protocol_version` the version of the specification. `log` returns its logger. What takes time
+    to import is imported when it is first asked for. Raises ImportError for an edition that this
+    runtime does not serve.
     """
 
     def __init__(
-        self, package: str, *, protocol_version: str, link: Link, codec: ProtocolCodec
+        self, package: str, *, edition: int, protocol_version: str, link: Link, codec: ProtocolCodec
     ) -> None:
+        refuse_others(edition, package)
         self.package = package
         self.protocol_version = protocol_version
         self.link = link

@@ -38,6 +38,7 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..codec.protocol_codec import ProtocolCodec
     from ..frame.message import Message
     from .exchange import Unaddressed
     from .library import Library
@@ -133,7 +134,8 @@ class Session:
         """
         exchange = self._exchanges.get(type(message))
         if exchange is None:
-            raise TypeError(f"{message!r} is nothing that this end sends")
+            whose = _whose(message, self._codec)
+            raise TypeError(f"{message!r} is nothing that this end sends{whose}")
         silence = exchange.address.silence(message)
         if question is False and exchange.reply is not None and not silence:
             raise TypeError(f"{message!r} is a question: request() sends it and awaits the reply")
@@ -500,6 +502,14 @@ class Session:
         self._take_in(self._reader.received_at, events)
         if self._trace is not None:
             self._trace.quiet()
+
+
+def _whose(message: Message, codec: ProtocolCodec) -> str:
+    """Return what to say of a message of another protocol, behind a sentence; else nothing."""
+    if isinstance(getattr(message, "DIRECTION", None), codec.directions):
+        return ""
+    package = type(message).__module__.rpartition(".")[0]
+    return f": it is of {package}, and this a client of {codec.package}"
 
 
 def _nobody_answers(address: Unaddressed, message: Message) -> EncodeError:

@@ -6,6 +6,8 @@ import textwrap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from framewire.edition import EDITION
+
 from framegen.language.command_verbs import STOP, VERBS
 from framegen.language.spec import Distribution
 from framegen.model.apart import begun
@@ -79,6 +81,11 @@ class LibraryView:
     @property
     def version(self) -> str:
         return self.model.spec.protocol.version
+
+    @property
+    def edition(self) -> int:
+        """The edition of the runtime that it is for."""
+        return EDITION
 
     @property
     def package(self) -> str:

@@ -1,0 +1,24 @@
+"""The contract between this and the libraries that are generated for it, as a number.
+
+It goes up when a library could not work with the runtime of before, or the runtime not with such a
+library: when what one hands to the other changes.
+"""
+
+EDITION = 1
+"""What libraries are generated for today."""
+OLDEST = 1
+"""The oldest that this still serves."""
+
+
+def refuse_others(edition: int, library: str) -> None:
+    """Raise ImportError for a library of an edition that this does not serve."""
+    if edition > EDITION:
+        raise ImportError(
+            f"{library} was generated for edition {edition} of framewire, and this is {EDITION}: "
+            "install a newer version of what brings framewire"
+        )
+    if edition < OLDEST:
+        raise ImportError(
+            f"{library} was generated for edition {edition} of framewire, and this serves "
+            f"{OLDEST} to {EDITION}: generate it again, with the framegen of this framewire"
+        )
