@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     # What a slot can hold.
     Value: TypeAlias = float | str | list[int]
 
+FORM = 1
+"""The form of the data. It goes up when a key means something else, or is gone: new keys do not
+count, since readers pass over what they do not know."""
+
 # Digits for any number of 64 bits in steps of any size, none of them rounded.
 _EXACT = Context(prec=64)
 # Those of a byte.

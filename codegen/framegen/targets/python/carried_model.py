@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+from framewire.explain.protocol import FORM
+
 from framegen.model.data import model_data
 from framegen.output import banner
 from framegen.targets.python.client_snippet import client_snippet
@@ -25,7 +27,7 @@ _DEPTH = 4
 def carried_model(compiled: Compiled) -> str:
     """Return the model as JSON in which a change to one message changes only its lines."""
     model = compiled.model
-    data = {"comment": banner(compiled.source.path)} | model_data(model)
+    data = {"comment": banner(compiled.source.path), "form": FORM} | model_data(model)
     ways = zip(model.ways, names_of(model).library.ways, strict=True)
     data["members"] = {str(way): there.key for way, there in ways}
     methods = {each.request.name: each.method for each in names_of(model).library.exchanges}

@@ -179,7 +179,7 @@ def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model
         name: {key: value for key, value in said.items() if key not in usage}
         for name, said in carried["messages"].items()
     }
-    added = ("comment", "members")
+    added = ("comment", "form", "members")
     assert {key: value for key, value in carried.items() if key not in added} == model_data(model)
 
 
