@@ -629,7 +629,7 @@ def many() -> dict[str, dict[str, str]]:
 def test_every_verb_of_a_library_has_help(capsys: pytest.CaptureFixture[str], name: str) -> None:
     with library(many()[name]):
         main = importlib.import_module(f"{name}.__main__").main
-        verbs = {*importlib.import_module(f"{name}._command").VERBS} - {"simulate"}
+        verbs = {*importlib.import_module(f"{name}._command").PROGRAM.verbs} - {"simulate"}
         assert len(verbs) > 5
         for verb in verbs:
             assert main([verb, "--help"]) == 0

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-# In the order of a day's work: what programs call is last.
-VERBS = (
-    *("ports", "doctor", "stop", "hold", "monitor", "teach", "play", "decode", "explain", "docs"),
-    *("encode", "send", "stats", "replay", "simulate", "answer", "bench-line"),
-)
+from framewire.command.own_verbs import FIRST, OTHERS
+
+VERBS = tuple(dict.fromkeys(verb for verb, _, _ in (*FIRST, *OTHERS)))
 # Those for positions. A message may have the verb `stop` all the same: it is sent first.
-OF_POSES = frozenset({"stop", "hold", "teach", "play"})
+OF_POSES = frozenset(verb for verb, needs, _ in OTHERS if needs == "poses")
 STOP = "stop"

@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
-from busservo._command import VERBS as BUSSERVO
+from busservo._command import PROGRAM as BUSSERVO
 from framegen.cli import VERBS as FRAMEGEN
 from framegen.site.guides.markdown import slugs
-from lxservo._command import VERBS as LXSERVO
+from lxservo._command import PROGRAM as LXSERVO
 
 from tests.documents import PAGES, ROOT, copy_project, played, refresh
 from tests.in_turn import in_turn
@@ -42,7 +42,7 @@ def test_programs_can_be_read_and_commands_are_known(page: Path) -> None:
     for session in re.findall(r"^```pycon\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
         for example in doctest.DocTestParser().get_examples(session):
             compile(example.source, page.name, "single")
-    verbs = {"busservo": BUSSERVO, "lxservo": LXSERVO, "framegen": FRAMEGEN}
+    verbs = {"busservo": BUSSERVO.verbs, "lxservo": LXSERVO.verbs, "framegen": FRAMEGEN}
     commands = r"^\$ (busservo|framegen|lxservo) ([a-z][a-z-]+)"
     for name, verb in re.findall(commands, text, re.MULTILINE):
         assert verb in verbs[name], f"{name} {verb}"

@@ -40,7 +40,7 @@ ALLOWED = (
     nodes.Add,
     nodes.Keyword,
 )
-FILTERS = {"assigned", "docstring", "imports", "join", "literal", "quoted"}
+FILTERS = {"argument", "assigned", "docstring", "imports", "join", "literal", "quoted"}
 
 
 def named(path: Path) -> str:

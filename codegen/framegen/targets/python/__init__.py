@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 from framegen.targets.python.carried_model import carried_model
 from framegen.targets.python.carried_runtime import FOLDER, carried_runtime
 from framegen.targets.python.client_view import ClientView
+from framegen.targets.python.command_view import CommandView
 from framegen.targets.python.device_view import DeviceView
 from framegen.targets.python.docstring import docstring
-from framegen.targets.python.escape import assigned, literal, quoted
+from framegen.targets.python.escape import argument, assigned, literal, quoted
 from framegen.targets.python.imports import CARRIED, SHARED, imports
 from framegen.targets.python.library_view import LibraryView
 from framegen.targets.python.names import bent, names_of
@@ -60,6 +61,7 @@ def _from_templates(library: LibraryView) -> dict[str, str]:
     given = {
         "library": library,
         "client": client,
+        "command": CommandView(library.model),
         "device": DeviceView(library.model),
         "runtime": library.runtime,
     }
@@ -78,7 +80,12 @@ def _environment() -> Environment:
     # This is Python, not HTML: the filters escape.
     made = environment(_HERE / "templates", "python", autoescape=False)
     made.filters.update(
-        assigned=assigned, docstring=docstring, imports=imports, literal=literal, quoted=quoted
+        argument=argument,
+        assigned=assigned,
+        docstring=docstring,
+        imports=imports,
+        literal=literal,
+        quoted=quoted,
     )
     return made
 

@@ -42,6 +42,11 @@ def assigned(text: str, name: str, indent: int) -> str:
     return f"{name} = (\n{margin}    {inside}\n{margin})"
 
 
+def argument(text: str, name: str) -> str:
+    """Return a text as the argument `name` of a call, in brackets where it takes several lines."""
+    return Text(text, before=f"{name}=", item=True).fitted(4, last=",")
+
+
 # A part of code: text as it is, or what can be broken.
 Part: TypeAlias = "str | Text | Sum | Bracketed"
 
@@ -50,7 +55,7 @@ Part: TypeAlias = "str | Text | Sum | Bracketed"
 class Text:
     """A text as a literal, between `before` and `after`: several where it is too long for a line.
 
-    Those of an `item` of a tuple stand in brackets, lest one take them for items.
+    Those of an `item` of a tuple, a dict or a call stand in brackets, lest one take them for items.
     """
 
     text: str
@@ -67,8 +72,8 @@ class Text:
             return str(self)
         margin = "\n" + " " * indent
         if self.item:
-            inside = Text(self.text, self.before, self.after).fitted(indent + 4)
-            return f"({margin}    {inside}{margin})"
+            inside = Text(self.text).fitted(indent + 4)
+            return f"{self.before}({margin}    {inside}{margin}){self.after}"
         room = WIDTH - indent - len(self.after) - len(last)
         pieces = _pieces(self.text, room - len(self.before), room)
         return f"{self.before}{margin.join(map(literal, pieces))}{self.after}"

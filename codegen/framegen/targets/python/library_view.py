@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING
 
 from framewire.edition import EDITION
 
-from framegen.language.command_verbs import STOP, VERBS
 from framegen.language.spec import Distribution
 from framegen.model.apart import begun
 from framegen.targets.python.checksum_view import checksums_of
-from framegen.targets.python.command_lines import messages_by_verb, verbs
 from framegen.targets.python.envelope_view import EnvelopeView
 from framegen.targets.python.escape import Bracketed, literal
 from framegen.targets.python.exports import (
@@ -35,13 +33,10 @@ from framegen.targets.python.text_view import PackedView
 from framegen.targets.python.union_view import UnionView, type_alias, unions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from framegen.language.spec import Link
     from framegen.language.values import Direction
     from framegen.model.model import Model
     from framegen.targets.python.checksum_view import ChecksumView
-    from framegen.targets.python.command_lines import VerbView
     from framegen.targets.python.element_view import ElementView
     from framegen.targets.python.proof_view import ProofView
 
@@ -285,50 +280,6 @@ class LibraryView:
         return [line for each in text.split("\n") for line in textwrap.wrap(each, 99) or [""]]
 
     @property
-    def command_summary(self) -> str:
-        """The summary of the command."""
-        return f"Send, read and replay frames of: {self.model.spec.protocol.title}."
-
-    @property
-    def verbs(self) -> list[VerbView]:
-        """The verbs of the command."""
-        return verbs(self.model)
-
-    @property
-    def verbs_of_messages(self) -> str:
-        """The verbs of messages but for those about positions, as code."""
-        others = {self.stop_message, *self._about_positions}
-        return self._verbs("METHODS", lambda name: name not in others)
-
-    @property
-    def verbs_of_poses(self) -> str:
-        """The verbs that read and command positions, as code."""
-        return self._verbs("POSE_METHODS", lambda name: name in self._about_positions)
-
-    @property
-    def long_verbs(self) -> str:
-        """The verbs named after methods that have a shorter one, as code."""
-        sent = messages_by_verb(self.model)
-        short = {each.long_verb: each.verb for each in sent if each.long_verb != each.verb}
-        own = {*VERBS, *(each.verb for each in sent)}
-        return _table("LONG", {verb: each for verb, each in short.items() if verb not in own})
-
-    def _verbs(self, name: str, is_meant: Callable[[str], bool]) -> str:
-        sent = {each.verb: each.request.name for each in messages_by_verb(self.model)}
-        return _table(name, {verb: each for verb, each in sent.items() if is_meant(each)})
-
-    @property
-    def _about_positions(self) -> tuple[str, ...]:
-        pose = self.model.spec.pose
-        return () if pose is None else (pose.read, pose.move)
-
-    @property
-    def stop_message(self) -> str:
-        """The message that `stop` sends before it holds positions, or empty."""
-        sent = [each.request.name for each in messages_by_verb(self.model) if each.verb == STOP]
-        return sent[0] if sent and self.model.spec.pose is not None else ""
-
-    @property
     def lookalikes(self) -> str:
         """The tuple of the look-alikes, as code."""
         before = "LOOKALIKES = ("
@@ -378,9 +329,3 @@ class LibraryView:
 def _snake(name: str) -> str:
     """Return the module of a class of elements."""
     return {"Element": "element"}.get(name, "mixed_element")
-
-
-def _table(name: str, words: dict[str, str]) -> str:
-    """Return a dict of words, as code."""
-    entries = [f"{literal(key)}: {literal(word)}" for key, word in words.items()]
-    return Bracketed(f"{name}: dict[str, str] = {{", entries, "}").fitted(0)

@@ -17,7 +17,7 @@ import busservo_simulator.cli
 import framegen.cli
 import pytest
 from busservo import MESSAGES, ServoMove
-from busservo._command import VERBS
+from busservo._command import PROGRAM
 from busservo_simulator.faults import CHANCES
 from framegen.checks import RULES
 from framegen.comparison.changes import CHANGE_RULES
@@ -198,7 +198,7 @@ def test_zsh_finds_fields_and_ports(call: str, offered: list[str], tmp_path: Pat
 @in_turn(
     "program, words",
     lambda: [
-        ("busservo", [*VERBS, "retries", *NAMES]),
+        ("busservo", [*PROGRAM.verbs, "retries", *NAMES]),
         ("busservo-simulator", ["battery", "local-echo"]),
         ("framegen", [*framegen.cli.VERBS, "unknown-type", "python"]),
     ],

@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from busservo import Controller, ServoPositions, ServoPositionsRead
 from busservo.__main__ import main
-from busservo._command import EXAMPLES, PROGRAM, VERBS
+from busservo._command import PROGRAM
 from busservo_simulator import Faults, VirtualController
 from framewire.client import session
 from framewire.command import link, send, simulate
@@ -110,7 +110,7 @@ def test_retries_ask_again(capsys: Capture) -> None:
 
 
 # `stats` has no port: it is told the rate of a line that was recorded.
-@in_turn("name", lambda: sorted({*VERBS} - {"simulate", "stats"}))
+@in_turn("name", lambda: sorted({*PROGRAM.verbs} - {"simulate", "stats"}))
 def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
     verb = verb_named(name, PROGRAM)
     parser = argparse.ArgumentParser()
@@ -371,14 +371,14 @@ def imported(commands: list[list[str]], *names: str) -> list[tuple[list[str], li
     return found
 
 
-@in_turn("verb", lambda: sorted(set(VERBS) - {"simulate"}))
+@in_turn("verb", lambda: sorted({*PROGRAM.verbs} - {"simulate"}))
 def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
     capsys: Capture, verb: str
 ) -> None:
     assert main([verb, "--help"]) == 0
     shown = capsys.readouterr().out
     assert "\nexamples:\n  busservo " in shown
-    assert all(example in shown for example, _ in EXAMPLES[verb])
+    assert all(example in shown for example, _ in PROGRAM.examples[verb])
     ends = re.findall(r"^  ([0-9]+) +[a-z]", shown.partition("\nexit status:\n")[2], re.MULTILINE)
     assert [int(end) for end in ends] == sorted({0, 2, 130, 141, *map(int, ends)})
     assert ("3" in ends) == ("--port" in shown)
@@ -386,7 +386,9 @@ def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
 
 @in_turn(
     "line",
-    lambda: [line for verb in EXAMPLES for line, _ in EXAMPLES[verb] if "--help" not in line],
+    lambda: [
+        line for lines in PROGRAM.examples.values() for line, _ in lines if "--help" not in line
+    ],
 )
 def test_an_example_is_a_command_line(line: str) -> None:
     _, name, *words = shlex.split(line)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import pytest
@@ -15,20 +16,25 @@ from busservo import (
     ServoUnload,
 )
 from busservo.__main__ import main
-from busservo._command import LONG, METHODS, POSE_METHODS, PROGRAM, STOP_MESSAGE
+from busservo._command import PROGRAM
 from busservo._exchanges import EXCHANGES
 from busservo_simulator import VirtualController
 from framegen.language.command_verbs import OF_POSES, VERBS
-from framegen.targets.python import command_lines
 from framewire.command.verbs import verb_named
 
 from tests.crowd import Crowd
-from tests.factories import BUSSERVO, compiled_of, data_of
+from tests.factories import BUSSERVO, data_of, files_of, library
+from tests.handed import program_of
+from tests.in_turn import in_turn
 from tests.mutations.places import GONE, with_
 from tests.timeouts import GENEROUS, await_that
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from busservo import Message
+
+    from tests.factories import Data
 
 Capture = pytest.CaptureFixture[str]
 
@@ -163,27 +169,35 @@ def test_nobody_to_hold_is_told(capsys: Capture) -> None:
 
 
 def test_every_message_of_this_end_has_a_verb_once() -> None:
-    sent = [*METHODS.values(), *POSE_METHODS.values(), STOP_MESSAGE]
+    verbs = {**PROGRAM.methods, **PROGRAM.pose_methods}
+    sent = [*verbs.values(), PROGRAM.stop_message]
     assert sorted(sent) == sorted(kind.__name__ for kind in EXCHANGES)
-    assert not {*METHODS, *POSE_METHODS} & {*VERBS}
+    assert not {*verbs} & {*VERBS}
 
 
 def test_a_method_has_its_long_verb_as_well(board: VirtualController, capsys: Capture) -> None:
-    assert {*LONG.values()} == {*METHODS, *POSE_METHODS, "stop"}
+    assert {*PROGRAM.long.values()} == {*PROGRAM.methods, *PROGRAM.pose_methods, "stop"}
     assert main(["read-battery-voltage", "--port", board.port, *FAST]) == 0
     assert " BatteryVoltage voltage_mv=7500 mV |" in capsys.readouterr().out
 
 
-def test_every_own_verb_says_what_it_is_for() -> None:
-    assert {*command_lines._ABOUT} == {*VERBS}
+@in_turn("verb", lambda: VERBS)
+def test_every_own_verb_has_a_module(verb: str) -> None:
+    assert isinstance(verb_named(verb, PROGRAM), ModuleType)
+
+
+def verbs_of(data: Data) -> Mapping[str, str]:
+    """Return the verbs of the library of a spec, each with what it is for."""
+    with library(files_of(data)) as made:
+        verbs: Mapping[str, str] = program_of(made.__name__).verbs
+        return verbs
 
 
 def test_where_nothing_has_a_pose_a_word_for_one_is_a_message_like_any() -> None:
     crowd = Crowd("fan", "host", "device")
     for word in sorted(OF_POSES):
         crowd.command(word.capitalize(), [], method=f"{word}()")
-    told = [(each.name, each.about) for each in command_lines.verbs(compiled_of(crowd.data).model)]
-    found = [each for each in told if each[0] in OF_POSES]
+    found = [each for each in verbs_of(crowd.data).items() if each[0] in OF_POSES]
     assert found == [(word, "Say something.") for word in sorted(OF_POSES)]
 
 
@@ -191,7 +205,5 @@ def test_where_nothing_has_a_pose_a_word_for_one_is_a_message_like_any() -> None
 def test_a_pose_has_one_stop_that_says_what_it_sends_first(verb: object) -> None:
     stop = ("messages", "ActionGroupStop")
     data = with_(with_(data_of(BUSSERVO), *stop, "method", "stop()"), *stop, "verb", verb)
-    told = [(each.name, each.about) for each in command_lines.verbs(compiled_of(data).model)]
-    found = [about for name, about in told if name == "stop"]
     summary = "Stop the action group that is running, then hold everything where it is."
-    assert found == [summary]
+    assert verbs_of(data)["stop"] == summary
