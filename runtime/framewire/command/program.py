@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from functools import cached_property
 
 from .own_verbs import EXAMPLES, FIRST, OTHERS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
     from ..client.library import Library
 
@@ -60,6 +61,12 @@ class Program:
 
     def __repr__(self) -> str:
         return f"<the command {self.name} of the library {self.package}>"
+
+    def main(self, argv: Sequence[str] | None = None) -> int:
+        """Run a command line, without one that of the process; return its exit status."""
+        from .command import run
+
+        return run(self, sys.argv[1:] if argv is None else list(argv))
 
     @cached_property
     def verbs(self) -> Mapping[str, str]:

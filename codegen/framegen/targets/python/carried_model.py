@@ -27,7 +27,8 @@ _DEPTH = 4
 def carried_model(compiled: Compiled) -> str:
     """Return the model as JSON in which a change to one message changes only its lines."""
     model = compiled.model
-    data = {"comment": banner(compiled.source.path), "form": FORM} | model_data(model)
+    data: dict[str, Any] = {"comment": banner(compiled.source.path), "form": FORM}
+    data |= model_data(model)
     ways = zip(model.ways, names_of(model).library.ways, strict=True)
     data["members"] = {str(way): there.key for way, there in ways}
     methods = {each.request.name: each.method for each in names_of(model).library.exchanges}
