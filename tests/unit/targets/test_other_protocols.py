@@ -309,3 +309,22 @@ def test_a_copy_beside_what_is_installed_has_the_version_of_its_spec(
 
 def test_the_command_prints_both_versions(folder: Path) -> None:
     assert command(folder, "greenhouse", "--version") == (0, "greenhouse 1.1.0, spec 1.1.0\n", "")
+
+
+# ------------------------------------------------------------------ what is generated
+
+# Users import these by name, so that each library has them; they are a few lines of names.
+BY_NAME = {"recordings.py", "tables.py"}
+
+
+def test_no_module_is_the_same_in_another_library() -> None:
+    """What does not depend on the protocol is in the runtime: nobody generates it."""
+    first, second = (
+        {
+            file.name: file.read_text(encoding="utf-8").replace(name, "NAME")
+            for file in (ROOT / "generated" / name).glob("*.py")
+        }
+        for name in ("busservo", "lxservo")
+    )
+    alike = {name for name, text in first.items() if second.get(name) == text}
+    assert {name for name in alike if first[name].count("\n") > 10} == BY_NAME
