@@ -6,8 +6,6 @@ import sys
 from functools import cached_property
 
 from ..edition import refuse_others
-from ..line.log import Log
-from ..line.transport import Transport
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -18,6 +16,7 @@ if TYPE_CHECKING:
     from ..frame.message import Message
     from ..line.hid_port import HidPort
     from ..line.link import Link
+    from ..line.log import Log
     from ..line.serial_port import SerialPort
     from .async_client import AsyncClient
     from .client import Client
@@ -27,16 +26,15 @@ if TYPE_CHECKING:
 
     Port: TypeAlias = SerialPort | HidPort
 else:
-    Port = Transport  # what opens a port is imported when one is opened
+    Port = object  # what opens a port is imported when one is opened
 
 
 class Library:
     """What a generated library hands to the runtime.
 
     `package` is its import name, `edition` that of the runtime which it was generated for, and
-    `protocol_version` the version of the specification. `log` returns its logger. What takes time
-    to import is imported when it is first asked for. Raises ImportError for an edition that this
-    runtime does not serve.
+    `protocol_version` the version of the specification. What takes time to import is imported when
+    it is first asked for. Raises ImportError for an edition that this runtime does not serve.
     """
 
     def __init__(
@@ -47,10 +45,16 @@ class Library:
         self.protocol_version = protocol_version
         self.link = link
         self.codec = codec
-        self.log = Log(package)
 
     def __repr__(self) -> str:
         return f"<the library {self.package} of protocol version {self.protocol_version}>"
+
+    @cached_property
+    def log(self) -> Log:
+        """What returns its logger."""
+        from ..line.log import Log
+
+        return Log(self.package)
 
     @cached_property
     def exchanges(self) -> dict[type[Message], Exchange]:
