@@ -18,10 +18,7 @@ __all__ = ["Gate", "LiveLine", "answered", "example_of", "losing"]
 
 
 class LiveLine(Receiving):
-    """A transport whose reads block until there are bytes to read, or the time is over.
-
-    What is `before` a method, by its name, is called first, and may wait or raise an error.
-    """
+    """A transport whose reads block until there are bytes to read, or the time is over."""
 
     name = "live line"
 
@@ -30,12 +27,11 @@ class LiveLine(Receiving):
         answer: Callable[[Message], list[Message]] = answered,
         **before: Callable[[], object],
     ) -> None:
-        super().__init__()
+        super().__init__(**before)
         self.lost = False
         self.closed = False
         self.drained = 0
         self.reads = 0
-        self.before = before
         self._answer = answer
         self._arrived = b""
         self._changed = threading.Condition()
@@ -49,9 +45,6 @@ class LiveLine(Receiving):
         with self._changed:
             self.lost = True
             self._changed.notify_all()
-
-    def _begin(self, method: str) -> None:
-        self.before.get(method, int)()
 
     def _check(self) -> None:
         if self.closed:

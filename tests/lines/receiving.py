@@ -22,7 +22,7 @@ from busservo._exchanges import EXCHANGES
 from framewire.codec.rejects import Rejects
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 
 def answered(message: Message) -> list[Message]:
@@ -54,13 +54,20 @@ def _vectors() -> Any:
 
 
 class Receiving:
-    """The ear of a board: what it receives is kept, and what is no message is counted."""
+    """The ear of a board: what it receives is kept, and what is no message is counted.
 
-    def __init__(self) -> None:
+    What is `before` a method, by its name, is called first, and may wait or raise an error.
+    """
+
+    def __init__(self, **before: Callable[[], object]) -> None:
         self.received: list[Message] = []
+        self.before = before
         # No client may ever make this count: see tests/lines/boards.py.
         self.rejects = Rejects(HEADS.begins)
         self._decoder = StreamDecoder(Direction.HOST_TO_CONTROLLER)
+
+    def _begin(self, method: str) -> None:
+        self.before.get(method, int)()
 
     def heard(self, data: bytes) -> Iterator[Message]:
         """Yield the messages that these bytes complete."""

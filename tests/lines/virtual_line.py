@@ -25,8 +25,13 @@ class VirtualLine(Receiving, TimedLine):
 
     name = "virtual line"
 
-    def __init__(self, answer: Answer = unanswered, timer: VirtualClock | None = None) -> None:
-        Receiving.__init__(self)
+    def __init__(
+        self,
+        answer: Answer = unanswered,
+        timer: VirtualClock | None = None,
+        **before: Callable[[], object],
+    ) -> None:
+        Receiving.__init__(self, **before)
         TimedLine.__init__(self, timer=timer)
         self.answer = answer
         # How many messages had been received when it was drained.
@@ -39,6 +44,7 @@ class VirtualLine(Receiving, TimedLine):
             self._readable()
 
     def read(self, timeout: float) -> bytes:
+        self._begin("read")
         self._check()
         return super().read(timeout)
 

@@ -332,12 +332,12 @@ def test_a_transport_with_a_bug_ends_in_an_error_that_says_so(talk: Talk) -> Non
 # -------------------------------------------------------------------- closed
 
 
-def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
-    class Interrupted(VirtualLine):
-        def read(self, _timeout: float) -> bytes:
-            raise KeyboardInterrupt
+def press_ctrl_c() -> None:
+    raise KeyboardInterrupt
 
-    line = Interrupted()
+
+def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
+    line = VirtualLine(read=press_ctrl_c)
     controller = client_on(line, Controller, settle=None)
     controller.move_servos([(servo, 500) for servo in range(60)], 100)
     with pytest.raises(KeyboardInterrupt):
@@ -375,19 +375,11 @@ def late(message: Message) -> list[tuple[float, bytes | Message]]:
 
 
 def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
-    class Once(VirtualLine):
-        interrupted = False
-
-        def read(self, timeout: float) -> bytes:
-            if not self.interrupted:
-                self.interrupted = True
-                raise KeyboardInterrupt
-            return super().read(timeout)
-
-    line = Once(late)
+    line = VirtualLine(late, read=press_ctrl_c)
     with client_on(line, Controller) as controller:
         with pytest.raises(KeyboardInterrupt):
             controller.read_battery_voltage()
+        line.before.clear()
         assert controller.read_servo_positions([1]) == ((1, 10),)
         assert controller.read_battery_voltage() == 7500
         # The reply to the first came late, and was not taken for another's.
@@ -616,15 +608,14 @@ def test_reconnecting_from_within_a_callback() -> None:
 def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
     opening = Gate()
 
-    class Gone(LiveLine):
-        def reopen(self) -> LiveLine:
-            opening()
-            raise PortNotFoundError(self.name, "there is no such port", "plug it in")
+    def reopen() -> None:
+        opening()
+        raise PortNotFoundError(LiveLine.name, "there is no such port", "plug it in")
 
     async def work() -> None:
         errors: list[object] = []
         asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
-        async with AsyncController(Gone()) as controller:
+        async with AsyncController(LiveLine(reopen=reopen)) as controller:
             again = asyncio.ensure_future(controller.reconnect())
             await opening.reached()
             again.cancel()
