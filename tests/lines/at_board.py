@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 from busservo_simulator import VirtualClock, VirtualController
@@ -10,6 +11,12 @@ from busservo_simulator import VirtualClock, VirtualController
 def virtual_board(**given: Any) -> VirtualController:
     """Return a board in this process, whose time goes on when somebody waits for it."""
     return VirtualController(**{"clock": VirtualClock(follow_reads=True), **given})
+
+
+def end_of(board: Any) -> Any:
+    """Return the end of its line where it is read and written, with its clock."""
+    end = board.transport
+    return SimpleNamespace(read=end.read, write=end.write, close=end.close, clock=board.clock.now)
 
 
 def client_at(board: Any, kind: type, **given: Any) -> Any:

@@ -1,6 +1,5 @@
-"""Devices for firmware tests, and a line in virtual time to reach them."""
+"""Devices for firmware tests, and what records what is written to them."""
 
-import heapq
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -16,23 +15,16 @@ from tests.lines.timed_line import Pieces, TimedLine
 Answer = Callable[[bytes], Pieces]
 
 
-class VirtualLine(TimedLine):
-    """A line without any pace; a read gives one piece, and after `lasts` writes it is lost."""
+def lost_after(writes: int, answer: Answer) -> TimedLine:
+    """Return a line whose cable is pulled after so many writes."""
 
-    in_order = False
-    lasts = 1_000_000
-
-    @property
-    def is_closed(self) -> bool:
-        return self.closed
-
-    def write(self, data: bytes) -> None:
-        if len(self.written) >= self.lasts:
+    def answered(data: bytes) -> Pieces:
+        if len(line.written) > writes:
             raise OSError("the cable was pulled")
-        super().write(data)
+        return answer(data)
 
-    def _take(self) -> bytes:
-        return heapq.heappop(self._arriving)[2] if self._is_there() else b""
+    line = TimedLine(answered)
+    return line
 
 
 class Observed:

@@ -27,18 +27,20 @@ class TimedLine:
     """A transport whose other end answers each write: bytes, each after a delay.
 
     For threads and for asyncio: a loop that runs on its `timer` is called as soon as bytes are
-    there, and then no read moves the clock on. What was written is kept in `written`.
+    there, and then no read moves the clock on. What was written is kept in `written`. Bytes arrive
+    in the order in which they were sent, whatever their delays, unless `in_order` says otherwise.
     """
 
     name = "line"
-    # Whether bytes arrive in the order in which they were sent, whatever their delays.
-    in_order = True
 
     def __init__(
         self,
         answer: Callable[[bytes], Iterable[tuple[float, bytes]]] = lambda _: (),
         timer: VirtualClock | None = None,
+        *,
+        in_order: bool = True,
     ) -> None:
+        self.in_order = in_order
         self.timer = timer or _clock_of_the_loop()
         self.written: list[bytes] = []
         self.closed = False
@@ -132,10 +134,16 @@ class ScriptedLine(TimedLine):
 
 
 class DeviceLine(TimedLine):
-    """A line to the Device of any library: what that sends waits here to be read."""
+    """A line to the Device of any library: what that sends waits here to be read.
 
-    def __init__(self, device: Any) -> None:
-        super().__init__()
+    With `echo`, what is written comes back as well.
+    """
+
+    # Nobody is called back for what the device sends by itself.
+    on_readable = None  # type: ignore[assignment]
+
+    def __init__(self, device: Any, *, echo: bool = False) -> None:
+        super().__init__(lambda data: [(0.0, data)] if echo else [])
         self.device = device
 
     def read(self, timeout: float) -> bytes:
@@ -144,18 +152,19 @@ class DeviceLine(TimedLine):
         return super().read(timeout)
 
     def write(self, data: bytes) -> None:
+        super().write(data)
         self.device.accept(data)
 
 
-def client_of(device: Any, **given: Any) -> Any:
-    """Return a client of the device's library; nothing in it sleeps."""
+def client_of(device: Any, kind: type | None = None, **given: Any) -> Any:
+    """Return a client of the device's library, by default for threads; nothing in it sleeps."""
     package = next(
-        kind.__module__.partition(".")[0]
-        for kind in type(device).__mro__
-        if kind.__name__ == "Device"
+        each.__module__.partition(".")[0]
+        for each in type(device).__mro__
+        if each.__name__ == "Device"
     )
     library = importlib.import_module(package)
-    return client_on(DeviceLine(device), library.Controller, **given)
+    return client_on(DeviceLine(device), kind or library.Controller, **given)
 
 
 def client_on(line: Any, kind: type, **given: Any) -> Any:

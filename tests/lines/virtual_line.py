@@ -29,10 +29,12 @@ class VirtualLine(Receiving, TimedLine):
         self,
         answer: Answer = unanswered,
         timer: VirtualClock | None = None,
+        *,
+        in_order: bool = True,
         **before: Callable[[], object],
     ) -> None:
         Receiving.__init__(self, **before)
-        TimedLine.__init__(self, timer=timer)
+        TimedLine.__init__(self, timer=timer, in_order=in_order)
         self.answer = answer
         # How many messages had been received when it was drained.
         self.drained = 0

@@ -19,7 +19,7 @@ from framegen.render import render_target
 from framegen.targets import python
 
 from tests.factories import library
-from tests.lines.timed_line import DeviceLine
+from tests.lines.timed_line import DeviceLine, client_on
 from tests.protocols.libraries import made_of
 
 if TYPE_CHECKING:
@@ -69,11 +69,10 @@ class Ends:
         return self.part(which, "_exchanges").EXCHANGES[kind]
 
     @contextmanager
-    def client(self, which: Which, device: Any, **settings: Any) -> Iterator[Any]:
+    def client(self, which: Which, device: Any, *, echo: bool = False) -> Iterator[Any]:
         """Return a client of an edition on a line to a device; nothing in it sleeps."""
-        line = settings.pop("line", DeviceLine(device))
-        given = {"background": False, "clock": line.clock, "settle": 0, "limits": None, **settings}
-        with self.library(which).Controller(line, **given) as client:
+        line = DeviceLine(device, echo=echo)
+        with client_on(line, self.library(which).Controller, limits=None) as client:
             yield client
 
     def seen(self, play: Play, device: Which) -> Seen:
@@ -104,8 +103,7 @@ class Ends:
             setattr(there, name, answer if name in self._asked(device) else _nothing)
         # Who expects an echo is on a line that has one: what becomes of it is no matter of plays.
         echoes = self.pair.edition(client).spec.link.local_echo
-        line = EchoLine(there) if echoes else DeviceLine(there)
-        with self.client(client, there, line=line) as controller:
+        with self.client(client, there, echo=echoes) as controller:
             request = made_of(self.library(client), play.exchange.request, play.values)
             return self._ends(client, controller, request)
 
@@ -274,22 +272,6 @@ def _ending(made: Any, controller: Any, exchange: Any, request: Any) -> str:
                 return ending
         raise
     return "partial" if [*exchange.missing(request, reply)] else "reply"
-
-
-class EchoLine(DeviceLine):
-    """A line that also gives back what is sent."""
-
-    def __init__(self, device: Any) -> None:
-        super().__init__(device)
-        self._back = b""
-
-    def read(self, timeout: float) -> bytes:
-        back, self._back = self._back, b""
-        return back + super().read(0.0 if back else timeout)
-
-    def write(self, data: bytes) -> None:
-        self._back += data
-        super().write(data)
 
 
 def _nothing(_message: Any) -> None:

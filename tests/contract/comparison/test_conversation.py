@@ -15,7 +15,7 @@ from framegen.reading.yamltree import dotted
 
 from tests.contract.comparison import conversations
 from tests.contract.comparison.conversation_cases import CASES, HOUSE, SERVO, Said
-from tests.contract.comparison.ends import EchoLine, differing, ends_of
+from tests.contract.comparison.ends import differing, ends_of
 from tests.contract.comparison.uart import understood
 from tests.factories import data_of
 from tests.in_turn import in_turn
@@ -172,10 +172,9 @@ def test_an_echo_is_expected_by_who_knows_of_it(old: bool, new: bool) -> None:
     with ends_of(pair) as ends:
         for client in WHICH:
             made, there = ends.library(client), ends.library(OTHER[client]).Device()
-            kind = EchoLine if pair.edition(OTHER[client]).spec.link.local_echo else None
-            settings = {} if kind is None else {"line": kind(there)}
+            echo = pair.edition(OTHER[client]).spec.link.local_echo
             fails = False
-            with ends.client(client, there, **settings) as controller:
+            with ends.client(client, there, echo=echo) as controller:
                 try:
                     controller.send(made.VentsOpen(1, [(1, 2)]))
                 except made.EchoError:

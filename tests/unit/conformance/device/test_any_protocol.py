@@ -23,7 +23,9 @@ from lxservo_simulator import VirtualBus
 
 from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
 from tests.in_turn import in_turn
-from tests.lines.devices import VirtualLine, by_the_reference, in_reply_to, is_divided
+from tests.lines.at_board import end_of
+from tests.lines.devices import by_the_reference, in_reply_to, is_divided
+from tests.lines.timed_line import TimedLine
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
 from tests.random_specs import WAYS, specs, with_examples
@@ -56,7 +58,7 @@ def allowing(model: Model) -> list[str]:
 
 def on(name: str, answer: Answer, *options: str) -> Run:
     """Return a run on a device of a protocol."""
-    return run(model_of(SPECS[name]), VirtualLine(answer), *options)
+    return run(model_of(SPECS[name]), TimedLine(answer), *options)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +90,7 @@ def test_an_echo_is_left_out_and_another_is_seen(name: str, extra: bytes) -> Non
     def echoed(data: bytes) -> list[tuple[float, bytes]]:
         return [(0.0, extra + data), *answer(data)]
 
-    done = run(model, VirtualLine(echoed))
+    done = run(model, TimedLine(echoed))
     what = {each["what"].partition(" ")[0] for each in received(done)}
     replies = {each.reply.name for each in model.exchanges if each.reply is not None}
     assert (what <= replies and done.code == 0) == (not extra)
@@ -117,7 +119,7 @@ def test_a_device_of_any_spec_passes_by_what_it_may_be_sent(spec: Data, everythi
     assume(queries)
     commands = [name for name in asked if name not in queries] if everything else []
     allowed = chain(*(("--allow", name) for name in commands))
-    done = run(model, VirtualLine(by_the_reference(model)), "--malformed", *allowed)
+    done = run(model, TimedLine(by_the_reference(model)), "--malformed", *allowed)
     # What holds the beginning of a frame that is not allowed is not sent; passed is what was tried.
     tried = [step for step in done.report["steps"] if not step["not_sent"]]
     assert (done.code, done.faults) == (0 if tried else 1, [])
@@ -183,24 +185,13 @@ def test_the_generated_device_passes(name: str) -> None:
     assert (done.code, done.faults) == (0, [])
 
 
-class LineOf:
-    """The end of the line of virtual servos, with its clock."""
-
-    def __init__(self, bus: VirtualBus, clock: VirtualClock) -> None:
-        self.read = bus.transport.read
-        self.write = bus.transport.write
-        self.close = bus.transport.close
-        self.clock = clock.now
-
-
 @pytest.mark.parametrize("echo", [False, True])
 def test_the_simulator_of_servos_passes(echo: bool) -> None:
     model = model_of(SPECS["lxservo"])
     clock = VirtualClock(follow_reads=True)
     with VirtualBus(servos=[5, 6], baud=115200, clock=clock, local_echo=echo) as bus:
-        line = LineOf(bus, clock)
         options = ["--local-echo"] if echo else []
-        done = run(model, line, "--malformed", "--address", "5", *options)
+        done = run(model, end_of(bus), "--malformed", "--address", "5", *options)
     assert (done.code, done.faults) == (0, [])
     assert sum(step["malformed"] for step in done.report["steps"]) == 6
 
@@ -444,7 +435,7 @@ def reports(name: str) -> Iterator[bytes]:
 
 def listening(name: str, frames: list[bytes]) -> Run:
     """Return a run on a device that sends these every 20 ms, without end."""
-    line = VirtualLine()
+    line = TimedLine()
     for number in range(200):
         line.say(frames[number % len(frames)], 0.02 * number)
     return run(model_of(SPECS[name]), line)
@@ -470,7 +461,7 @@ def test_a_report_that_is_none_is_found(name: str) -> None:
 
 def test_a_beginning_that_was_missed_is_no_fault() -> None:
     good = next(reports("tfmini"))
-    line = VirtualLine()
+    line = TimedLine()
     for number, data in enumerate([good[4:], good, good, good[:5]]):
         line.say(data, 0.02 * number)
     done = run(model_of(SPECS["tfmini"]), line)
@@ -479,5 +470,5 @@ def test_a_beginning_that_was_missed_is_no_fault() -> None:
 
 
 def test_a_device_that_reports_nothing_is_silent() -> None:
-    done = run(model_of(SPECS["sbus"]), VirtualLine())
+    done = run(model_of(SPECS["sbus"]), TimedLine())
     assert done.faults == [(LISTENS, "silence")]

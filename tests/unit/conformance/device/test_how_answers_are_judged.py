@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo_simulator import VirtualController
-from busservo_simulator.clock import VirtualClock
 from framegen.conformance.device.judgement import judge
 from framegen.conformance.device.permission import permit
 from framegen.conformance.device.queries import requests
@@ -20,7 +18,8 @@ from tests.contract.independent.board import Board
 from tests.contract.independent.faults import Piece
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
-from tests.lines.devices import VirtualLine
+from tests.lines.at_board import end_of, virtual_board
+from tests.lines.timed_line import TimedLine
 from tests.unit.conformance.device.runs import Run, model_of, run
 
 if TYPE_CHECKING:
@@ -63,23 +62,11 @@ def test_a_board_without_faults_passes(thinks: float, baud: float) -> None:
     "malformed", [False, pytest.param(True, marks=pytest.mark.garbage)], ids=["", "malformed"]
 )
 def test_the_simulator_passes(malformed: bool) -> None:
-    clock = VirtualClock(follow_reads=True)
-    with VirtualController("memory", clock=clock, baud=9600) as board:
-        line = VirtualLineOf(board, clock)
-        done = run(MODEL, line, *(["--malformed"] if malformed else []))
+    with virtual_board(via="memory", baud=9600) as board:
+        done = run(MODEL, end_of(board), *(["--malformed"] if malformed else []))
     assert (done.code, done.faults) == (0, [])
     steps = [step["title"] for step in done.report["steps"] if step["malformed"]]
     assert len(steps) == (7 if malformed else 0)
-
-
-class VirtualLineOf:
-    """The simulator's end of the line, with its clock."""
-
-    def __init__(self, board: VirtualController, clock: VirtualClock) -> None:
-        self.read = board.transport.read
-        self.write = board.transport.write
-        self.close = board.transport.close
-        self.clock = clock.now
 
 
 # What becomes of a reply, to which step, what that is called, and how it is put in words.
@@ -204,7 +191,7 @@ def test_a_line_with_echo_is_reported() -> None:
 
 def test_a_silent_device_is_given_up_soon() -> None:
     done = on_a_board(None, 1, "--malformed")
-    line = VirtualLine()
+    line = TimedLine()
     silent = run(MODEL, line, "--malformed")
     assert silent.code == 1
     assert len(silent.report["steps"]) == 3 < len(done.report["steps"])
@@ -246,7 +233,7 @@ def silent_after(malformed: bytes) -> Answer:
 
 def test_a_device_that_hangs_is_distinguished_from_one_that_recovers() -> None:
     unknown = bytes.fromhex("55 55 02 FF")
-    done = run(MODEL, VirtualLine(silent_after(unknown)), "--malformed")
+    done = run(MODEL, TimedLine(silent_after(unknown)), "--malformed")
     assert done.report["stopped"] == (
         "BatteryVoltageRead is not answered any more, 8 times: switch the device off and on"
     )
@@ -266,7 +253,7 @@ def careless(data: bytes) -> list[tuple[float, bytes]]:
 
 
 def test_a_device_that_answers_malformed_frames_is_found() -> None:
-    done = run(MODEL, VirtualLine(careless), "--malformed")
+    done = run(MODEL, TimedLine(careless), "--malformed")
     found = dict(done.faults)
     assert set(found.values()) == {"unsolicited reply"}
     assert "a count that is one too many, and BatteryVoltageRead at once" in found
@@ -305,7 +292,7 @@ PIECES = st.one_of(
 
 @given(st.lists(st.tuples(st.floats(0, 1.5), PIECES), max_size=6))
 def test_any_input_is_judged_within_its_time(pieces: list[tuple[float, bytes]]) -> None:
-    line = VirtualLine(lambda _: pieces)
+    line = TimedLine(lambda _: pieces, in_order=False)
     permission = permit(MODEL, [])
     with Recording(MODEL, None) as recording:
         session = Session(line, permission, Timing(9600, 10, 0.25), recording, line.clock)

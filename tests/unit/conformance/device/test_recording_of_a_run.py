@@ -9,7 +9,8 @@ from framegen.reading.yamltree import Unusable
 from tests.contract.independent import faults
 from tests.contract.independent.board import Board
 from tests.contract.independent.ports import VirtualPort
-from tests.lines.devices import VirtualLine, by_the_reference
+from tests.lines.devices import by_the_reference, lost_after
+from tests.lines.timed_line import TimedLine
 from tests.unit.conformance.device.runs import model_of, run
 
 MODEL = model_of()
@@ -57,7 +58,7 @@ def test_it_says_what_is_tried_and_where_the_line_fell_silent_within_a_frame(
 def test_an_existing_recording_is_kept_and_nothing_is_sent(tmp_path: Path) -> None:
     log = tmp_path / "run.hex"
     log.write_text("55 55 02 0F\n", encoding="ascii")
-    line = VirtualLine(by_the_reference(MODEL))
+    line = TimedLine(by_the_reference(MODEL))
     with pytest.raises(Unusable, match="it holds 12 bytes, and a recording is never") as caught:
         run(MODEL, line, "--log", str(log))
     assert caught.value.hint == "give another name, or remove it"
@@ -65,7 +66,7 @@ def test_an_existing_recording_is_kept_and_nothing_is_sent(tmp_path: Path) -> No
 
 
 def test_a_recording_that_cannot_be_made_is_reported(tmp_path: Path) -> None:
-    line = VirtualLine(by_the_reference(MODEL))
+    line = TimedLine(by_the_reference(MODEL))
     with pytest.raises(Unusable, match="cannot be written: "):
         run(MODEL, line, "--log", str(tmp_path / "no folder" / "run.hex"))
     assert line.written == []
@@ -73,8 +74,7 @@ def test_a_recording_that_cannot_be_made_is_reported(tmp_path: Path) -> None:
 
 def test_the_recording_of_a_lost_line_is_kept(tmp_path: Path) -> None:
     log = tmp_path / "run.hex"
-    line = VirtualLine(by_the_reference(MODEL))
-    line.lasts = 2
+    line = lost_after(2, by_the_reference(MODEL))
     with pytest.raises(Unusable, match="a line: the cable was pulled") as caught:
         run(MODEL, line, "--log", str(log))
     assert caught.value.hint == "check the cable and the power, then run this again"
@@ -84,4 +84,4 @@ def test_the_recording_of_a_lost_line_is_kept(tmp_path: Path) -> None:
         "ServoPositionsRead",
         "ServoPositions",
     ]
-    assert line.is_closed
+    assert line.closed

@@ -14,7 +14,8 @@ from framegen.reading.yamltree import Unusable
 from tests.contract.independent import faults
 from tests.contract.independent.board import Board
 from tests.contract.independent.ports import VirtualPort
-from tests.lines.devices import VirtualLine, by_the_reference
+from tests.lines.devices import by_the_reference, lost_after
+from tests.lines.timed_line import TimedLine
 from tests.unit.conformance.device.runs import model_of, run
 
 MODEL = model_of()
@@ -107,8 +108,7 @@ def test_json_holds_all_of_a_run() -> None:
 def test_a_run_that_ends_with_the_line_is_still_reported_as_json(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    line = VirtualLine(by_the_reference(MODEL))
-    line.lasts = 3
+    line = lost_after(3, by_the_reference(MODEL))
     parser = ArgumentParser()
     firmware.add_arguments(parser)
     arguments = parser.parse_args(["--port", "a line"])
@@ -122,7 +122,7 @@ def test_a_run_that_ends_with_the_line_is_still_reported_as_json(
 
 
 def test_a_session_writes_nothing_that_is_not_allowed() -> None:
-    line = VirtualLine()
+    line = TimedLine()
     command = commands(permit(MODEL, ["ServoMove"]))[0]
     with Recording(MODEL, None) as recording:
         session = Session(line, permit(MODEL, []), Timing(9600, 10, 0.25), recording, line.clock)

@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from tests.contract.independent.firmware import Reader, well_formed
 from tests.factories import BUSSERVO, Data, compiled_file, data_of, layout_of
 from tests.in_turn import in_turn
-from tests.lines.devices import Answer, VirtualLine, by_the_reference
+from tests.lines.devices import Answer, by_the_reference
+from tests.lines.timed_line import TimedLine
 from tests.protocols.specs import FILES
 from tests.unit.conformance.device.runs import Run, model_of, run
 
@@ -74,7 +75,7 @@ def obeyed(data: bytes) -> set[int]:
 @cache
 def sent_to(device: str, *options: str) -> Run:
     """Return the run on one of DEVICES."""
-    return run(MODEL, VirtualLine(DEVICES[device]()), *options)
+    return run(MODEL, TimedLine(DEVICES[device]()), *options)
 
 
 @in_turn(
@@ -133,7 +134,7 @@ MALFORMED = [
 
 
 def test_what_will_be_sent_is_said_before_anything_is() -> None:
-    line = VirtualLine()
+    line = TimedLine()
     said: list[str] = []
     line.write = lambda data: said.append(data.hex())  # type: ignore[method-assign]
     for form in ("text", "json"):
@@ -219,7 +220,7 @@ def test_a_query_that_holds_a_command_is_not_sent_and_the_others_are(
     ids: list[int], why: str
 ) -> None:
     model = with_example(ids, at=1)
-    done = run(model, VirtualLine(by_the_reference(model)))
+    done = run(model, TimedLine(by_the_reference(model)))
     assert why in done.step("ServoPositionsRead, example 2")["not_sent"]
     assert not any(bytes(ids) in data for data in done.written)
     assert [each["passed"] for each in done.report["steps"]].count(False) == 1
@@ -228,7 +229,7 @@ def test_a_query_that_holds_a_command_is_not_sent_and_the_others_are(
 
 def test_malformed_frames_are_made_of_queries_that_hold_no_command() -> None:
     model = with_example([85, 85, 2, 7], at=0)
-    done = run(model, VirtualLine(by_the_reference(model)), "--malformed")
+    done = run(model, TimedLine(by_the_reference(model)), "--malformed")
     sent = [step["not_sent"] for step in done.report["steps"] if step["malformed"]]
     assert sent == [None] * 7
     assert not any(b"UU\2\7" in data for data in done.written)
@@ -250,7 +251,7 @@ NAMES = [
 def test_a_name_that_cannot_be_allowed_is_reported_with_those_that_can(
     name: str, problem: str, hint: str
 ) -> None:
-    line = VirtualLine()
+    line = TimedLine()
     with pytest.raises(Unusable) as caught:
         run(MODEL, line, "--allow", name)
     assert problem in str(caught.value)
@@ -280,7 +281,7 @@ def test_a_device_of_another_frame_passes(name: str) -> None:
     header = {"header": data["frame"]["header"]}
     data["frame"] = {**(header if "parameters" in parts else data["frame"]), **parts}
     model = derive(Spec.model_validate(data))
-    done = run(model, VirtualLine(by_the_reference(model)), "--malformed")
+    done = run(model, TimedLine(by_the_reference(model)), "--malformed")
     assert (done.code, done.faults) == (0, [])
     steps = [step for step in done.report["steps"] if step["malformed"]]
     assert len(steps) >= 5
@@ -290,12 +291,12 @@ def test_a_device_of_another_frame_passes(name: str) -> None:
 @pytest.mark.parametrize("file", [SPECS / "lamp.yaml", FILES["ibus"]], ids=lambda file: file.stem)
 def test_a_protocol_without_queries_and_reports_is_refused(file: Path) -> None:
     with pytest.raises(Unusable, match="has no query") as caught:
-        run(model_of(file), VirtualLine())
+        run(model_of(file), TimedLine())
     assert caught.value.hint.startswith("name what may be sent, as by --allow ")
 
 
 def test_a_device_without_replies_is_sent_allowed_commands() -> None:
     model = model_of(SPECS / "lamp.yaml")
     (name, *_) = [each.request.name for each in model.exchanges]
-    done = run(model, VirtualLine(), "--allow", name)
+    done = run(model, TimedLine(), "--allow", name)
     assert done.written == [each.hex for each in model.messages[name].message.examples]

@@ -40,17 +40,10 @@ def frame(message: str, **values: Any) -> bytes:
     return encode(MODEL.messages[message], values)
 
 
-class Line(TimedLine):
-    """A line that answers each frame with bytes, each so many seconds later."""
-
-    in_order = False
-
-    def __init__(self, *answers: Pieces) -> None:
-        script = [*answers]
-        super().__init__(lambda _: script.pop(0) if script else [])
-
-
-def client(memory: ModuleType, line: Line) -> Any:
+def client(memory: ModuleType, *answers: Pieces) -> Any:
+    """Return a client; each of its frames is answered by bytes, each so many seconds later."""
+    script = [*answers]
+    line = TimedLine(lambda _: script.pop(0) if script else [], in_order=False)
     return client_on(line, memory.Controller, reply_timeout=REPLY_TIMEOUT)
 
 
@@ -61,8 +54,7 @@ def test_the_late_answer_to_a_question_for_more_is_not_that_to_one_for_fewer(
     memory: ModuleType,
 ) -> None:
     """A question for 1 byte, after one for 2 that had timed out, returned the 2 of the first."""
-    line = Line([(0.6, TWO)], [])
-    with client(memory, line) as host:
+    with client(memory, [(0.6, TWO)], []) as host:
         with pytest.raises(memory.NoReplyError):
             host.read_bytes(16, count=2)
         with pytest.raises(memory.NoReplyError, match="1 reply came that cannot be the answer"):
@@ -70,8 +62,7 @@ def test_the_late_answer_to_a_question_for_more_is_not_that_to_one_for_fewer(
 
 
 def test_the_right_size_is_taken_among_others(memory: ModuleType) -> None:
-    line = Line([(0.02, TWO), (0.03, ONE), (0.04, TWO)])
-    with client(memory, line) as host:
+    with client(memory, [(0.02, TWO), (0.03, ONE), (0.04, TWO)]) as host:
         assert host.read_bytes(16, count=1) == (7,)
         assert host.counters.unsolicited == 1
 
@@ -89,7 +80,7 @@ def test_the_right_size_is_taken_among_others(memory: ModuleType) -> None:
 def test_a_list_is_as_long_as_the_one_that_was_sent_unless_it_says_why_not(
     memory: ModuleType, values: dict[str, Any], ends: str
 ) -> None:
-    with client(memory, Line([(0.03, frame("Some", **values))])) as host:
+    with client(memory, [(0.03, frame("Some", **values))]) as host:
         if ends == "two":
             assert host.read_some([1, 5]) == (75, 76)
             return

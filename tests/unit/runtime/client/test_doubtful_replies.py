@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from busservo import (
@@ -64,10 +65,8 @@ def rising(line: VirtualLine, late: dict[int, float]) -> Callable[[Message], Ite
     return answer
 
 
-class OvertakingLine(VirtualLine):
-    """A line on which a late reply is overtaken by the one to the next question."""
-
-    in_order = False
+# A line on which a late reply is overtaken by the one to the next question.
+OvertakingLine = partial(VirtualLine, in_order=False)
 
 
 @given(

@@ -159,16 +159,9 @@ def test_closing_waits_for_the_last_echo() -> None:
     assert controller.counters.echoes == 1
 
 
-class Echoing(LiveLine):
-    def write(self, data: bytes) -> None:
-        with self._changed:
-            self._arrived += data
-        super().write(data)
-
-
 @in_turn("answer", lambda: [answered, lambda _: []])
 def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Message]]) -> None:
-    line = Echoing(answer)
+    line = LiveLine(lambda message: [message, *answer(message)])
     with Controller(
         line, local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
     ) as controller:
@@ -180,8 +173,9 @@ def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Mess
 
 def test_the_same_in_real_time_for_asyncio() -> None:
     async def work() -> None:
+        line = LiveLine(lambda message: [message, *answered(message)])
         async with AsyncController(
-            Echoing(), local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
+            line, local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
         ) as controller:
             await controller.stop_action_group()
             assert await controller.read_battery_voltage() == 7500

@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.factories import DEMO, data_of, files_of, library
+from tests.lines.timed_line import TimedLine, client_on
 
 TEXT = "Vents open by themselves since 2024."
 SAID = f"VentsOpen is deprecated: {TEXT}"
@@ -28,24 +29,8 @@ def old() -> Iterator[ModuleType]:
         yield made
 
 
-class Line:
-    """A transport on which nothing comes back."""
-
-    def read(self, _timeout: float) -> bytes:
-        return b""
-
-    def write(self, _data: bytes) -> None:
-        pass
-
-    def drain(self, _timeout: float) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
-
-
 def sent_by_a_method(old: ModuleType) -> object:
-    with old.Controller(Line(), background=False, settle=0) as controller:
+    with client_on(TimedLine(), old.Controller) as controller:
         return controller.vents_open([(1, 0)], ramp_s=1)
 
 

@@ -1,8 +1,6 @@
 """Libraries of protocols in which only one end speaks: a sensor that reports, a lamp that obeys."""
 
-import asyncio
 import importlib
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import DEMO, data_of, files_of, layout_of, library
-from tests.lines.timed_line import DeviceLine, client_of
-from tests.timeouts import GENEROUS
+from tests.lines.timed_line import client_of
+from tests.lines.virtual_line import run
 
 WEATHER, LAMP = (data_of(DEMO.with_name(f"{name}.yaml")) for name in ("weather", "lamp"))
 MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
@@ -70,21 +68,12 @@ def test_what_a_sensor_sends_is_received_with_asyncio() -> None:
     gusts = weather.GustsMeasured([])
     mast = weather.Device()
 
-    class RealLine(DeviceLine):
-        """A line in real time, as asyncio needs: a read that finds nothing waits."""
-
-        def read(self, timeout: float) -> bytes:
-            data = super().read(timeout)
-            if not data:
-                time.sleep(min(timeout, 0.01))
-            return data
-
     async def listen() -> Any:
-        async with lib("weather").AsyncController(RealLine(mast)) as logger:
+        async with client_of(mast, weather.AsyncController) as logger:
             mast.send(gusts)
-            return await logger.wait_for(weather.GustsMeasured, timeout=GENEROUS)
+            return await logger.wait_for(weather.GustsMeasured, timeout=1)
 
-    assert asyncio.run(listen()) == gusts
+    assert run(listen()) == gusts
 
 
 def test_nothing_can_be_sent_to_a_sensor() -> None:
