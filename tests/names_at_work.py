@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.factories import library, library_files
-from tests.lines.timed_line import DeviceLine
+from tests.lines.timed_line import client_of
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -94,8 +94,7 @@ def methods_work(lib: ModuleType, model: Model) -> None:
     }
     for request, reply in replies.items():
         setattr(device, f"on_{snake_case(request)}", lambda _message, reply=reply: reply)
-    line = DeviceLine(device)
-    with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
+    with client_of(device) as controller:
         for exchange, author in pairs:
             message = made_of(lib, model, author.request)
             given = {name: getattr(message, name) for name in message.__match_args__}
@@ -109,8 +108,7 @@ def methods_work(lib: ModuleType, model: Model) -> None:
 def reports_work(lib: ModuleType, model: Model) -> None:
     """Wait for every report of the device, by all of its numbers."""
     device = lib.Device()
-    line = DeviceLine(device)
-    with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
+    with client_of(device) as controller:
         for message in model.sent(model.roles.received):
             if model.kind(message.name) == "reply":
                 continue

@@ -12,6 +12,7 @@ import lxservo
 from busservo_simulator.virtual_loop import run_virtual
 
 from tests.lines.servo_bus import ServoBus
+from tests.lines.timed_line import client_on
 
 NUMBERS = (1, 2, 3, 4, 5)
 DEAD = 3
@@ -44,10 +45,7 @@ def on_a_bus(requests: int, rounds: int, seed: int) -> None:
         assert value in servo.told[told:]
 
     async def converse() -> int:
-        client = lxservo.AsyncController(
-            line, background=False, clock=line.clock.now, settle=0, reply_timeout=TIMEOUT
-        )
-        async with client as bus:
+        async with client_on(line, lxservo.AsyncController, reply_timeout=TIMEOUT) as bus:
             for number in NUMBERS * 4:
                 await ask(bus, number)
             for _ in range(rounds):
@@ -63,7 +61,7 @@ def on_a_bus(requests: int, rounds: int, seed: int) -> None:
                 blocks.append(sys.getallocatedblocks())
             return int(bus.counters.replies)
 
-    answered = run_virtual(converse(), line.clock)
+    answered = run_virtual(converse(), line.timer)
     fifth = len(blocks) // 5
     grown = min(blocks[-3:]) - min(blocks[fifth : fifth + 3])
     print(

@@ -76,7 +76,7 @@ class ServoBus:
     def __init__(
         self, *numbers: int, echo: bool = False, apart: bool = True, baud: float = BAUD
     ) -> None:
-        self.clock = VirtualClock()
+        self.timer = VirtualClock()
         self.servos = {number: Servo(number) for number in numbers}
         self.echo = echo
         # Whether a servo of a higher number takes longer, so that not all answer at once.
@@ -89,15 +89,19 @@ class ServoBus:
         self._sending: list[tuple[float, float, bytes]] = []
         self._arrived = b""
         self._readable: Callable[[], object] = int
-        self.clock.when_due(lambda: self._sending[0][1] if self._sending else None)
-        self.clock.when_moved(self._move)
+        self.timer.when_due(lambda: self._sending[0][1] if self._sending else None)
+        self.timer.when_moved(self._move)
+
+    def clock(self) -> float:
+        """Return the time."""
+        return self.timer.now()
 
     def write(self, data: bytes) -> None:
         """Carry frames to all servos."""
         for number, command, parameters in frames_in(data):
             self.commands.append((number, command))
             told = frame(number, command, *parameters)
-            heard = self._free = self._put(max(self.clock.now(), self._free), told, self.echo)
+            heard = self._free = self._put(max(self.clock(), self._free), told, self.echo)
             for servo in self.servos.values():
                 if number in (servo.number, ALL):
                     self._answer(servo, command, parameters, heard)
@@ -124,10 +128,10 @@ class ServoBus:
 
     def read(self, timeout: float) -> bytes:
         """Return what has arrived; where nothing has, time goes on until something does."""
-        until = self.clock.now() + max(timeout, 1e-6) if timeout else self.clock.now()
-        while not self._arrived and self.clock.now() < until:
+        until = self.clock() + max(timeout, 1e-6) if timeout else self.clock()
+        while not self._arrived and self.clock() < until:
             ends = [end for _, end, _ in self._sending]
-            self.clock.move_to(min([until, *(end for end in ends if end > self.clock.now())]))
+            self.timer.move_to(min([until, *(end for end in ends if end > self.clock())]))
             self._move()
         data, self._arrived = self._arrived, b""
         return data
@@ -143,7 +147,7 @@ class ServoBus:
         """Do nothing: there is nothing to give back."""
 
     def _move(self) -> None:
-        while self._sending and self._sending[0][1] <= self.clock.now():
+        while self._sending and self._sending[0][1] <= self.clock():
             self._arrived += self._sending.pop(0)[2]
         if self._arrived:
             self._readable()

@@ -19,6 +19,7 @@ from tests.contract.independent.ports import VirtualPort
 from tests.factories import BUSSERVO, ROOT, compiled_file
 from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.lines.tallied_line import audited
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.unit.conformance.device.runs import run
 from tests.unit.runtime.command.checks.conftest import nothing_else_comes
@@ -68,9 +69,7 @@ def test_a_doctor_s_report(tmp_path: Path) -> None:
 
 def test_a_client_s_trace(tmp_path: Path) -> None:
     line, path = VirtualLine(), tmp_path / "line.hex"
-    with Controller(
-        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
-    ) as controller:
+    with client_on(line, Controller, reply_timeout=0.25, trace=path) as controller:
         line.say(bytes.fromhex("55 00 55 55 02 07 55 55 05 08"))
         with pytest.raises(NoReplyError):
             controller.read_battery_voltage()

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.factories import Data, files_of, kiln, layout_of, library
-from tests.lines.timed_line import DeviceLine
+from tests.lines.timed_line import client_of
 
 
 def long_question(*, echoed: bool) -> Data:
@@ -44,7 +44,5 @@ def test_a_reply_need_not_repeat_the_request(echoed: bool) -> None:
             def on_damper_read(self, message: Any) -> Any:
                 return made.DamperPositions([(each, 10 * each) for each in message.damper_ids])
 
-        with made.Controller(
-            DeviceLine(Board()), background=False, baud=float("inf")
-        ) as controller:
+        with client_of(Board()) as controller:
             assert controller.read_dampers([3, 4]) == ((3, 30), (4, 40))

@@ -11,14 +11,15 @@ from unittest import mock
 import busservo
 import busservo.__main__
 import pytest
-from busservo_simulator import VirtualClock, VirtualController
+from busservo_simulator import VirtualController
 from framegen.model.codec import encode, values_of
 from framegen.model.verdict import weigh_whole
 from framegen.render import snippets
 
 from tests.factories import compiled_file, library, library_of
 from tests.in_turn import in_turn
-from tests.lines.timed_line import ScriptedLine
+from tests.lines.at_board import client_at, virtual_board
+from tests.lines.timed_line import ScriptedLine, client_on
 from tests.protocols.specs import FILES
 from tests.rows import some
 from tests.unit.site.reference import SPECS, reference
@@ -111,9 +112,7 @@ def test_every_snippet_of_a_protocol_runs(name: str) -> None:
                 assert snippet.language == ("sh" if kind == "Shell" else "python")
                 if kind == "Client":
                     line = answering(model, message)
-                    client = made.Controller(
-                        line, background=False, clock=line.clock, local_echo=False
-                    )
+                    client = client_on(line, made.Controller, local_echo=False)
                     printed = ran(made, snippet.code, client)
                     assert printed or message in silent, message
                     assert line.written or line.unasked, message
@@ -126,10 +125,10 @@ def test_every_snippet_of_a_protocol_runs(name: str) -> None:
 def test_every_snippet_of_the_board_runs_against_a_virtual_one(message: str) -> None:
     found = shown(SERVO, message)
     assert tuple(found) == NAMES
-    with VirtualController(clock=VirtualClock(follow_reads=True)) as board:
+    with virtual_board() as board:
         if message == "ActionGroupStopped":
             board.press_button(8)
-        client = busservo.Controller(board.transport, background=False, clock=board.clock.now)
+        client = client_at(board, busservo.Controller)
         printed = ran(busservo, found["Client"].code, client)
     assert bool(printed) == (SERVO.kind(message) != "command")
     assert f"{message}(" in printed or SERVO.kind(message) in ("command", "query", "reply")

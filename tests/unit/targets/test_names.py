@@ -44,7 +44,7 @@ from tests.factories import (
     write_files,
 )
 from tests.in_turn import in_turn
-from tests.lines.timed_line import DeviceLine
+from tests.lines.timed_line import client_of
 from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
 from tests.rows import some
 from tests.side_by_side import library_of, linted
@@ -313,8 +313,7 @@ def test_a_pose_is_read_and_held_under_bent_names() -> None:
         moved: list[Any] = []
         device.on_places_read = lambda _message: there
         device.on_move = moved.append
-        line = DeviceLine(device)
-        with lib.Controller(line, background=False, clock=line.clock, settle=0) as controller:
+        with client_of(device) as controller:
             assert controller.int_(targets_=[1, 2]) == (1, 2)
             controller.close_([1, 2], reply_=3)
             assert moved == [lib.Move(reply_=3, goals=[(1, 7), (2, 8)])]

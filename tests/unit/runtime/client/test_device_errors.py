@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import importlib
 import pickle
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -39,12 +39,8 @@ def frame(name: str, message: str, **values: Any) -> bytes:
     return encode(messages_of(name)[message], values)
 
 
-@contextmanager
-def client(name: str, answer: bytes, **settings: Any) -> Iterator[Any]:
-    line = ScriptedLine(lambda _: answer)
-    settings = {"background": False, "clock": line.clock, "settle": 0, **settings}
-    with lib(name).Controller(line, **settings) as bus:
-        yield bus
+def client(name: str, answer: bytes, **settings: Any) -> Any:
+    return client_on(ScriptedLine(lambda _: answer), lib(name).Controller, **settings)
 
 
 # ------------------------------------------------------------------ refusals

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import lxservo
 import pytest
@@ -13,24 +12,18 @@ from busservo_simulator.virtual_loop import run_virtual
 from tests.lines.servo_bus import MOVE, READ_POSITION, ServoBus, frame
 from tests.lines.timed_line import ScriptedLine, client_on
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 # A question and its reply on the wire, with what a servo takes to begin.
 TRIP = 14 * 10 / 115200 + 0.001
 
 
-@contextmanager
-def client(line: ServoBus, **settings: Any) -> Iterator[Any]:
-    settings = {"settle": 0, **settings}
-    with lxservo.Controller(line, background=False, clock=line.clock.now, **settings) as bus:
-        yield bus
+def client(line: ServoBus, **settings: Any) -> Any:
+    return client_on(line, lxservo.Controller, **settings)
 
 
 def took(line: ServoBus, call: Any) -> float:
-    began = line.clock.now()
+    began = line.clock()
     call()
-    return float(line.clock.now() - began)
+    return float(line.clock() - began)
 
 
 # ------------------------------------------------------------------ one device of many
@@ -88,23 +81,22 @@ def test_others_are_asked_while_a_dead_servo_is_still_waited_for() -> None:
     line = ServoBus(1, 2, 3)
 
     async def ask() -> float:
-        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
-        async with controller as bus:
+        async with client_on(line, lxservo.AsyncController) as bus:
             for number in (1, 2, 3):
                 await bus.device(number).read_position()
             line.servos[2].dead = True
-            began = line.clock.now()
+            began = line.clock()
             dead = asyncio.ensure_future(bus.read_position(servo_id=2))
             await asyncio.sleep(0)
             assert await bus.read_position(servo_id=3) == 3002
             assert await bus.read_position(servo_id=1) == 1002
             await bus.device(3).move(500, 20)
-            ended = line.clock.now()
+            ended = line.clock()
             with pytest.raises(lxservo.NoReplyError):
                 await dead
         return float(ended - began)
 
-    assert run_virtual(ask(), line.clock) < 0.1
+    assert run_virtual(ask(), line.timer) < 0.1
     assert line.collisions == 0
 
 
@@ -112,15 +104,14 @@ def test_nothing_is_sent_while_a_servo_may_answer() -> None:
     line = ServoBus(1, 2)
 
     async def ask() -> None:
-        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
-        async with controller as bus:
+        async with client_on(line, lxservo.AsyncController) as bus:
             for _ in range(20):
                 asked = [asyncio.ensure_future(bus.read_position(each)) for each in (1, 2)]
                 await asyncio.sleep(0.0015)  # now the first begins to answer
                 await bus.move(1, position=500, time_ms=10)
                 await asyncio.gather(*asked)
 
-    run_virtual(ask(), line.clock)
+    run_virtual(ask(), line.timer)
     assert line.collisions == 0
     assert len(line.servos[1].moves) == 20
 
@@ -194,12 +185,11 @@ def test_all_are_asked_with_asyncio() -> None:
     line = ServoBus(1, 2)
 
     async def ask() -> Any:
-        controller = lxservo.AsyncController(line, background=False, clock=line.clock.now, settle=0)
-        async with controller as bus:
+        async with client_on(line, lxservo.AsyncController) as bus:
             await bus.broadcast().move(500, 20)
             return await bus.broadcast().read_servo_id(within=0.05)
 
-    assert [each.own_id for each in run_virtual(ask(), line.clock)] == [1, 2]
+    assert [each.own_id for each in run_virtual(ask(), line.timer)] == [1, 2]
 
 
 # ------------------------------------------------------------------ a line with an echo

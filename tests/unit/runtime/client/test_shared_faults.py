@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.lines.servo_bus import ServoBus
+from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -39,22 +40,20 @@ def prepared(line: ServoBus, turn: Turn) -> None:
 @given(TURNS)
 def test_each_value_is_the_answer_to_its_own_question(turns: list[Turn]) -> None:
     line = ServoBus(*NUMBERS, apart=False)
-    with lxservo.Controller(
-        line, background=False, clock=line.clock.now, settle=0, reply_timeout=TIMEOUT
-    ) as bus:
+    with client_on(line, lxservo.Controller, reply_timeout=TIMEOUT) as bus:
         for number in NUMBERS * ENOUGH:
             bus.read_position(number)
         for turn in turns:
             prepared(line, turn)
             number = turn[0]
-            told, began = len(line.servos[number].told), line.clock.now()
+            told, began = len(line.servos[number].told), line.clock()
             try:
                 value = bus.read_position(number)
             except lxservo.NoReplyError:
                 pass
             else:
                 assert value in line.servos[number].told[told:]
-            assert line.clock.now() - began < BOUND
+            assert line.clock() - began < BOUND
 
 
 @given(st.lists(st.lists(st.sampled_from(NUMBERS), min_size=1, max_size=6), max_size=8), TURNS)
@@ -63,7 +62,7 @@ def test_many_tasks_each_have_their_own_answer(rounds: list[list[int]], turns: l
     given_out: list[int] = []
 
     async def ask(bus: lxservo.AsyncController, number: int) -> None:
-        told, began = len(line.servos[number].told), line.clock.now()
+        told, began = len(line.servos[number].told), line.clock()
         try:
             value = await bus.read_position(number)
         except lxservo.NoReplyError:
@@ -71,13 +70,10 @@ def test_many_tasks_each_have_their_own_answer(rounds: list[list[int]], turns: l
         else:
             assert value in line.servos[number].told[told:]
             given_out.append(value)
-        assert line.clock.now() - began < 6 * BOUND
+        assert line.clock() - began < 6 * BOUND
 
     async def converse() -> None:
-        client = lxservo.AsyncController(
-            line, background=False, clock=line.clock.now, settle=0, reply_timeout=TIMEOUT
-        )
-        async with client as bus:
+        async with client_on(line, lxservo.AsyncController, reply_timeout=TIMEOUT) as bus:
             for number in NUMBERS * ENOUGH:
                 await bus.read_position(number)
             for numbers in rounds:
@@ -86,5 +82,5 @@ def test_many_tasks_each_have_their_own_answer(rounds: list[list[int]], turns: l
                 await asyncio.gather(*(ask(bus, number) for number in numbers))
                 await bus.move(1, position=500, time_ms=10)
 
-    run_virtual(converse(), line.clock)
+    run_virtual(converse(), line.timer)
     assert len(given_out) == len({*given_out}), "an answer was given to two"

@@ -15,6 +15,7 @@ from busservo_simulator import Faults, VirtualController
 from framewire.command import bench_line
 
 from tests.commands import called
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
@@ -68,7 +69,7 @@ def test_a_line_that_takes_no_time_allows_any_rate(capsys: Capture) -> None:
 
 def measured(line: VirtualLine, *words: str) -> Ended:
     """Measure the line to a device, in its own time."""
-    client = Controller(line, background=False, clock=line.clock, settle=0)
+    client = client_on(line, Controller)
     with (
         mock.patch.object(bench_line, "open_client", return_value=client),
         mock.patch.object(bench_line, "time", SimpleNamespace(perf_counter=line.clock)),

@@ -28,6 +28,7 @@ from serial.tools.list_ports_common import ListPortInfo
 from tests.commands import called
 from tests.documents import ROOT
 from tests.in_turn import in_turn
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
@@ -88,7 +89,7 @@ def test_silence_after_a_part_keeps_what_had_come(
     capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, ServoPositions([(1, 500)]))])
-    client = Controller(line, background=False, clock=line.clock)
+    client = client_on(line, Controller, settle=None)
     monkeypatch.setattr(send, "open_client", lambda *_, **__: client)
     words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(1, 87)))}"]
     assert main(["send", "--port", "COM7", *words]) == 1

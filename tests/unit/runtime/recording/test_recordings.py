@@ -31,6 +31,7 @@ from hypothesis import strategies as st
 
 from tests.hex_cases import HEX, NO_HEX
 from tests.in_turn import in_turn
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.strategies import joined, lines
 from tests.strategies import read as decoded
@@ -183,9 +184,7 @@ def test_there_is_no_other_form() -> None:
 
 def test_a_client_s_trace_is_read_back(tmp_path: Path) -> None:
     line, path = VirtualLine(), tmp_path / "line.hex"
-    with Controller(
-        line, reply_timeout=0.25, trace=path, background=False, clock=line.clock, settle=0
-    ) as controller:
+    with client_on(line, Controller, reply_timeout=0.25, trace=path) as controller:
         line.say(b"\x55\x00" + ActionGroupStopped().encode() + b"\x55\x55\x05\x08")
         with pytest.raises(NoReplyError):
             controller.read_battery_voltage()
