@@ -23,10 +23,10 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from busservo import AsyncController, Controller, open_transport
-from busservo_simulator import Faults, VirtualClock, VirtualController
+from busservo_simulator import Faults, VirtualController
 
 from tests.contract.independent import long_run
-from tests.lines.at_board import client_at
+from tests.lines.at_board import client_at, virtual_board
 from tests.lines.conversation import (
     Ledger,
     converse,
@@ -109,9 +109,7 @@ class Watch:
 
 def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
     """Run one thread, in this process: the board's time is moved on, and nothing sleeps."""
-    clock = VirtualClock(follow_reads=True)
-    faults = Faults(seed=seed, **VIRTUAL, **BOTH)
-    with VirtualController(clock=clock, faults=faults) as board:
+    with virtual_board(faults=Faults(seed=seed, **VIRTUAL, **BOTH)) as board:
         ledger = Ledger(board)
         with client_at(
             board, Controller, baud=math.inf, reply_timeout=REPLY_TIMEOUT, settle=None
@@ -119,9 +117,8 @@ def in_virtual_time(requests: int, rounds: int, seed: int) -> None:
             watch = Watch("virtual time", ledger, controller)
             for turn in range(rounds):
                 size = requests // rounds
-                converse(
-                    controller, ledger, seed + turn, size, clock.now, 3 * REPLY_TIMEOUT + 0.001
-                )
+                bound = 3 * REPLY_TIMEOUT + 0.001
+                converse(controller, ledger, seed + turn, size, board.clock.now, bound)
                 watch.round((turn + 1) * size, list(controller.reports(timeout=1)))
             watch.end(requests)
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from busservo._command import PROGRAM
-from busservo_simulator import VirtualClock, VirtualController
 from framewire.command.checks.checks import checks_of, examine
 from framewire.command.checks.diagnosis import Diagnosis
 from framewire.line.serial_port import SerialPortSeen
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from tests.lines.at_board import virtual_board
 
-    from busservo_simulator import Faults
+if TYPE_CHECKING:
+    from busservo_simulator import Faults, VirtualController
     from framewire.command.checks.result import Result
 
 CHECKS = checks_of(PROGRAM.library)
@@ -24,12 +22,9 @@ ADAPTER = SerialPortSeen(PORT, "1A86:7523", "USB Serial", "A50285BI")
 LONGEST = 60.0
 
 
-@contextmanager
-def board_with(faults: Faults | None = None, **more: Any) -> Iterator[VirtualController]:
+def board_with(faults: Faults | None = None, **more: Any) -> VirtualController:
     """Return a board at the end of a wire, by default of 9600 baud."""
-    made = {"clock": VirtualClock(follow_reads=True), "baud": 9600.0, "faults": faults, **more}
-    with VirtualController(**made) as board:
-        yield board
+    return virtual_board(**{"baud": 9600.0, "faults": faults, **more})
 
 
 def diagnosis_of(board: VirtualController, **more: Any) -> Diagnosis:

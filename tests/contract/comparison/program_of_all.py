@@ -9,13 +9,16 @@ from __future__ import annotations
 import enum
 import importlib
 import inspect
+import math
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
 
 from framegen.model.exchanges import snake_case
 
+from tests.lines.timed_line import ScriptedLine, client_on
+
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from types import ModuleType
 
 # What goes with any change, and what is there for the library itself.
@@ -26,62 +29,6 @@ _PASSING = frozenset(
     )
 )
 _MOST_VALUES = 24
-_HELPERS = """
-import inspect
-
-
-class Line:
-    name = "line"
-
-    def __init__(self, *replies):
-        self.now, self.waiting, self.replies = 0.0, b"", list(replies)
-
-    def clock(self):
-        return self.now
-
-    def read(self, timeout):
-        data, self.waiting = self.waiting, b""
-        self.now += 0.0 if data else max(timeout, 1e-6)
-        return data
-
-    def write(self, data):
-        if self.replies:
-            self.waiting += self.replies.pop(0).encode()
-
-    def drain(self, timeout):
-        pass
-
-    def close(self):
-        pass
-
-
-def asked(call, *replies):
-    line = Line(*replies)
-    options = {"baud": float("inf"), "settle": 0, "local_echo": False}
-    with Controller(line, background=False, clock=line.clock, **options) as client:
-        return call(client)
-
-
-def handled(handler, message, reply):
-    seen = []
-
-    def handle(self, received):
-        seen.append(received)
-        return reply
-
-    kind = type("Own", (Device,), {handler: handle})
-    device = kind()
-    device.accept(message.encode())
-    return seen, device.take()
-
-
-def accepted(method, names):
-    inspect.signature(method).bind(None, **dict.fromkeys(names))
-
-
-def matched(message, *names):
-    return [getattr(message, name) for name in type(message).__match_args__[: len(names)]]
-"""
 
 
 def namespace(made: ModuleType) -> dict[str, Any]:
@@ -91,8 +38,38 @@ def namespace(made: ModuleType) -> dict[str, Any]:
         names[module] = importlib.import_module(f"{made.__name__}.{module}")
     # Some are imported when they are first used.
     importlib.import_module(f"{made.__name__}._library")
-    exec(_HELPERS, names)  # noqa: S102 - it is our own
-    return names
+
+    def asked(call: Callable[[Any], object], *replies: Any) -> object:
+        """Return what a call of the client gives; each frame that it sends gets a reply."""
+        frames = (reply.encode() for reply in replies)
+        line = ScriptedLine(lambda _: next(frames, b""))
+        options = {"baud": math.inf, "local_echo": False}
+        with client_on(line, names["Controller"], **options) as client:
+            return call(client)
+
+    def handled(handler: str, message: Any, reply: Any) -> object:
+        """Return what a handler of the device is given, and what the device then sends."""
+        seen: list[Any] = []
+
+        def handle(_device: object, received: Any) -> Any:
+            seen.append(received)
+            return reply
+
+        device = type("Own", (names["Device"],), {handler: handle})()
+        device.accept(message.encode())
+        return seen, device.take()
+
+    return {**names, "asked": asked, "handled": handled, "accepted": accepted, "matched": matched}
+
+
+def accepted(method: Callable[..., object], names: list[str]) -> None:
+    """Tell whether a method takes arguments by these names: it raises an error if not."""
+    inspect.signature(method).bind(None, **dict.fromkeys(names))
+
+
+def matched(message: Any, *names: str) -> list[Any]:
+    """Return what a `match` by position takes out of a message."""
+    return [getattr(message, name) for name in type(message).__match_args__[: len(names)]]
 
 
 def run(statement: str, names: dict[str, Any]) -> object:

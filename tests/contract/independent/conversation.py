@@ -20,6 +20,7 @@ from tests.contract.independent.firmware import (
     positions_question,
     positions_reply,
 )
+from tests.lines.both_clients import Awaited, done_at_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -72,18 +73,9 @@ class Conversation:
 
     def ask(self, controller: Controller, requested: Requested) -> None:
         """Read once. A declared error is recorded, any other is raised."""
-        began, before = self._now(), self.board.questions
-        number: int | None = None
-        try:
-            if requested is None:
-                number = controller.read_battery_voltage()
-            else:
-                number = only(controller.read_servo_positions(requested), requested)
-        except (NoReplyError, IncompleteReplyError):
-            pass
-        self.calls.append(Call(began, self._now(), before, number, requested))
+        done_at_once(self.ask_async(Awaited(controller), requested))
 
-    async def ask_async(self, controller: AsyncController, requested: Requested) -> None:
+    async def ask_async(self, controller: AsyncController | Awaited, requested: Requested) -> None:
         """Read once, for asyncio."""
         began, before = self._now(), self.board.questions
         number: int | None = None

@@ -9,22 +9,18 @@ from __future__ import annotations
 import bisect
 from typing import TYPE_CHECKING
 
-from busservo import BatteryVoltage, Controller, ServoPositions
-from busservo_simulator import Faults, VirtualClock, VirtualController
-from busservo_simulator.board_fault_injector import REPLIES
+from busservo import Controller
+from busservo_simulator import Faults, VirtualController
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.contract.independent.conversation import SIX, Conversation, wire_time
 from tests.lines.at_board import virtual_board
+from tests.lines.conversation import Numbering
 from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from busservo import BatteryVoltageRead, ServoPositionsRead
     from busservo_simulator.memory_end import MemoryEnd
-    from busservo_simulator.virtual_device import Report
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25
@@ -35,12 +31,11 @@ QUIET = 3.0
 BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 
 
-class Simulated:
-    """A simulated board that numbers its replies, with a record of the values and times."""
+class Simulated(Numbering):
+    """A simulated board that numbers its replies, with a record of the bytes and times."""
 
     def __init__(self, board: VirtualController) -> None:
-        self.questions = 0
-        self.reported: list[bytes] = []
+        super().__init__(board)
         self.calm_at = float("inf")
         self.clock = board.clock.now
         self._transport: MemoryEnd = board.transport
@@ -48,29 +43,6 @@ class Simulated:
         # How many bytes there were by then, and when that was.
         self._sizes: list[int] = []
         self._times: list[float] = []
-        board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
-        board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
-
-    def note_reports(self, board: VirtualController) -> None:
-        """Record every report that leaves the board; to be called whenever faults are set."""
-        injector = board._line._injector
-        reports = injector.reports
-
-        def noted(report: Report) -> Iterator[Report]:
-            for event in reports(report):
-                if not isinstance(event, REPLIES):
-                    self.reported.append(event.encode())
-                yield event
-
-        injector.reports = noted  # type: ignore[method-assign]
-
-    def _voltage(self, _message: BatteryVoltageRead) -> BatteryVoltage:
-        self.questions += 1
-        return BatteryVoltage(self.questions)
-
-    def _positions(self, message: ServoPositionsRead) -> ServoPositions:
-        self.questions += 1
-        return ServoPositions([(servo, self.questions) for servo in message.servo_ids])
 
     # ---------------------------------------------------------------- a transport
 
@@ -142,13 +114,7 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
     with virtual_board(baud=BAUD) as board:
         simulated = Simulated(board)
         talk = Conversation(simulated, simulated.clock)
-        with Controller(
-            simulated,
-            background=False,
-            clock=board.clock.now,
-            reply_timeout=REPLY_TIMEOUT,
-            settle=0,
-        ) as controller:
+        with client_on(simulated, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
             for _ in range(HEALTHY):
                 talk.ask(controller, None)
             board.faults = faults
@@ -156,7 +122,7 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
             for each in requested:
                 talk.ask(controller, each)
             board.faults = Faults()
-            received = [each.encode() for each in controller.reports(timeout=QUIET)]
+            received = list(controller.reports(timeout=QUIET))
             simulated.calm_at = board.clock.now()
             for _ in range(3):
                 talk.ask(controller, None)
@@ -167,9 +133,8 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
 def test_reads_come_no_faster_than_the_line_allows() -> None:
     """Some replies come up to a second late: with each seed, most reads after them came early."""
     for seed in range(4):
-        clock = VirtualClock(follow_reads=True)
         faults = Faults(seed=seed, delays=0.04, longest_delay=1.0)
-        with VirtualController(clock=clock, baud=BAUD, faults=faults) as board:
+        with virtual_board(baud=BAUD, faults=faults) as board:
             simulated = Simulated(board)
             talk = Conversation(simulated, simulated.clock)
             with client_on(simulated, Controller, reply_timeout=REPLY_TIMEOUT) as controller:

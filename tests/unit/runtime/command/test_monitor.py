@@ -31,6 +31,7 @@ from framewire.command.recorder import Recorder
 from framewire.command.usage_error import UsageError
 
 from tests.commands import Terminal
+from tests.lines.timed_line import TimedLine
 
 if TYPE_CHECKING:
     from io import TextIOWrapper
@@ -39,15 +40,13 @@ if TYPE_CHECKING:
 Capture = pytest.CaptureFixture[str]
 
 
-class Line:
+class Line(TimedLine):
     """A line that brings pieces of bytes, a second apart; then silence, then its end."""
 
     def __init__(self, *pieces: bytes, silence: int = 0) -> None:
+        super().__init__()
         self.pieces = [*pieces, *silence * [b""]]
         self.now = 100.0
-
-    def clock(self) -> float:
-        return self.now
 
     def day(self) -> float:
         """Return a clock that began at 09:08:07."""
@@ -58,15 +57,6 @@ class Line:
         if not self.pieces:
             raise DisconnectedError("COM7", "the line was lost", "plug it in")
         return self.pieces.pop(0)
-
-    def write(self, _data: bytes) -> None:
-        raise AssertionError("a monitor only listens")
-
-    def drain(self, _timeout: float) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
 
 
 FRAME = BatteryVoltage(7500).encode()
@@ -92,6 +82,8 @@ def watched(
             watching.watch(line, recorder)
         except DisconnectedError:
             assert not line.pieces
+    # It only listens.
+    assert line.written == []
     return screen.getvalue().splitlines()
 
 
