@@ -7,7 +7,6 @@ import importlib
 import importlib.util
 import json
 import re
-import subprocess
 import sys
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,8 +17,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.factories import ROOT
+from tests.programs import ran
 
 if TYPE_CHECKING:
+    import subprocess
     from collections.abc import Iterable, Iterator
     from types import ModuleType
 
@@ -88,14 +89,7 @@ def imported(library: Library, folder: Path) -> Iterator[ModuleType]:
 
 def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
     pytest.importorskip(command[0], reason="`pip install --group lint`")
-    return subprocess.run(
-        [sys.executable, "-m", *command],
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        errors="replace",
-        check=False,
-    )
+    return ran(sys.executable, "-m", *command, status=None, cwd=folder, errors="replace")
 
 
 def _by_library(found: Iterable[tuple[str, str]], folder: Path) -> dict[str, list[str]]:

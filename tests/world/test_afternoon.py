@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 
 from tests import documents
+from tests.programs import ran
+from tests.unit.project.test_house import our_files
 
 ROOT = Path(__file__).parents[2]
 GUIDE = "docs/changing-the-protocol.md"
@@ -22,28 +24,26 @@ ELSEWHERE = "tests/unit/project/test_house.py::test_there_is_one_version"
 def run(folder: Path, *words: str) -> str:
     """Run a module of the copy, and return what it prints."""
     folders = (folder / each for each in ("generated", "runtime", "codegen", "simulator"))
-    done = subprocess.run(
-        [sys.executable, "-m", *words],
+    path = os.pathsep.join(map(str, folders))
+    variables = {"PYTHONPATH": path, "HYPOTHESIS_PROFILE": "quick"}
+    return ran(
+        *(sys.executable, "-m", *words),
+        status=None,
+        environment=variables,
         cwd=folder,
-        env=os.environ
-        | {"PYTHONPATH": os.pathsep.join(map(str, folders)), "HYPOTHESIS_PROFILE": "quick"},
+        timeout=None,
+        capture_output=False,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        encoding="utf-8",
-        check=False,
-    )
-    return done.stdout
+    ).stdout
 
 
 def copied(folder: Path) -> Path:
     """Copy what belongs to the project."""
-    git = shutil.which("git") or "git"
-    listed = subprocess.run(
-        [git, "ls-files", "-z"], cwd=ROOT, capture_output=True, encoding="utf-8", check=True
-    )
-    for name in filter(None, listed.stdout.split("\0")):
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, folder / name)
+    for file in our_files():
+        copy = folder / file.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(file, copy)
     return folder
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ import pytest
 from tests.bound_crowds import CROWDS, crowd_of
 from tests.factories import ROOT, compiled_of, library_files, write_files
 from tests.names_at_work import at_work
+from tests.programs import ran
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,11 +35,4 @@ def test_linters_and_type_checkers_have_nothing_to_say(
         ("mypy", "--strict", "--config-file", str(untyped), "--cache-dir", "cache", "crowded"),
     ):
         pytest.importorskip(words[0], reason="`pip install --group lint`")
-        done = subprocess.run(
-            [sys.executable, "-m", *words],
-            cwd=tmp_path / "generated",
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
+        ran(sys.executable, "-m", *words, cwd=tmp_path / "generated")

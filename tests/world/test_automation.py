@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,7 +11,8 @@ import pytest
 from framegen.cli import main
 
 from tests.factories import DEMO, ROOT
-from tests.timeouts import GENEROUS
+from tests.programs import ran
+from tests.repository import commit, git, start
 from tests.unit.comparison.test_automation import ACTION, HOOKS, read
 
 GIT = shutil.which("git")
@@ -31,28 +31,12 @@ def step(name: str) -> str:
     return next(str(each["run"]) for each in steps if each.get("name") == name)
 
 
-def git(folder: Path, *words: str) -> None:
-    """Run git as nobody in particular."""
-    who = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org")
-    subprocess.run(
-        [str(GIT), *who, "-c", "init.defaultBranch=main", *words],
-        cwd=folder,
-        check=True,
-        capture_output=True,
-        env={**os.environ, "GIT_CONFIG_GLOBAL": os.devnull},
-    )
-
-
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
     """Return a shallow clone of a project, as actions/checkout makes it: without its base."""
     project = tmp_path / "project"
-    (project / "spec").mkdir(parents=True)
-    text = DEMO.read_text(encoding="utf-8")
-    (project / "spec" / "greenhouse.yaml").write_text(text, encoding="utf-8")
-    git(project, "init", "-q")
-    git(project, "add", ".")
-    git(project, "commit", "-qm", "Begin")
+    start(project)
+    commit(project, {"spec/greenhouse.yaml": DEMO.read_text(encoding="utf-8")})
     git(project, "branch", "pull")
     origin = project.as_uri()
     git(tmp_path, "clone", "-q", "--depth=1", "--single-branch", "-b", "pull", origin, "clone")
@@ -93,15 +77,11 @@ class Runner:
 
     def run(self, name: str, variables: Mapping[str, str]) -> tuple[int, str]:
         """Run a step as a runner does, and return its exit code and what it prints."""
-        done = subprocess.run(
-            [str(BASH), "--noprofile", "--norc", "-eo", "pipefail", "-c", step(name)],
+        done = ran(
+            *(BASH, "--noprofile", "--norc", "-eo", "pipefail", "-c", step(name)),
             cwd=self.checkout,
-            capture_output=True,
-            encoding="utf-8",
-            timeout=5 * GENEROUS,
-            check=False,
-            env={
-                **os.environ,
+            status=None,
+            environment={
                 "PATH": f"{self.bin}{os.pathsep}{os.environ['PATH']}",
                 "GITHUB_OUTPUT": str(self.temporary / "output"),
                 "GITHUB_STEP_SUMMARY": str(self.summary),

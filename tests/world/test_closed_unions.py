@@ -1,10 +1,11 @@
 """Type checkers know when a `match` has gone through all that can come, and when it has not."""
 
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from tests.programs import ran
 
 ROOT = Path(__file__).parents[2]
 REPORTS = """
@@ -70,13 +71,8 @@ def test_a_match_is_known_to_be_complete(checker: str, left_out: str, tmp_path: 
     (tmp_path / "pyrightconfig.json").write_text(
         f'{{"extraPaths": ["{(ROOT / "generated").as_posix()}"]}}', encoding="utf-8"
     )
-    done = subprocess.run(
-        [sys.executable, "-m", *CHECKERS[checker], "program.py"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    words = ("-m", *CHECKERS[checker], "program.py")
+    done = ran(sys.executable, *words, status=None, cwd=tmp_path)
     assert (done.returncode != 0) == bool(left_out), done.stdout
     if left_out:
         assert "assert_never" in done.stdout or "Never" in done.stdout

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import multiprocessing
-import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from typing import TYPE_CHECKING
 
 from busservo.tables import archive, scan
 
+from tests.programs import ran
 from tests.unit.runtime.tables.test_dataset import (
     SIZE,
     archived,
@@ -57,8 +57,7 @@ def test_two_processes_make_the_same_files_as_one(captures: Path, tmp_path: Path
 
 def test_a_process_that_was_killed_is_replaced_by_another(captures: Path, tmp_path: Path) -> None:
     folder = tmp_path / "dataset"
-    ended = subprocess.run([sys.executable, "-c", KILLED, captures, folder], check=False)
-    assert ended.returncode == 9
+    ran(sys.executable, "-c", KILLED, captures, folder, status=9)
     assert rows_in(folder) != rows_of(captures)
     reports = archived(captures, folder)
     assert {report.is_new for report in reports} == {True, False}

@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import subprocess
 import sys
 from functools import cache
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.factories import BUSSERVO, DEMO, ROOT
+from tests.programs import ran
 
 SPECS = {"busservo": BUSSERVO, "greenhouse": DEMO}
 
@@ -41,16 +41,8 @@ def digests(
     environment: dict[str, str] | None = None,
 ) -> str:
     """Return what that program prints in a fresh interpreter, in that folder and environment."""
-    done = subprocess.run(
-        [python, "-c", DIGESTS, *map(str, specs)],
-        cwd=cwd,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "codegen"), **(environment or {})},
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    variables = {"PYTHONPATH": str(ROOT / "codegen"), **(environment or {})}
+    return ran(python, "-c", DIGESTS, *specs, cwd=cwd, environment=variables).stdout
 
 
 @cache
@@ -129,22 +121,13 @@ def test_every_python_at_hand_gives_the_same_bytes() -> None:
     """
     assert digests(specs=list(SPECS.values())) == expected()
     for python in other_pythons():
-        needs = subprocess.run(
-            [python, "-c", "import jinja2, markdown_it, pydantic, pygments, yaml"],
-            capture_output=True,
-            check=False,
-        )
+        imports = "import jinja2, markdown_it, pydantic, pygments, yaml"
+        needs = ran(python, "-c", imports, status=None)
         if needs.returncode == 0:
             assert digests(python, specs=list(SPECS.values())) == expected()
 
 
 def test_the_committed_output_comes_out_of_this_python() -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "framegen", "generate", "--check"],
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "codegen")},
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    path = {"PYTHONPATH": str(ROOT / "codegen")}
+    words = ("framegen", "generate", "--check")
+    assert ran(sys.executable, "-m", *words, cwd=ROOT, environment=path).stdout == ""

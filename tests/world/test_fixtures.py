@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from typing import TYPE_CHECKING
+
+from tests.programs import ran
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,8 +35,5 @@ def test_they_work_in_a_project_that_names_them(tmp_path: Path) -> None:
     (tmp_path / "test_robot.py").write_text(TESTS)
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     command = [sys.executable, "-m", "pytest", "-q", "-W", "error", "-p", "no:cacheprovider"]
-    done = subprocess.run(
-        command, cwd=tmp_path, env=environment, check=False, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stdout
+    done = ran(*command, cwd=tmp_path, env=environment)
     assert "3 passed" in done.stdout

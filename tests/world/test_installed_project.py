@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from framegen.cli import main
 
-from tests.timeouts import GENEROUS
+from tests.programs import ran
 
 # Nothing that is written depends on how long the name is.
 NAMES = ["k", "k" * 30]
@@ -18,17 +18,8 @@ SCRIPTS, EXE = ("Scripts", ".exe") if sys.platform == "win32" else ("bin", "")
 
 
 def run(*words: object, cwd: Path) -> subprocess.CompletedProcess[str]:
-    done = subprocess.run(
-        [str(word) for word in words],
-        cwd=cwd,
-        env={key: value for key, value in os.environ.items() if key != "PYTHONPATH"},
-        capture_output=True,
-        encoding="utf-8",
-        timeout=5 * GENEROUS,
-        check=False,
-    )
-    assert done.returncode == 0, f"{words}\n{done.stdout}\n{done.stderr}"
-    return done
+    inherited = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    return ran(*words, cwd=cwd, env=inherited)
 
 
 def begun(name: str, folder: Path) -> Path:
@@ -66,9 +57,8 @@ def test_the_tests_of_a_project_fail_on_a_library_of_another_spec(tmp_path: Path
     vectors = project / "generated" / "kiln" / "vectors.json"
     text = vectors.read_text(encoding="utf-8")
     vectors.write_text(text.replace('"level": 500', '"level": 501'), encoding="utf-8")
-    words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
-    done = subprocess.run(words, cwd=project, capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 1
+    words = ("-m", "pytest", "-q", "-p", "no:cacheprovider")
+    done = ran(sys.executable, *words, status=1, cwd=project)
     assert "test_a_valid_frame_is_made_and_understood[Half full]" in done.stdout
     assert "\n1 failed, " in done.stdout
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.documents import ROOT
+from tests.programs import ran
 from tests.unit.writing.conftest import no_power_fails
 from tests.unit.writing.killed import EDITIONS
 from tests.unit.writing.test_killed import (
@@ -51,14 +51,7 @@ def test_a_run_that_is_killed_at_any_step_is_finished_by_the_next(
     tree, edition, force = scene
     before = snapshot(tree)
     words = [str(tree), str(tmp_path), edition, *(["force"] if force else [])]
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.unit.writing.killed", *words],
-        cwd=ROOT,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+    done = ran(sys.executable, "-m", "tests.unit.writing.killed", *words, cwd=ROOT)
     copies = [Path(line) for line in done.stdout.splitlines()]
     after = finished(tree, EDITIONS[edition], force=force)
     assert len(copies) > 3 * len(EDITIONS[edition][0].files)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.programs import ran
 from tests.unit.runtime.tables.conversations import conversation
 
 if TYPE_CHECKING:
@@ -55,11 +55,6 @@ def capture(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("way", WAYS)
 def test_a_large_capture_takes_little_memory(way: str, capture: Path, tmp_path: Path) -> None:
     work = WORK.format(work=WAYS[way])
-    done = subprocess.run(
-        [sys.executable, "-c", SMALL_PARENT, work, capture, tmp_path / "out"],
-        check=True,
-        capture_output=True,
-        text=True,
-    )
+    done = ran(sys.executable, "-c", SMALL_PARENT, work, capture, tmp_path / "out")
     unit = 1 if sys.platform == "darwin" else 1024
     assert int(done.stdout) * unit < MOST

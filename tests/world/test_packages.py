@@ -8,7 +8,6 @@ that is not handed over in the same command is not found.
 import email
 import os
 import shutil
-import subprocess
 import sys
 import tarfile
 import zipfile
@@ -18,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from tests.documents import ROOT
+from tests.programs import ran
 
 PYTHONS = {
     name.removeprefix("PYTHON_").replace("_", "."): path
@@ -105,9 +105,7 @@ with VirtualBus(clock=VirtualClock(follow_reads=True)) as bus:
 def run(*command: object, cwd: Path) -> str:
     """Return the output of a command, in a folder where no source of ours is imported."""
     words = [str(word) for word in command]
-    done = subprocess.run(words, cwd=cwd, capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
-    return done.stdout
+    return ran(*words, cwd=cwd, timeout=None).stdout
 
 
 def pip(*arguments: object, cwd: Path) -> str:
@@ -275,14 +273,7 @@ def test_without_the_extra_tables_say_how_to_get_it(
 ) -> None:
     python = install(*files_of(built, name, ".whl")) / "python"
     run(python, "-W", "error", "-c", f"import {name}.recordings", cwd=tmp_path)
-    done = subprocess.run(
-        [python, "-c", f"import {name}.tables"],
-        cwd=tmp_path,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 1
+    done = ran(python, "-c", f"import {name}.tables", status=1, cwd=tmp_path)
     message = done.stderr.splitlines()[-1]
     assert message.startswith("ImportError: numpy is needed here, and cannot be imported (")
     assert message.endswith(f"): pip install '{name}[tables]'")

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ from tests.factories import library, write_files
 from tests.few_each import few_each
 from tests.mutations.edits import EDITS, of_the_day, pair_of
 from tests.mutations.mutations import MUTATIONS, Editions, after, editions
+from tests.programs import ran
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -95,12 +95,7 @@ def complaints(made: Editions, folder: Path, which: str) -> list[str]:
     package = made.old.model.spec.protocol.name
     lines = [f"from {package} import *", *(f"print({each})" for each in statements)]
     (place / "program.py").write_text("\n".join([*lines, ""]), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--no-incremental", "program.py"],
-        cwd=place,
-        env={"MYPYPATH": str(place / "generated"), "PATH": ""},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    words = ("-m", "mypy", "--no-incremental", "program.py")
+    env = {"MYPYPATH": str(place / "generated"), "PATH": ""}
+    done = ran(sys.executable, *words, status=None, cwd=place, env=env)
     return [line for line in done.stdout.splitlines() if line.startswith("program.py")]

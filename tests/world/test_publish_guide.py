@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shlex
-import subprocess
 import sys
 import webbrowser
 from pathlib import Path
@@ -13,7 +12,7 @@ from zipfile import ZipFile
 import pytest
 from framegen.cli import main
 
-from tests.timeouts import GENEROUS
+from tests.programs import ran
 from tests.unit.site.test_publish_guide import GUIDE
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path d="M0 0h8v8z"/></svg>\n'
@@ -37,7 +36,7 @@ def run(line: str, opened: list[str]) -> None:
         assert (Path(words[words.index("--directory") + 1]) / "index.html").is_file()
     else:
         assert program == "python"
-        subprocess.run([sys.executable, *words], check=True, timeout=GENEROUS)
+        ran(sys.executable, *words)
 
 
 def test_the_guide_leads_to_a_site_of_ones_own(

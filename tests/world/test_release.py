@@ -3,14 +3,16 @@
 import os
 import re
 import shutil
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
 from tests.documents import ROOT
+from tests.programs import ran
+from tests.repository import commit, git, start
 
 GIT = shutil.which("git")
 pytestmark = pytest.mark.skipif(GIT is None, reason="there is no git here")
@@ -32,26 +34,16 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     (tmp_path / "CHANGELOG.md").write_text("# Changelog\n\n## [Unreleased]\n\n- More.\n")
-    git(tmp_path, "init", "--quiet")
+    start(tmp_path)
+    # The program that releases commits by itself.
     for key, value in (("user.name", "A"), ("user.email", "a@b"), ("core.autocrlf", "false")):
         git(tmp_path, "config", key, value)
-    commit(tmp_path)
+    commit(tmp_path, {})
     return tmp_path
 
 
-def git(folder: Path, *words: str) -> str:
-    command = [str(GIT), *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
-
-
-def commit(folder: Path) -> None:
-    git(folder, "add", "--all")
-    git(folder, "commit", "--quiet", "--message", "Change")
-
-
-def release(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
-    command = [sys.executable, str(folder / ".ci" / "release.py"), *words]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+def release(folder: Path, *words: str) -> CompletedProcess[str]:
+    return ran(sys.executable, folder / ".ci" / "release.py", *words, status=None)
 
 
 def test_a_release_sets_one_version_and_tags_it(project: Path) -> None:
@@ -84,13 +76,13 @@ def test_a_check_changes_nothing(project: Path) -> None:
 
 def no_changes(project: Path) -> None:
     (project / "CHANGELOG.md").write_text("# Changelog\n\n## [Unreleased]\n\n## [0.0.1] - then\n")
-    commit(project)
+    commit(project, {})
 
 
 def two_versions(project: Path) -> None:
     with (project / "pyproject.toml").open("a", encoding="utf-8") as file:
         file.write('version = "0.1.0"\n')
-    commit(project)
+    commit(project, {})
 
 
 @pytest.mark.parametrize(

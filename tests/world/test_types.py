@@ -6,7 +6,6 @@ tests/world/test_protocols.py has the libraries of protocols that others made.
 from __future__ import annotations
 
 import json
-import subprocess
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,6 +13,7 @@ from framegen.site.scripts.javascript_module import javascript_module
 
 from tests.contract.test_demo_library import many
 from tests.factories import compiled_file, write_files
+from tests.programs import ran
 from tests.side_by_side import type_checked
 from tests.unit.site.reference import NODE, NODE_MODULES
 from tests.unit.site.test_javascript_module import SPECS
@@ -91,10 +91,4 @@ def test_types_are_right_for_every_protocol_and_refuse_what_is_wrong(tmp_path: P
         write_files(javascript_module(compiled_file(spec).model), tmp_path / name)
     (tmp_path / "busservo" / "use.mts").write_text(TYPED, encoding="utf-8")
     (tmp_path / "tsconfig.json").write_text(json.dumps(SETTINGS), encoding="utf-8")
-    done = subprocess.run(
-        [str(NODE), str(COMPILER), "--project", str(tmp_path)],
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert (done.returncode, done.stdout) == (0, "")
+    assert ran(NODE, COMPILER, "--project", tmp_path).stdout == ""

@@ -1,9 +1,7 @@
 """The history of MAVLink: definitions become a spec, and a commit that breaks them is told."""
 
 import json
-import os
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -20,6 +18,7 @@ from tests.contract.comparison.mavlink_definitions import (
 )
 from tests.contract.comparison.mavlink_history import FILES, FOLDER, main
 from tests.factories import ROOT, data_of
+from tests.repository import commit, start
 
 PUBLISHED = ROOT / "tests" / "protocols" / "mavlink1.yaml"
 GIT = shutil.which("git")
@@ -79,19 +78,9 @@ def test_a_frame_of_the_spec_is_the_published_one() -> None:
 
 def committed(folder: Path, text: str, subject: str) -> None:
     """Commit an edition; all messages are in common.xml."""
-    there = folder / FOLDER
-    there.mkdir(parents=True, exist_ok=True)
-    for name in FILES:
-        (there / name).write_text(text if name == "common.xml" else "<mavlink/>", encoding="utf-8")
-    who = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org")
-    for words in (("init", "-q"), ("add", "."), ("commit", "-qm", subject)):
-        subprocess.run(
-            [str(GIT), *who, *words],
-            cwd=folder,
-            check=True,
-            capture_output=True,
-            env={**os.environ, "GIT_CONFIG_GLOBAL": os.devnull},
-        )
+    start(folder)
+    files = {f"{FOLDER}/{name}": "<mavlink/>" for name in FILES}
+    commit(folder, {**files, f"{FOLDER}/common.xml": text}, message=subject)
 
 
 @pytest.mark.skipif(GIT is None, reason="there is no git here")

@@ -3,8 +3,6 @@
 import contextlib
 import io
 import json
-import os
-import subprocess
 import sys
 from pathlib import Path
 from typing import TypeAlias
@@ -25,7 +23,7 @@ from hypothesis import strategies as st
 from tests.bad_specs import bad_spec
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
 from tests.in_turn import in_turn
-from tests.timeouts import GENEROUS
+from tests.programs import ran
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -56,14 +54,7 @@ def line_of(file: Path, text: str) -> int:
 
 def process(*words: str, **environment: str) -> tuple[int, str, str]:
     """Return the exit code and both outputs of a real process."""
-    done = subprocess.run(
-        [sys.executable, *words],
-        env=os.environ | environment,
-        capture_output=True,
-        encoding="utf-8",
-        timeout=5 * GENEROUS,
-        check=False,
-    )
+    done = ran(sys.executable, *words, status=None, environment=environment)
     return done.returncode, done.stdout, done.stderr
 
 

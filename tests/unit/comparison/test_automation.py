@@ -5,7 +5,6 @@ tests/world/test_automation.py runs them.
 
 import re
 import shutil
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ import yaml
 from framegen.cli import VERBS
 
 from tests.factories import ROOT
+from tests.programs import ran
 
 ACTION = ROOT / ".github" / "actions" / "framegen-diff" / "action.yml"
 WORKFLOW = ROOT / ".github" / "workflows" / "ci.yml"
@@ -40,7 +40,7 @@ def test_no_step_has_words_of_others_in_its_script() -> None:
 def test_bash_can_read_each_script_of_the_action() -> None:
     scripts = [each["run"] for each in read(ACTION)["runs"]["steps"] if "run" in each]
     for script in scripts:
-        subprocess.run([str(BASH), "-n", "-c", script], check=True)
+        ran(BASH, "-n", "-c", script)
 
 
 def test_each_hook_is_a_verb_that_takes_specs() -> None:

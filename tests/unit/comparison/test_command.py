@@ -17,7 +17,7 @@ from tests.factories import DEMO, ROOT, Data, renamed, yaml_of
 from tests.few_each import few_each
 from tests.mutations.edits import SPECS
 from tests.mutations.places import with_
-from tests.unit.comparison.repository import commit, start
+from tests.repository import commit, start
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 

@@ -15,7 +15,7 @@ from framegen.reading.yamltree import Unusable
 
 from tests.factories import BUSSERVO, DEMO, ROOT
 from tests.in_turn import in_turn
-from tests.unit.comparison.repository import ALONE, OF_A_HOOK, commit, git, start
+from tests.repository import ALONE, OF_A_HOOK, commit, git, start
 
 LAMPS = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
 BLINDS = (ROOT / "tests" / "specs" / "blinds.yaml").read_text(encoding="utf-8")

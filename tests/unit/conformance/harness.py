@@ -6,10 +6,11 @@ It knows nothing of the generator but the file of vectors, as anybody else's har
 from __future__ import annotations
 
 import re
-import subprocess
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
+
+from tests.programs import ran
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -63,15 +64,8 @@ def differences(questions: Sequence[Case], answers: Sequence[Sequence[str]]) -> 
 
 def run(command: Sequence[str], questions: Sequence[str]) -> list[list[str]]:
     """Run a program, and return the lines that it prints for this input, without each `end`."""
-    done = subprocess.run(
-        command,
-        input="".join(f"{question}\n" for question in questions),
-        capture_output=True,
-        encoding="utf-8",
-        timeout=120,
-        check=False,
-    )
-    assert (done.returncode, done.stderr) == (0, "")
+    done = ran(*command, input="".join(f"{question}\n" for question in questions))
+    assert done.stderr == ""
     answers: list[list[str]] = [[]]
     for line in done.stdout.splitlines():
         if line == "end":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from itertools import pairwise
 from shutil import which
 from typing import TYPE_CHECKING, Any
@@ -19,6 +18,7 @@ from hypothesis import strategies as st
 from tests.bad_specs import BASES
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
+from tests.programs import ran
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -198,5 +198,4 @@ def test_a_released_edition_was_never_edited() -> None:
 
 
 def git(*words: str) -> str:
-    command = ["git", *words]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout
+    return ran("git", *words, status=None, cwd=ROOT).stdout

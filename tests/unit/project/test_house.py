@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import busservo
@@ -16,6 +15,7 @@ from framegen.writing import changes
 from tests.documents import ROOT
 from tests.factories import compiled_file
 from tests.in_turn import in_turn
+from tests.programs import ran
 
 SPECS = sorted((ROOT / "spec").glob("*.yaml"))
 # Folders that tools make, and nobody writes.
@@ -53,13 +53,8 @@ def our_files() -> list[Path]:
     """Return the project's files: what git would keep, or else everything but litter."""
     git = shutil.which("git")
     if git is not None and (ROOT / ".git").exists():
-        listed = subprocess.run(
-            [git, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-            cwd=ROOT,
-            capture_output=True,
-            encoding="utf-8",
-            check=False,
-        )
+        words = ("ls-files", "-z", "--cached", "--others", "--exclude-standard")
+        listed = ran(git, *words, status=None, cwd=ROOT)
         if listed.returncode == 0:
             names = listed.stdout.split("\0")
             return sorted(ROOT / name for name in names if (ROOT / name).is_file())
@@ -214,19 +209,13 @@ def test_a_declared_python_is_a_tested_one() -> None:
 @pytest.mark.skipif(os.name == "nt" or BASH is None, reason="there is no bash here")
 def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path: Path) -> None:
     elsewhere = tmp_path / "bin"
-    done = subprocess.run(
-        [str(BASH), str(ROOT / ".ci/bare"), "env"],
-        env={
-            **os.environ,
-            "BARE_HOME": str(tmp_path / "home"),
-            "PATH": f"{elsewhere}{os.pathsep}{os.environ['PATH']}",
-            "PYTHONPATH": str(elsewhere),
-            "PIP_CERT": "kept",
-        },
-        capture_output=True,
-        encoding="utf-8",
-        check=True,
-    )
+    variables = {
+        "BARE_HOME": str(tmp_path / "home"),
+        "PATH": f"{elsewhere}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": str(elsewhere),
+        "PIP_CERT": "kept",
+    }
+    done = ran(BASH, ROOT / ".ci/bare", "env", environment=variables)
     kept = dict(line.partition("=")[::2] for line in done.stdout.splitlines())
     ways = re.compile(
         r"PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$",

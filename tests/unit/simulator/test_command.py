@@ -26,6 +26,7 @@ from busservo_simulator.servo_list import parse_servos
 
 from tests.in_turn import in_turn
 from tests.lines.hosts import Host
+from tests.programs import ran
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -235,14 +236,13 @@ def test_how_it_ends_does_not_depend_on_when_its_reader_goes(
 def test_it_ends_at_once_where_nobody_reads_the_name_of_its_port() -> None:
     ours, theirs = os.pipe()
     os.close(ours)
-    command = [sys.executable, "-m", "busservo_simulator", "--tcp"]
-    done = subprocess.run(
-        command,
+    done = ran(
+        *(sys.executable, "-m", "busservo_simulator", "--tcp"),
+        status=141,
         env=ENVIRONMENT,
+        capture_output=False,
         stdout=theirs,
         stderr=subprocess.PIPE,
-        timeout=GENEROUS,
-        check=False,
     )
     os.close(theirs)
-    assert (done.returncode, done.stderr) == (141, b"")
+    assert done.stderr == ""

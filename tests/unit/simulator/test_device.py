@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 
 import busservo
@@ -23,6 +22,8 @@ from busservo.device import Device
 from framegen.model.exchanges import snake_case
 from hypothesis import given
 from hypothesis import strategies as st
+
+from tests.programs import ran
 
 HOST = Direction.HOST_TO_CONTROLLER
 
@@ -164,15 +165,8 @@ def test_how_bytes_are_cut_makes_no_difference_to_what_is_refused(data: bytes, s
 
 def test_the_codec_alone_does_not_import_it() -> None:
     script = "import sys, busservo; print(*[name for name in sys.modules if 'device' in name])"
-    search = os.pathsep.join(sys.path)
-    output = subprocess.run(
-        [sys.executable, "-c", script],
-        env={**os.environ, "PYTHONPATH": search},
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    assert output.stdout == "\n"
+    search = {"PYTHONPATH": os.pathsep.join(sys.path)}
+    assert ran(sys.executable, "-c", script, environment=search).stdout == "\n"
 
 
 @pytest.mark.garbage

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.site.scripts.javascript_module import javascript_module
 
 from tests.factories import BUSSERVO, DEMO, write_files
+from tests.programs import ran
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.test_hostile_pages import HOSTILE, hostile
@@ -35,11 +35,7 @@ def run_program(folder: Path, model: Model, program: str) -> str:
     write_files(javascript_module(model), folder)
     file = folder / "program.mjs"
     file.write_text(program, encoding="utf-8")
-    done = subprocess.run(
-        [str(NODE), str(file)], capture_output=True, encoding="utf-8", check=False
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return ran(NODE, file).stdout
 
 
 WAYS = "host_to_controller, controller_to_host"

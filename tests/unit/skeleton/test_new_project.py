@@ -22,7 +22,7 @@ from framegen.writing import disk
 
 from tests.factories import ROOT, compiled_file, write_files
 from tests.in_turn import in_turn
-from tests.timeouts import GENEROUS
+from tests.programs import ran
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
@@ -71,16 +71,9 @@ def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
     What is ours is linked to where it lies, and `-S` follows no such link.
     """
     folders = [project / "generated", project / "simulator", sysconfig.get_path("purelib")]
-    path = os.pathsep.join(map(str, folders))
-    return subprocess.run(
-        [sys.executable, "-S", *words],
-        cwd=project,
-        env=os.environ | {"PYTHONPATH": path},
-        capture_output=True,
-        encoding="utf-8",
-        timeout=5 * GENEROUS,
-        check=False,
-    )
+    variables = {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+    words = (sys.executable, "-S", *words)
+    return ran(*words, status=None, cwd=project, environment=variables)
 
 
 # ------------------------------------------------------------------ what it leads to

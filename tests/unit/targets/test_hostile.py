@@ -4,7 +4,6 @@ import ast
 import doctest
 import io
 import re
-import subprocess
 import sys
 import tokenize
 from collections.abc import Mapping
@@ -51,6 +50,7 @@ from tests.factories import (
 )
 from tests.in_turn import in_turn
 from tests.names_at_work import at_work
+from tests.programs import ran
 from tests.rows import some
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
@@ -364,13 +364,8 @@ def test_hostile_modules_stay_as_the_formatter_has_them(tmp_path: Path) -> None:
     }
     for (path, module), turn in made.items():
         write_files({path: module}, tmp_path / str(turn))
-    done = subprocess.run(
-        [command, "format", "--check", "--no-cache", "--config", ROOT / "pyproject.toml", tmp_path],
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout
+    options = ("--check", "--no-cache", "--config", ROOT / "pyproject.toml")
+    ran(command, "format", *options, tmp_path)
 
 
 # ------------------------------------------------------------------ what is not prose

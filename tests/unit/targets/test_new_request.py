@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from framegen.cli import main
 
-from tests.timeouts import GENEROUS
+from tests.programs import ran
 
 ROOT = Path(__file__).parents[3]
 
@@ -191,16 +190,8 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def script(project: Path, text: str) -> str:
     """Return the output of a program that uses the library of `project`."""
     search = os.pathsep.join([str(project / "generated"), *sys.path])
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", text],
-        env={**os.environ, "PYTHONPATH": search},
-        capture_output=True,
-        encoding="utf-8",
-        timeout=5 * GENEROUS,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    path = {"PYTHONPATH": search}
+    return ran(sys.executable, "-W", "error", "-c", text, environment=path).stdout
 
 
 def test_it_is_a_method_of_both_clients_a_handler_of_the_device_and_a_verb(project: Path) -> None:

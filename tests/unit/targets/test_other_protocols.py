@@ -5,7 +5,6 @@ import contextlib
 import importlib
 import io
 import re
-import subprocess
 import sys
 import tokenize
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -29,6 +28,7 @@ from tests.factories import (
     library,
     library_of,
 )
+from tests.programs import ran
 
 Call: TypeAlias = "Callable[..., tuple[int, str]]"
 
@@ -156,9 +156,7 @@ def call(folder: Path, capsys: pytest.CaptureFixture[str]) -> Call:
 
 def command(folder: Path, *words: str) -> tuple[int, str, str]:
     """Call a command in a process of its own."""
-    done = subprocess.run(
-        [sys.executable, "-m", *words], cwd=folder, capture_output=True, text=True, check=False
-    )
+    done = ran(sys.executable, "-m", *words, status=None, cwd=folder)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -263,10 +261,7 @@ def version_of(folder: Path, *installed: Path) -> str:
         "import greenhouse; assert 'importlib.metadata' not in sys.modules; "
         "print(greenhouse.__version__)"
     )
-    done = subprocess.run(
-        [sys.executable, "-S", "-c", program], capture_output=True, text=True, check=True
-    )
-    return done.stdout.strip()
+    return ran(sys.executable, "-S", "-c", program).stdout.strip()
 
 
 @contextlib.contextmanager

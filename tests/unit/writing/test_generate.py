@@ -8,7 +8,6 @@ tests/unit/skeleton/test_new_project.py.
 from __future__ import annotations
 
 import shutil
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,6 +22,7 @@ from framegen.writing import Change, write
 
 from tests.documents import ROOT
 from tests.in_turn import in_turn
+from tests.repository import commit, git, start
 from tests.rows import Rows
 from tests.unit.writing.made_once import compiled_once, make_once, the_same_is_made_once
 from tests.unit.writing.trees import Snapshot, put, snapshot, times
@@ -592,36 +592,23 @@ def test_a_diff_says_what_would_change_line_by_line(change: Change, diff: str) -
 def test_after_a_merge_with_conflicts_one_run_is_enough(project: Path, attributes: bool) -> None:
     """Whichever side of the spec is taken: conflicts and joined files are nobody's work."""
 
-    def git(*words: str, fails: bool = False) -> None:
-        identity = ("-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "rerere.enabled=0")
-        done = subprocess.run(
-            [str(GIT), *identity, *words],
-            cwd=project,
-            capture_output=True,
-            encoding="utf-8",
-            check=False,
-        )
-        assert (done.returncode != 0) == fails, done.stdout + done.stderr
-
     def edition(branch: str, text: str) -> None:
-        git("checkout", "-q", "-b", branch, "main")
+        git(project, "checkout", "-q", "-b", branch, "main")
         put(project, "spec/demo.yaml", text)
         assert main(["generate"]) == 0
-        git("add", "--all")
-        git("commit", "-q", "-m", branch)
+        commit(project, {}, message=branch)
 
     if attributes:
         shutil.copyfile(ROOT / ".gitattributes", project / ".gitattributes")
-    git("init", "-q", "-b", "main", ".")
-    git("add", "--all")
-    git("commit", "-q", "-m", "main")
+    start(project)
+    commit(project, {})
     summary = "summary: Open vents by a number of degrees."
     edition("ours", RENAMED.replace(summary, "summary: Open vents a little."))
     theirs = changed(summary, "summary: Open vents wide.")
     edition("theirs", theirs.replace("a gateway, its stations", "a gateway, all stations"))
     for side in ("--ours", "--theirs"):
-        git("merge", "-q", "ours", fails=True)
-        git("checkout", side, "spec/demo.yaml")
+        git(project, "merge", "-q", "ours", status=1)
+        git(project, "checkout", side, "spec/demo.yaml")
         assert main(["generate"]) == 0
         assert main(["generate", "--check"]) == 0
         found = snapshot(project)
@@ -632,8 +619,8 @@ def test_after_a_merge_with_conflicts_one_run_is_enough(project: Path, attribute
             made = snapshot(Path(fresh))
         for folder in ("generated", "docs"):
             assert below(folder, found) == below(folder, made)
-        git("reset", "-q", "--hard")
-        git("clean", "-q", "-d", "--force")
+        git(project, "reset", "-q", "--hard")
+        git(project, "clean", "-q", "-d", "--force")
 
 
 def below(folder: str, found: Snapshot) -> Snapshot:

@@ -2,7 +2,6 @@
 
 import errno
 import json
-import subprocess
 import sys
 from argparse import ArgumentParser
 from collections.abc import Iterator
@@ -20,6 +19,7 @@ from framegen.reading.yamltree import Unusable
 
 from tests.factories import BUSSERVO
 from tests.in_turn import in_turn
+from tests.programs import ran
 from tests.timeouts import GENEROUS, await_that, undoubted
 from tests.unit.conformance.device.runs import model_of
 
@@ -233,5 +233,4 @@ def test_an_invalid_rate_is_refused(text: str, capsys: Capture) -> None:
 
 def test_pyserial_is_imported_only_for_a_port() -> None:
     look = "import sys, framegen.conformance.firmware; print('serial' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True)
-    assert done.stdout == "False\n"
+    assert ran(sys.executable, "-c", look).stdout == "False\n"

@@ -6,7 +6,6 @@ import logging
 import math
 import os
 import pickle
-import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
@@ -49,6 +48,7 @@ from tests.lines.live_line import LiveLine, answered
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import ScriptedLine, client_on
 from tests.lines.virtual_line import VirtualLine
+from tests.programs import ran
 from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
@@ -524,14 +524,8 @@ def test_the_codec_imports_no_client() -> None:
     def loaded(code: str) -> str:
         shown = f"{code}; import sys; print(sorted({HEAVY} & set(sys.modules)))"
         folders = [Path(str(each.__file__)).parents[1] for each in (busservo, framewire)]
-        done = subprocess.run(
-            [sys.executable, "-S", "-c", shown],
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, folders))},
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        return done.stdout
+        path = {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+        return ran(sys.executable, "-S", "-c", shown, environment=path).stdout
 
     assert loaded("import busservo") == loaded("pass")
     assert "asyncio" not in loaded("import busservo; busservo.Controller")

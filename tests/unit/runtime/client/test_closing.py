@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import gc
-import subprocess
 import sys
 import threading
 import time
@@ -33,6 +32,7 @@ from tests.lines.live_line import Gate, LiveLine, answered, losing
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
+from tests.programs import ran
 from tests.timeouts import GENEROUS, LIVE, await_that
 
 if TYPE_CHECKING:
@@ -227,7 +227,7 @@ def test_a_script_that_leaves_a_client_open_ends() -> None:
 
         controller = asyncio.run(work())
     """
-    subprocess.run([sys.executable, "-c", program], timeout=GENEROUS, check=True)
+    ran(sys.executable, "-c", program)
 
 
 class ReadsOn(LiveLine):

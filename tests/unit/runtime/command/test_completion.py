@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import shutil
-import subprocess
 import sys
 from contextlib import redirect_stdout
 from functools import cache
@@ -24,6 +23,7 @@ from framegen.comparison.changes import CHANGE_RULES
 from framegen.targets.table import TARGETS
 
 from tests.in_turn import in_turn
+from tests.programs import ran
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -106,7 +106,7 @@ needs_fish = pytest.mark.skipif(shutil.which("fish") is None, reason="there is n
 
 
 def run(*words: str) -> list[str]:
-    done = subprocess.run(words, cwd=ROOT, capture_output=True, encoding="utf-8", check=True)
+    done = ran(*words, cwd=ROOT)
     assert done.stderr == ""
     return done.stdout.splitlines()
 

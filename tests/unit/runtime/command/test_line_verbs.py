@@ -30,6 +30,7 @@ from tests.documents import ROOT
 from tests.in_turn import in_turn
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
+from tests.programs import ran
 from tests.timeouts import GENEROUS
 
 Capture = pytest.CaptureFixture[str]
@@ -361,13 +362,7 @@ def imported(commands: list[list[str]], *names: str) -> list[tuple[list[str], li
         found = [(words, main(words), {{*{names!r}}} & {{*sys.modules}}) for words in {commands!r}]
         print([(words, sorted(some)) for words, _, some in found if some])
     """
-    done = subprocess.run(
-        [sys.executable, "-S", "-c", program],
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = ran(sys.executable, "-S", "-c", program, stdin=subprocess.DEVNULL)
     found: list[tuple[list[str], list[str]]] = ast.literal_eval(done.stdout.splitlines()[-1])
     return found
 

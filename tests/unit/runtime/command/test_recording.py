@@ -19,6 +19,7 @@ from framewire.command.progress import Progress
 from framewire.command.progress_bar import progress_bar
 
 from tests.commands import Terminal
+from tests.programs import ran
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -211,13 +212,8 @@ def test_what_is_hex_at_first_and_then_is_not_is_refused(log: Path, capsys: Capt
 
 
 def test_a_recording_can_be_replayed_from_a_pipe(log: Path) -> None:
-    shown = subprocess.run(
-        [sys.executable, "-m", "busservo", "replay", "--dry-run", "--skip-noise", "-"],
-        input=log.read_text(),
-        capture_output=True,
-        check=True,
-        text=True,
-    )
+    words = ("-m", "busservo", "replay", "--dry-run", "--skip-noise", "-")
+    shown = ran(sys.executable, *words, input=log.read_text())
     assert [line.split()[1:3] for line in shown.stdout.splitlines()] == 2 * [
         ["host", "BatteryVoltageRead"]
     ]

@@ -4,7 +4,6 @@ import copy
 import errno
 import inspect
 import pickle
-import subprocess
 import sys
 from typing import Any
 
@@ -40,6 +39,7 @@ from busservo import (
 from framewire.line.port_errors import not_opened
 
 from tests.in_turn import in_turn
+from tests.programs import ran
 
 # What Python's own handlers catch of them: the sentence of the README, error by error.
 FAMILIES: dict[type[ProtocolError], set[type[Exception]]] = {
@@ -111,7 +111,7 @@ def test_an_error_of_somebody_else_keeps_its_name() -> None:
 def test_a_traceback_names_the_package_though_nothing_was_imported_from_it() -> None:
     code = "from busservo._codec import decode\ndecode(b'', None)"
     command = [sys.executable, "-c", code]
-    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    done = ran(*command, status=1)
     assert done.stderr.splitlines()[-1].startswith("framewire.DecodeError: too short")
 
 

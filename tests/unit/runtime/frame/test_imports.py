@@ -1,11 +1,12 @@
 """Imports of the library: as few as possible, since every program that starts it waits for them."""
 
-import subprocess
 import sys
 from functools import cache
 
 import busservo
 import pytest
+
+from tests.programs import ran
 
 # What of the standard library is imported by name; what these import themselves is theirs.
 CODEC = {"enum", "functools", "itertools", "operator", "struct"}
@@ -41,13 +42,8 @@ NO_PORT = """from busservo import (
 def modules_after(statement: str) -> set[str]:
     """Return the modules that a statement adds to a bare Python, without those of .pth files."""
     code = f"import sys; bare = {{*sys.modules}}\n{statement}\nprint(*({{*sys.modules}} - bare))"
-    done = subprocess.run(
-        [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}\n{code}"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return {*done.stdout.split()}
+    program = f"import sys; sys.path[:] = {sys.path!r}\n{code}"
+    return {*ran(sys.executable, "-S", "-c", program).stdout.split()}
 
 
 @pytest.mark.parametrize(

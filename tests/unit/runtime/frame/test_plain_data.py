@@ -3,7 +3,6 @@
 import copy
 import json
 import re
-import subprocess
 import sys
 from html.parser import HTMLParser
 from typing import Any
@@ -26,6 +25,7 @@ from framewire.command.values import fields_in_json
 
 from tests.cases import Case, each_case
 from tests.in_turn import in_turn
+from tests.programs import ran
 
 # ------------------------------------------------------------------ to_dict, from_dict
 
@@ -219,10 +219,5 @@ def test_a_strip_is_a_plain_table(event: Message | Noise) -> None:
 
 def test_the_strip_module_is_imported_lazily() -> None:
     code = "from busservo import ActionGroupStop; ActionGroupStop(); print('html' in sys.modules)"
-    done = subprocess.run(
-        [sys.executable, "-S", "-c", f"import sys; sys.path[:] = {sys.path!r}; {code}"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert done.stdout == "False\n"
+    program = f"import sys; sys.path[:] = {sys.path!r}; {code}"
+    assert ran(sys.executable, "-S", "-c", program).stdout == "False\n"

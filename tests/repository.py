@@ -1,9 +1,10 @@
 """A git repository in a folder of its own, which knows nothing of who runs the tests."""
 
 import os
-import subprocess
 from pathlib import Path
 from shutil import which
+
+from tests.programs import ran
 
 # Neither the machine nor a hook that runs the tests has a say.
 ALONE = {
@@ -17,18 +18,11 @@ ALONE = {
 OF_A_HOOK = ("GIT_DIR", "GIT_INDEX_FILE", "GIT_WORK_TREE", "GIT_PREFIX")
 
 
-def git(folder: Path, *words: str) -> str:
+def git(folder: Path, *words: str, status: int = 0) -> str:
     """Run git in a folder, and return what it prints."""
     inherited = {name: value for name, value in os.environ.items() if name not in OF_A_HOOK}
-    done = subprocess.run(
-        [which("git") or "git", *words],
-        cwd=folder,
-        env={**inherited, **ALONE},
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    return done.stdout.strip()
+    program = which("git") or "git"
+    return ran(program, *words, status=status, cwd=folder, env=inherited | ALONE).stdout.strip()
 
 
 def start(folder: Path) -> None:
@@ -37,13 +31,15 @@ def start(folder: Path) -> None:
     git(folder, "init", "--quiet", "--initial-branch=main", "--template=")
 
 
-def commit(folder: Path, files: dict[str, str], tag: str = "") -> None:
+def commit(
+    folder: Path, files: dict[str, str], tag: str = "", message: str = "What it holds"
+) -> None:
     """Write files below the folder, commit all there is, and tag it."""
     for path, text in files.items():
         file = folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
     git(folder, "add", "--all")
-    git(folder, "commit", "--quiet", "--allow-empty", "--message", "What it holds")
+    git(folder, "commit", "--quiet", "--allow-empty", "--message", message)
     if tag:
         git(folder, "tag", tag)
