@@ -5,7 +5,7 @@ import json
 import linecache
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache, lru_cache
 from importlib.abc import Loader, MetaPathFinder
@@ -26,6 +26,8 @@ from framegen.render import render_target
 from framegen.targets import python, vectors
 from framewire.explain.protocol import Slot
 from pydantic import ValidationError
+
+from tests.guide_specs import SPECS
 
 ROOT = Path(__file__).parents[1]
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
@@ -86,10 +88,7 @@ def first_model() -> Model:
 
 def kiln() -> Data:
     """Return the values of the first spec that the language guide puts together."""
-    guide = (ROOT / "docs" / "write-a-spec.md").read_text(encoding="utf-8")
-    # The blocks of its other specs begin with a name.
-    blocks = re.findall(r"```yaml\n(?!# \w+\.yaml\n)(.*?)```", guide, re.DOTALL)
-    return read_tree(Source("kiln.yaml", "\n".join(blocks)))[0].data
+    return read_tree(SPECS["kiln"])[0].data
 
 
 def yaml_of(value: object) -> str:
@@ -186,44 +185,6 @@ def vectors_of(compiled: Compiled) -> dict[str, Any]:
     assert text.isascii()
     document: dict[str, Any] = json.loads(text)
     return document
-
-
-def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, str]]:
-    """Yield every text in a spec, with the steps to it."""
-    if isinstance(value, dict):
-        for key, item in value.items():
-            yield from leaves(item, (*path, key))
-    elif isinstance(value, list):
-        for index, item in enumerate(value):
-            yield from leaves(item, (*path, index))
-    elif isinstance(value, str):
-        yield path, value
-
-
-def changed(value: Any, change: Callable[[Steps, str], str], path: Steps = ()) -> Any:
-    """Return a copy in which every text is what `change` makes of it."""
-    if isinstance(value, dict):
-        return {key: changed(item, change, (*path, key)) for key, item in value.items()}
-    if isinstance(value, list):
-        return [changed(item, change, (*path, index)) for index, item in enumerate(value)]
-    return change(path, value) if isinstance(value, str) else value
-
-
-def renamed(value: Any, old: str, new: str) -> Any:
-    """Return a copy with the name `old` replaced by `new`, keys and formulas included."""
-    if isinstance(value, dict):
-        # What is typed in a shell is no name of the spec, though it may be the same word.
-        return {
-            renamed(key, old, new): item
-            if key == "verb" and isinstance(item, str)
-            else renamed(item, old, new)
-            for key, item in value.items()
-        }
-    if isinstance(value, list):
-        return [renamed(item, old, new) for item in value]
-    if isinstance(value, str):
-        return re.sub(rf"\b{re.escape(old)}\b", lambda _: new, value)
-    return value
 
 
 def write_files(files: Mapping[str, str], folder: Path) -> None:

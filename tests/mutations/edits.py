@@ -15,8 +15,8 @@ from framegen.model.model import derive
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree
 
-from tests.factories import BUSSERVO, DEMO, Data, data_of, renamed
-from tests.mutations.places import GONE, reordered, with_
+from tests.factories import BUSSERVO, DEMO, Data, data_of
+from tests.mutations.places import GONE, renamed, reordered, with_
 from tests.protocols.specs import FILES
 
 SPECS = {

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
-from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, kiln, leaves, renamed
+from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, kiln
 from tests.mutations.kinds import anything
 from tests.mutations.odd_text import TEXTS
-from tests.mutations.places import at, differs, dotted, nodes, swaps, with_
+from tests.mutations.places import at, differs, dotted, nodes, renamed, swaps, texts, with_
 from tests.unit.targets.test_hostile import HARMLESS, with_prose
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def specs() -> dict[str, Data]:
 def _places(spec: str) -> tuple[Data, tuple[Steps, ...]]:
     """Return a spec with harmless text wherever any may stand, and where that is."""
     data = with_prose(specs()[spec], HARMLESS)
-    return data, tuple(path for path, text in leaves(data) if HARMLESS in text)
+    return data, tuple(path for path, text in texts(data) if HARMLESS in text)
 
 
 def rotations() -> int:

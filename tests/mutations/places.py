@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from tests.factories import Data, Steps
 
@@ -31,6 +32,11 @@ def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
         yield path, value
     for step, inner in _inside(value):
         yield from leaves(inner, (*path, step))
+
+
+def texts(value: Any) -> Iterator[tuple[Steps, str]]:
+    """Yield every text with its place."""
+    yield from ((path, leaf) for path, leaf in leaves(value) if isinstance(leaf, str))
 
 
 def facts(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
@@ -72,6 +78,32 @@ def with_(data: Data, *path_and_value: Any) -> Data:
     else:
         around[last] = value
     return changed
+
+
+def changed(value: Any, change: Callable[[Steps, str], str], path: Steps = ()) -> Any:
+    """Return a copy in which every text is what `change` makes of it."""
+    if isinstance(value, dict):
+        return {key: changed(item, change, (*path, key)) for key, item in value.items()}
+    if isinstance(value, list):
+        return [changed(item, change, (*path, index)) for index, item in enumerate(value)]
+    return change(path, value) if isinstance(value, str) else value
+
+
+def renamed(value: Any, old: str, new: str) -> Any:
+    """Return a copy with the name `old` replaced by `new`, keys and formulas included."""
+    if isinstance(value, dict):
+        # What is typed in a shell is no name of the spec, though it may be the same word.
+        return {
+            renamed(key, old, new): item
+            if key == "verb" and isinstance(item, str)
+            else renamed(item, old, new)
+            for key, item in value.items()
+        }
+    if isinstance(value, list):
+        return [renamed(item, old, new) for item in value]
+    if isinstance(value, str):
+        return re.sub(rf"\b{re.escape(old)}\b", lambda _: new, value)
+    return value
 
 
 def differs(one: Any, other: Any) -> bool:

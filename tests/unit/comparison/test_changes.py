@@ -11,12 +11,12 @@ from framegen.comparison import changes as rules
 from framegen.comparison.changes import CHANGE_RULES, changes
 from framegen.comparison.pair import Pair
 
-from tests.factories import ROOT, compiled_of, data_of, renamed
+from tests.factories import ROOT, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.mutations.edits import EDITS, SERVO, SPECS, edition, pair_of
 from tests.mutations.kinds import keys_of_the_language
 from tests.mutations.leaves import mirrored, told_at_their_places, turned
-from tests.mutations.places import leaves, with_
+from tests.mutations.places import leaves, renamed, with_
 from tests.unit.comparison.rule_examples import example
 
 if TYPE_CHECKING:

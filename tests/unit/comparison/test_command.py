@@ -13,10 +13,10 @@ from framegen.comparison.report.verdict import AXES, FAILURES, USUAL_FAILURES
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from tests.factories import DEMO, ROOT, Data, renamed, yaml_of
+from tests.factories import DEMO, ROOT, Data, yaml_of
 from tests.few_each import few_each
 from tests.mutations.edits import SPECS
-from tests.mutations.places import with_
+from tests.mutations.places import renamed, with_
 from tests.repository import commit, start
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"

@@ -29,11 +29,10 @@ from framegen.reading.yamltree import dotted, read_tree
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tests.factories import renamed
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.mutations.edits import EDITS, SPECS, edition, pair_of
-from tests.mutations.places import with_
+from tests.mutations.places import renamed, with_
 
 HOUSE = SPECS["greenhouse"]
 NAMES = [*HOUSE["messages"]]

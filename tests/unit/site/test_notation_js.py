@@ -11,8 +11,9 @@ from framegen.site.scripts.protocol_data import protocol_data
 from framewire.command.usage_error import UsageError
 from framewire.command.values import message_from_text
 
-from tests.factories import compiled_file, compiled_of, data_of, renamed, vectors_of
+from tests.factories import compiled_file, compiled_of, data_of, vectors_of
 from tests.in_turn import in_turn
+from tests.mutations.places import renamed
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, reference
 from tests.unit.site.scripts import run_script

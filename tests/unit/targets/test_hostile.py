@@ -34,21 +34,19 @@ from tests.factories import (
     ROOT,
     Data,
     Steps,
-    changed,
     compiled_of,
     compiled_values,
     data_of,
     files_of,
     is_misfit,
     layout_of,
-    leaves,
     library_files,
-    renamed,
     rules_broken,
     vectors_of,
     write_files,
 )
 from tests.in_turn import in_turn
+from tests.mutations.places import changed, renamed, texts
 from tests.names_at_work import at_work
 from tests.programs import ran
 from tests.rows import some
@@ -284,7 +282,7 @@ def test_text_of_every_kind_is_inert_in_the_real_spec() -> None:
 def test_prose_stands_in_places_of_every_kind() -> None:
     places = {
         tuple(step for step in path if step in PROSE or step in _STRUCTURE)
-        for path, text in leaves(with_prose(SPECS["greenhouse"], HARMLESS))
+        for path, text in texts(with_prose(SPECS["greenhouse"], HARMLESS))
         if HARMLESS in text
     }
     assert len(places) > 25
@@ -315,7 +313,7 @@ def _with(data: Data, texts: Mapping[Steps, str]) -> Data:
 @in_turn("unseen", lambda: UNSEEN, ids=ascii)
 def test_text_that_nobody_can_see_is_a_finding_everywhere(unseen: str) -> None:
     data = SPECS["greenhouse"]
-    some = [path for path, _ in leaves(data) if is_prose(path)][::10]
+    some = [path for path, _ in texts(data) if is_prose(path)][::10]
     assert len(some) > 3
     for place in some:
         assert set(rules_broken(_with(data, {place: f"a{unseen}b"}))) <= {
@@ -382,13 +380,13 @@ def usable(data: Data) -> Compiled | None:
 def test_what_is_no_prose_is_a_finding_or_inert() -> None:
     """Type, ids, formulas, citations, versions: each with text that belongs in none of them."""
     data = SPECS["greenhouse"]
-    places = [path for path, _ in leaves(data) if not is_prose(path)]
+    places = [path for path, _ in texts(data) if not is_prose(path)]
     assert len(places) > 90
     plain = python_of(files_of(data))
-    for texts in (INERT, ['"""\nimport os\n']):
+    for odd in (INERT, ['"""\nimport os\n']):
         inert = {
             place: text
-            for place, text in zip(places, cycle(texts), strict=False)
+            for place, text in zip(places, cycle(odd), strict=False)
             if usable(_with(data, {place: text})) is not None
         }
         assert len(places) > 2 * len(inert) > 0

@@ -39,12 +39,12 @@ from tests.factories import (
     layout_of,
     library,
     library_files,
-    renamed,
     vectors_of,
     write_files,
 )
 from tests.in_turn import in_turn
 from tests.lines.timed_line import client_of
+from tests.mutations.places import renamed
 from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
 from tests.rows import some
 from tests.side_by_side import library_of, linted

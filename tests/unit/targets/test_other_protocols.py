@@ -17,17 +17,8 @@ from framegen.language.command_verbs import OF_POSES
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
-from tests.factories import (
-    BUSSERVO,
-    DEMO,
-    ROOT,
-    Data,
-    compiled_file,
-    data_of,
-    leaves,
-    library,
-    library_of,
-)
+from tests.factories import BUSSERVO, DEMO, ROOT, Data, compiled_file, data_of, library, library_of
+from tests.mutations.places import texts
 from tests.programs import ran
 
 Call: TypeAlias = "Callable[..., tuple[int, str]]"
@@ -68,7 +59,7 @@ def _fields_in(fields: Data) -> Iterator[str]:
 
 def forbidden(spec: Data) -> re.Pattern[str]:
     """Return the words of busservo that another spec does not say itself."""
-    own = " ".join(text for _, text in leaves(spec)) + " ".join(names_in(spec))
+    own = " ".join(text for _, text in texts(spec)) + " ".join(names_in(spec))
     names = {*names_in(data_of(BUSSERVO))} - PLAIN - {"controller"}
     words = [word for word in [*names, *SAID] if not re.search(rf"(?i)\b(?:{word})\b", own)]
     # `Controller` is a class of each library, whose instances examples call `controller`.

@@ -15,8 +15,9 @@ from framegen.model.slots import Items, Number, Packed, Text
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import DEMO, data_of, files_of, library, renamed
+from tests.factories import DEMO, data_of, files_of, library
 from tests.few_each import few_each
+from tests.mutations.places import renamed
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, messages_of
 from tests.protocols.streams import LARGE, all_ways
