@@ -11,7 +11,7 @@ from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, kiln
 from tests.mutations.kinds import anything
 from tests.mutations.odd_text import TEXTS
 from tests.mutations.places import at, differs, dotted, nodes, renamed, swaps, texts, with_
-from tests.unit.targets.test_hostile import HARMLESS, with_prose
+from tests.mutations.prose import HARMLESS, with_prose
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -10,10 +10,11 @@ from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable, read_tree
 
 from tests.in_turn import in_turn
+from tests.mutations.prose import with_prose
 from tests.mutations.spec_edits import edited
 from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
 from tests.unit.site.reference import Page, respelled
-from tests.unit.site.test_hostile_pages import HOSTILE, poisoned
+from tests.unit.site.test_hostile_pages import HOSTILE
 
 ROOT = "reference/lamps/"
 
@@ -181,7 +182,7 @@ def elements_of_release(payload: str) -> dict[str, list[tuple[str, list[str]]]]:
     Code is left out: between two backticks, it is what a sentence may have.
     """
     data = read_tree(Source("lamps.yaml", FIRST))[0].data
-    site = Editions(SECOND, (respelled(poisoned(data, payload)).text,))
+    site = Editions(SECOND, (respelled(with_prose(data, payload)).text,))
     pages = {path: site.page(f"{path}.html") for path in EXPOSED}
     return {
         path: [(tag, sorted(given)) for tag, given in page.tags if tag != "code"]

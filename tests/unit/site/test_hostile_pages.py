@@ -3,12 +3,12 @@
 import json
 import re
 from functools import cache
-from typing import Any
 
-from framegen.reading.yamltree import read_tree
 from framegen.site.escape import linked, script_json
 
-from tests.unit.site.reference import Page, Reference, reference, reference_of, respelled
+from tests.factories import BUSSERVO, data_of
+from tests.mutations.prose import with_prose
+from tests.unit.site.reference import Page, Reference, reference_of, respelled
 
 # Each tries to get out of the place where it is put: HTML, an attribute, a script, a style, a
 # comment, Markdown of any kind, a template, or code. What must begin a text comes first.
@@ -27,39 +27,12 @@ PAYLOADS = (
 # All of it, with an odd number of backticks.
 HOSTILE = " ".join(PAYLOADS)
 assert HOSTILE.count("`") % 2
-# Keys whose value is prose, or a name that may be any text.
-FREE = frozenset(
-    [
-        *("title", "summary", "description", "about", "text", "why", "here", "what", "unit"),
-        *("vendor_name", "constructed", "deprecated"),
-    ]
-)
-
-
-def poisoned(value: Any, payload: str, key: str = "") -> Any:
-    """Return the same values, with `payload` in the place of everything that may be any text."""
-    if isinstance(value, dict):
-        found = {name: poisoned(each, payload, str(name)) for name, each in value.items()}
-        if key == "commands":
-            return dict.fromkeys(value, payload)
-        return found
-    if isinstance(value, list):
-        return [payload if key == "changes" else poisoned(each, payload) for each in value]
-    if key == "cite":
-        return f"{value.partition(',')[0]}, {payload}"
-    return payload if key in FREE else value
 
 
 @cache
 def hostile(payload: str = HOSTILE) -> Reference:
     """Return the reference of a spec that says it wherever it may say anything."""
-    data = read_tree(reference("busservo").source)[0].data
-    spoilt = poisoned(data, payload)
-    spoilt["lookalikes"]["lx16a"]["commands"] = {1: payload}
-    spoilt["messages"]["ServoMove"]["deprecated"] = payload
-    # The field that it names has a unit of time, and no other text.
-    del spoilt["messages"]["ServoMove"]["lasts"]
-    made = reference_of(respelled(spoilt))
+    made = reference_of(respelled(with_prose(data_of(BUSSERVO), payload)))
     assert [finding.rule for finding in made.compiled.findings] == []
     return made
 

@@ -12,7 +12,7 @@ from hashlib import sha256
 from itertools import count, cycle
 from pathlib import Path
 from shutil import which
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import pytest
 from framegen.compile import Compiled
@@ -47,12 +47,12 @@ from tests.factories import (
 )
 from tests.in_turn import in_turn
 from tests.mutations.places import changed, renamed, texts
+from tests.mutations.prose import HARMLESS, PROSE, is_prose, with_prose
 from tests.names_at_work import at_work
 from tests.programs import ran
 from tests.rows import some
 
 SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
-HARMLESS = "Plain words."
 
 # Text that a reader of the output may take for something else, were it not made safe.
 INERT = [
@@ -120,60 +120,6 @@ UNSEEN = [
     "\U000e0041",
     "\ud800",
 ]
-
-# The keys whose values are prose; endpoints and the commands of look-alikes are prose by place.
-PROSE = words(
-    "about changes constructed deprecated description here summary text title unit vendor_name "
-    "what why"
-)
-
-
-def is_prose(path: Steps) -> bool:
-    words = [step for step in path if isinstance(step, str)]
-    return words[-1] in PROSE or words[0] == "endpoints" or "commands" in words
-
-
-def with_prose(data: Data, text: str) -> Data:
-    """Return the spec with `text` wherever prose stands, and for the place of every citation."""
-
-    def change(path: Steps, old: str) -> str:
-        if path[-1] == "cite":
-            return f"{old.partition(',')[0]}, {text}"
-        return text if is_prose(path) else old
-
-    hostile: Data = changed(data, change)
-    # Fields that the specs leave without them would hide a place from these tests.
-    note = {"text": text, "cite": _cite(hostile, text)}
-    for name, end in hostile["endpoints"].items():
-        hostile["endpoints"][name] = {"about": text, **(end if isinstance(end, dict) else {})}
-    for thing in (hostile["protocol"], *hostile["endpoints"].values(), *_parts(hostile)):
-        thing.setdefault("notes", []).append(note)
-    for message in hostile["messages"].values():
-        message["vendor_name"] = message["deprecated"] = message["description"] = text
-        message.setdefault("notes", []).append({"text": text, "cite": _cite(hostile, text)})
-        # A field that it names has a unit of time, and no other text.
-        message.pop("lasts", None)
-        for field in _numbers(message.get("fields", {})):
-            field["unit"] = text
-            field.setdefault("notes", []).append({"text": text, "cite": _cite(hostile, text)})
-    return hostile
-
-
-def _cite(data: Data, text: str) -> str:
-    return f"{data['protocol']['authority']}, {text}"
-
-
-def _parts(data: Data) -> list[Data]:
-    frames = data.get("frames") or {"frame": data["frame"]}
-    return [part for frame in frames.values() for part in frame.values()]
-
-
-def _numbers(fields: dict[str, Any]) -> list[dict[str, Any]]:
-    return [
-        number
-        for field in fields.values()
-        for number in (field["fields"].values() if "element" in field else [field])
-    ]
 
 
 def python_of(files: dict[str, str]) -> dict[str, str]:
@@ -306,8 +252,8 @@ def _with(data: Data, texts: Mapping[Steps, str]) -> Data:
         kept = path[-1] == "cite" and path in texts
         return f"{old.partition(',')[0]}, {text}" if kept else text
 
-    changed_: Data = changed(data, change)
-    return changed_
+    found: Data = changed(data, change)
+    return found
 
 
 @in_turn("unseen", lambda: UNSEEN, ids=ascii)

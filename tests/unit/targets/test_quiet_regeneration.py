@@ -3,10 +3,8 @@
 import ast
 import json
 import re
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import framegen
 import pytest
@@ -20,20 +18,18 @@ from framegen.targets import docs, python
 
 from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, Data, Steps, data_of
 from tests.in_turn import in_turn
+from tests.mutations.places import at, texts, with_
+from tests.mutations.places import changed as reworded
+from tests.mutations.prose import PROSE, is_prose
 from tests.rows import Rows
 
 SPECS = {"busservo": BUSSERVO, "greenhouse": DEMO}
 PATH = "spec/some.yaml"
 
-# Keys of prose. A unit, a vendor's name and a version are facts: they may be code.
-PROSE = frozenset(
-    [
-        *("title", "summary", "description", "about", "text", "why", "here", "what"),
-        *("constructed", "deprecated"),
-    ]
-)
-# Of those, what is said of one thing, and shown where that thing is.
-OF_ONE_THING = PROSE - {"title"}
+# A unit, a vendor's name and a version are facts: they may be code.
+FACTS = {"unit", "vendor_name", "cite"}
+# What is said of one thing, and shown where that thing is.
+OF_ONE_THING = PROSE - FACTS - {"title", "changes"}
 MOST = 8
 
 # Modules that hold the words which the command prints; all else has words in docstrings alone.
@@ -156,23 +152,14 @@ def test_no_file_knows_the_digest_of_the_spec_or_who_generated_it_when(name: str
 # ------------------------------------------------------------------ words
 
 
-def prose(value: Any, path: Steps = ()) -> Iterator[Steps]:
-    """Yield the path of each text that describes something."""
-    items = value.items() if isinstance(value, dict) else enumerate(value)
-    for key, item in items:
-        here = (*path, key)
-        if isinstance(item, (dict, list)):
-            yield from prose(item, here)
-        elif key in OF_ONE_THING and isinstance(item, str):
-            yield here
-
-
 @cache
 def kinds_of_prose(name: str) -> dict[str, Steps]:
     """Return, for each kind of place with a description, the last such place."""
     known = {"messages", "fields", "values", "notes", "examples", "errata", "unknowns", "sources"}
     found = {}
-    for path in prose(json.loads(in_json(name))):
+    for path, _ in texts(data_of(SPECS[name])):
+        if path[-1] not in OF_ONE_THING:
+            continue
         names = [
             "*" if isinstance(step, int) or before in known else step
             for before, step in zip(("", *path), path, strict=False)
@@ -208,31 +195,24 @@ def test_prose_stands_in_many_places() -> None:
 @pytest.mark.parametrize("first", Rows([0], others=[1, 2]))
 @in_turn("name, kind", lambda first: PLACES[first::3])
 def test_a_changed_word_changes_few_files(first: int, name: str, kind: str) -> None:
-    data = json.loads(in_json(name))
+    data = data_of(SPECS[name])
     before = modules_and_pages(in_json(name))
-    *steps, key = kinds_of_prose(name)[kind]
-    at: Any = data
-    for step in steps:
-        at = at[step]
-    at[key] = f"Indeed, {at[key]}"
+    path = kinds_of_prose(name)[kind]
+    data = with_(data, *path, f"Indeed, {at(data, path)}")
     touched = changed(before, modules_and_pages(as_text(data)))
     # What is noted of an end is shown with every message that it receives.
     received = len(data["messages"]) if kind.startswith("endpoints.") else 0
     assert 1 <= len(touched) <= MOST + received, touched
 
 
-def reworded(value: Any, key: str = "") -> Any:
-    """Return the same facts in other words."""
-    if isinstance(value, dict):
-        return {name: reworded(each, str(name)) for name, each in value.items()}
-    if isinstance(value, list):
-        return [f"Indeed, {each}" if key == "changes" else reworded(each) for each in value]
-    return f"Indeed, {value}" if key in PROSE and isinstance(value, str) else value
+def in_other_words(path: Steps, text: str) -> str:
+    return f"Indeed, {text}" if is_prose(path) and path[-1] not in FACTS else text
 
 
 @cache
 def reworded_json(name: str) -> str:
-    return as_text(reworded(json.loads(in_json(name))))
+    """Return the same facts in other words."""
+    return as_text(reworded(data_of(SPECS[name]), in_other_words))
 
 
 class _Bare(ast.NodeTransformer):
@@ -325,9 +305,10 @@ def test_a_new_message_changes_few_vectors_of_others() -> None:
 
 
 def test_a_new_named_value_changes_what_shows_it() -> None:
-    before, data = files(in_json("busservo")), json.loads(in_json("busservo"))
-    values = data["messages"]["ServoMove"]["fields"]["time_ms"].setdefault("values", {})
-    values["a_second"] = {"value": 1000, "about": "A second."}
+    before = files(in_json("busservo"))
+    values = {"a_second": {"value": 1000, "about": "A second."}}
+    field = ("messages", "ServoMove", "fields", "time_ms")
+    data = with_(data_of(BUSSERVO), *field, "values", values)
     assert changed(before, files(as_text(data))) == {
         "docs/reference/busservo/examples.md",
         "docs/reference/busservo/messages/ServoMove.md",
