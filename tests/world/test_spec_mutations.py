@@ -1,4 +1,4 @@
-"""Every fact of the spec is checked: change any one of them, and `framegen check` reports it.
+"""A second opinion, by hand: change any one fact of the spec, and `framegen check` reports it.
 
 Facts that `check` cannot see by nature are listed in BLIND, each with its reason, and held to be
 unseen: they need another guard.
@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 from framegen.checks import remarks
-from framegen.compile import compile_spec
-from framegen.language.load import load, read_source
-from framegen.reading.source import Source
 
-from tests.factories import BUSSERVO, FIRST
+from tests.factories import BUSSERVO, FIRST, compiled_of, data_of
 from tests.mutations.places import (
     GONE,
     at,
@@ -35,7 +32,7 @@ if TYPE_CHECKING:
 
 Mutation: TypeAlias = "tuple[Steps, Any]"
 
-TREE: Any = load(read_source(BUSSERVO)).tree.data
+TREE: Any = data_of(BUSSERVO)
 MESSAGES: Any = TREE["messages"]
 
 
@@ -46,8 +43,7 @@ def mutated(steps: Steps, value: Any) -> Any:
 
 def rules_broken(tree: Any) -> set[str]:
     """Return the rules of all findings, or those of remarks where there are none."""
-    # JSON is YAML, and much faster to write.
-    compiled = compile_spec(Source("mutated.yaml", json.dumps(tree)))
+    compiled = compiled_of(tree)
     found = compiled.findings or remarks(compiled.model, compiled.tree)
     return {finding.rule for finding in found}
 
@@ -113,10 +109,7 @@ def widths() -> Iterator[Mutation]:
 
 def frame_numbers() -> Iterator[tuple[Steps, Any]]:
     for frame in (("frame",), ("lookalikes", "lx16a", "frame")):
-        parts = TREE
-        for step in frame:
-            parts = parts[step]
-        for name, part in parts.items():
+        for name, part in at(TREE, frame).items():
             if "type" in part:
                 yield (*frame, name), part
 

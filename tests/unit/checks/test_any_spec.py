@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.compile import compile_spec
 from framegen.language import misfit
-from framegen.language.load import load, read_source
 from framegen.language.spec import Spec
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable
@@ -15,8 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from tests.factories import BUSSERVO, kiln
+from tests.factories import BUSSERVO, data_of, kiln
 from tests.in_turn import in_turn
+from tests.mutations.places import at, nodes, with_
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -56,26 +56,11 @@ structures = st.recursive(
     ),
     max_leaves=20,
 )
-TREE: Any = load(read_source(BUSSERVO)).tree.data
+TREE: Any = data_of(BUSSERVO)
 TOP_KEYS = list(TREE)
 
 
-def paths(value: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
-    steps: list[tuple[str | int, Any]] = []
-    if isinstance(value, dict):
-        steps = list(value.items())
-    elif isinstance(value, list):
-        steps = list(enumerate(value))
-    return [path, *(found for step, inner in steps for found in paths(inner, (*path, step)))]
-
-
-PATHS = paths(TREE)[1:]
-
-
-def at(tree: Any, path: tuple[str | int, ...]) -> Any:
-    for step in path:
-        tree = tree[step]
-    return tree
+PATHS = [path for path, _ in nodes(TREE)]
 
 
 def copied(tree: Any) -> Any:
@@ -105,7 +90,7 @@ KILN = kiln()
 def keys_of_the_language(value: Any) -> Iterator[Steps]:
     """Yield the path of one value under each key that the guide's spec shows."""
     seen: set[object] = set()
-    for here in paths(value)[1:]:
+    for here, _ in nodes(value):
         key = here[-1] if isinstance(here[-1], str) else (here[-2], "[0]")
         if key not in seen:
             seen.add(key)
@@ -115,16 +100,12 @@ def keys_of_the_language(value: Any) -> Iterator[Steps]:
 @in_turn("value", lambda: ODD)
 def test_anything_in_place_of_a_value_is_reported_in_our_words(value: object) -> None:
     """And never in those of the library that reads it."""
-    data = copied(KILN)
     for path in keys_of_the_language(KILN):
-        around = at(data, path[:-1])
-        before, around[path[-1]] = around[path[-1]], value
         kinds: set[str] = set()
         try:
-            Spec.model_validate(data)
+            Spec.model_validate(with_(KILN, *path, value))
         except ValidationError as error:
             kinds = {each["type"] for each in error.errors(include_url=False)}
-        around[path[-1]] = before
         assert kinds <= {*misfit._MESSAGES, "missing", "extra_forbidden"}, path
 
 
