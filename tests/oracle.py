@@ -175,6 +175,11 @@ def scan(
     return events
 
 
+def messages_of(found: Iterable[Any]) -> list[Any]:
+    """Leave the noise out of a reading."""
+    return [each for each in found if not isinstance(each, bytes)]
+
+
 def may_become_frame(data: bytes, direction: str | None) -> bool:
     """Return whether this begins some legal frame, one or more bytes short of its end."""
     return any(

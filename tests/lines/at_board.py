@@ -19,6 +19,19 @@ def end_of(board: Any) -> Any:
     return SimpleNamespace(read=end.read, write=end.write, close=end.close, clock=board.clock.now)
 
 
+def received_by(board: Any) -> list[Any]:
+    """Return what a board understands from now on, as it comes."""
+    received: list[Any] = []
+    accepted = board.board.accepted
+
+    def noted(message: Any) -> None:
+        received.append(message)
+        accepted(message)
+
+    board.board.accepted = noted
+    return received
+
+
 def client_at(board: Any, kind: type, **given: Any) -> Any:
     """Return a client of that kind on the time of its board, at which it need not wait first."""
     settings = {"background": False, "clock": board.clock.now, "settle": 0, **given}

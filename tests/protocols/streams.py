@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from framegen.cases.lengthened import lengthened
 from framegen.model.apart import begun
@@ -13,9 +13,13 @@ from hypothesis import strategies as st
 from tests.protocols.specs import FILES, messages_of, model_of, values_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
 
+# What was found on a line: what it is, its bytes, and why it is no message.
+Told: TypeAlias = tuple[str, bytes, str]
 # A frame that is larger makes a line slow to judge, and says nothing that a smaller does not.
 LARGE = 100
 
@@ -81,3 +85,22 @@ def told_apart(name: str, way: Direction) -> bool:
 def proven(name: str) -> bool:
     """Tell whether every frame of a protocol has a checksum."""
     return all(message.frame.proven for message in messages_of(name).values())
+
+
+def reported(made: Any, event: Any) -> Told:
+    """Return what the decoder of a library found: what it is, its bytes, and why it is none."""
+    if isinstance(event, made.Message):
+        return type(event).__name__, event.encode(), ""
+    kind = "unknown" if isinstance(event, made.UnknownFrame) else "noise"
+    return kind, event.data, event.reason.value
+
+
+def joined(events: Iterable[Told]) -> list[Told]:
+    """Return events with neighbouring noise of one reason joined."""
+    whole: list[Told] = []
+    for kind, data, reason in events:
+        if whole and kind == "noise" and whole[-1][0] == "noise" and whole[-1][2] == reason:
+            whole[-1] = kind, whole[-1][1] + data, reason
+        else:
+            whole.append((kind, data, reason))
+    return whole

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 import pytest
@@ -11,6 +10,7 @@ from tests.factories import vectors_of, write_files
 from tests.unit.site.browser import (
     MILLISECONDS,
     Visit,
+    arrives,
     decoded,
     needs_chromium,
     site_on_disk,
@@ -35,11 +35,6 @@ pytestmark = needs_chromium
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the reference in a folder, as `framegen docs` builds it."""
     return site_on_disk(tmp_path_factory.mktemp("stick") / "the reference")
-
-
-def arrives(tab: Tab, end: str) -> None:
-    """Wait for an address with this end: a key or a click only starts the navigation."""
-    tab.wait_for_url(re.compile(re.escape(end) + "$"))
 
 
 # ---------------------------------------------------------------------------- copying, landing

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
 from importlib import import_module
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -11,19 +10,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.protocols.libraries import Libraries, direction_of
+from tests.contract.protocols.conftest import libraries
+from tests.protocols.libraries import direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from types import ModuleType
 
+    from tests.protocols.libraries import Libraries
 
-@pytest.fixture(scope="module")
-def libraries() -> Iterator[Libraries]:
-    with ExitStack() as until:
-        yield Libraries(until)
+__all__ = ["libraries"]
 
 
 def events(made: ModuleType, direction: Any, data: bytes) -> list[tuple[Any, ...]]:

@@ -17,10 +17,11 @@ from hypothesis import strategies as st
 from tests.contract.test_random_specs import plain
 from tests.factories import compiled_of, library, library_files
 from tests.protocols.libraries import direction_of, made_of, values_in
+from tests.protocols.streams import Told, joined, reported
 from tests.random_specs import lines, specs, with_examples
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from framegen.language.values import Direction
     from framegen.model.model import Model
@@ -76,7 +77,8 @@ def assert_same(
     found: list[Any] = []
     for part in parts:
         found += [*decoder.flush(), None] if part is None else decoder.feed(part)
-    told = joined(map(_told, expected)), joined(_reported(made, event) for event in found)
+    ours = (QUIET if each is None else reported(made, each) for each in found)
+    told = joined(map(_told, expected)), joined(ours)
     if parts[-1] is None:
         assert told[1] == told[0]
     else:
@@ -85,29 +87,12 @@ def assert_same(
         assert one == other
 
 
-def _told(event: Event | None) -> tuple[str, bytes, str]:
+QUIET: Told = ("quiet", b"", "")
+
+
+def _told(event: Event | None) -> Told:
     if event is None:
-        return "quiet", b"", ""
+        return QUIET
     if event.message is not None:
         return event.message.name, event.data, ""
     return event.kind, event.data, event.reason
-
-
-def _reported(made: Any, event: Any) -> tuple[str, bytes, str]:
-    if event is None:
-        return "quiet", b"", ""
-    if isinstance(event, made.Message):
-        return type(event).__name__, event.encode(), ""
-    kind = "unknown" if isinstance(event, made.UnknownFrame) else "noise"
-    return kind, event.data, event.reason.value
-
-
-def joined(events: Iterable[tuple[str, bytes, str]]) -> list[tuple[str, bytes, str]]:
-    """Return events with neighbouring noise of one reason joined."""
-    whole: list[tuple[str, bytes, str]] = []
-    for kind, data, reason in events:
-        if whole and kind == "noise" and whole[-1][0] == "noise" and whole[-1][2] == reason:
-            whole[-1] = kind, whole[-1][1] + data, reason
-        else:
-            whole.append((kind, data, reason))
-    return whole

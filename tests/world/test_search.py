@@ -9,7 +9,7 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 
 from tests.factories import write_files
-from tests.unit.site.browser import Visit, needs_chromium, project_on_disk, texts
+from tests.unit.site.browser import Visit, arrives, needs_chromium, project_on_disk, texts
 from tests.unit.site.test_hostile_pages import hostile
 
 if TYPE_CHECKING:
@@ -58,10 +58,6 @@ def asked(tab: Tab) -> dict[str, list[str]]:
 def kept(tab: Tab, query: str) -> None:
     """Wait until the address has the query, which it is given a moment after the last key."""
     tab.wait_for_function("(q) => new URLSearchParams(location.search).get('q') === q", arg=query)
-
-
-def arrives(tab: Tab, end: str) -> None:
-    tab.wait_for_url(re.compile(re.escape(end) + "$"))
 
 
 # ---------------------------------------------------------------------------- the box

@@ -376,10 +376,6 @@ def test_messages_and_noise_are_counted_and_found(bench: Tab) -> None:
 # ---------------------------------------------------------------------------- links and files
 
 
-def arrives(tab: Tab, end: str) -> None:
-    tab.wait_for_url(re.compile(re.escape(end) + "$"))
-
-
 @pytest.mark.parametrize("word", ["controller", "controller_to_host"])
 def test_an_address_names_the_direction_or_who_sends(visit: Visit, word: str) -> None:
     tab = visit.open(f"decoder.html?hex=5555040f4c1d&direction={word}")

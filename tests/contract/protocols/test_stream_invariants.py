@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
-from tests.protocols.streams import all_ways, lines
+from tests.protocols.streams import Told, all_ways, joined, lines, reported
 from tests.rows import each_protocol, some
 from tests.unit.runtime.codec.test_stream import calls
 
@@ -36,29 +36,9 @@ each_counted = pytest.mark.parametrize(
 )
 
 
-def told(made: Any, events: Iterable[Any]) -> list[tuple[str, bytes, str]]:
-    """Return what the decoder of a library finds: what it is, its bytes, and why it is refused."""
-    return joined(
-        (type(event).__name__, event.encode(), "")
-        if isinstance(event, made.Message)
-        else (
-            "unknown" if isinstance(event, made.UnknownFrame) else "noise",
-            event.data,
-            event.reason.value,
-        )
-        for event in events
-    )
-
-
-def joined(events: Iterable[tuple[str, bytes, str]]) -> list[tuple[str, bytes, str]]:
-    """Return events with neighbouring noise of one reason joined."""
-    whole: list[tuple[str, bytes, str]] = []
-    for kind, data, reason in events:
-        if whole and kind == "noise" and whole[-1][0] == "noise" and whole[-1][2] == reason:
-            whole[-1] = kind, whole[-1][1] + data, reason
-        else:
-            whole.append((kind, data, reason))
-    return whole
+def told(made: Any, events: Iterable[Any]) -> list[Told]:
+    """Return what the decoder of a library finds."""
+    return joined(reported(made, event) for event in events)
 
 
 def cut(data: st.DataObject, line: bytes) -> list[bytes]:
@@ -69,7 +49,7 @@ def cut(data: st.DataObject, line: bytes) -> list[bytes]:
     return [line[start:end] for start, end in pairwise([0, *cuts, len(line)])]
 
 
-def read_by_reference(line: ReferenceDecoder, stretch: bytes) -> list[tuple[str, bytes, str]]:
+def read_by_reference(line: ReferenceDecoder, stretch: bytes) -> list[Told]:
     """Return what the reference finds on a line that is quiet then."""
     return joined(
         (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -92,6 +93,11 @@ class Visit:
     @property
     def _here(self) -> str:
         return self.folder.parent.as_uri()
+
+
+def arrives(tab: Tab, end: str) -> None:
+    """Wait for an address with this end: a key or a click only starts the navigation."""
+    tab.wait_for_url(re.compile(re.escape(end) + "$"))
 
 
 def texts(found: Locator) -> list[str]:

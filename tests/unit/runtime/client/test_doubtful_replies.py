@@ -29,6 +29,7 @@ from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at
+from tests.lines.questions import ask
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
@@ -152,13 +153,6 @@ DOUBTS = {
     ),
     "both at once, on a line without a pace": Doubt([(0, OTHER), (0, OWN)], None, baud=math.inf),
 }
-
-
-def ask(line: Session, now: float) -> Request:
-    request = line.submit(BatteryVoltageRead())
-    assert line.outgoing(now)
-    line.written(request, now)
-    return request
 
 
 def say(line: Session, now: float, *voltages: int) -> None:

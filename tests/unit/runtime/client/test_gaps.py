@@ -16,9 +16,10 @@ from busservo import (
 from framewire.codec.gap import GAP
 
 from tests.in_turn import in_turn
+from tests.lines.questions import ask
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
-from tests.unit.runtime.client.test_possible_replies import ask, session
+from tests.unit.runtime.client.test_possible_replies import session
 
 if TYPE_CHECKING:
     from pathlib import Path

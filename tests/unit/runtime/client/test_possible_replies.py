@@ -20,6 +20,7 @@ from busservo._library import LIBRARY
 from framewire.client.session import Session
 
 from tests.in_turn import in_turn
+from tests.lines.questions import ask
 
 if TYPE_CHECKING:
     from busservo import Message
@@ -34,13 +35,6 @@ TOO_SOON, IN_TIME = 0.94 * TRIP, 0.96 * TRIP
 
 def session(baud: float = 9600, **settings: float) -> Session:
     return Session(LIBRARY, baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16, **settings)  # type: ignore[arg-type]
-
-
-def ask(line: Session, now: float, message: Message | None = None, retries: int = 0) -> Request:
-    request = line.submit(message or BatteryVoltageRead(), retries=retries)
-    assert line.outgoing(now) == [request.message.encode()]
-    line.written(request, now)
-    return request
 
 
 def say(line: Session, now: float, *messages: Message) -> None:

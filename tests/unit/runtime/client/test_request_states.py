@@ -12,6 +12,8 @@ from framewire.client import session
 from framewire.client.request import STATES, Request, State, Step
 from framewire.client.session import Session
 
+from tests.lines.questions import ask
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -19,23 +21,16 @@ if TYPE_CHECKING:
 IN_TIME, TOO_SOON = 10 / 960, 0.001
 
 
-def requested(line: Session, now: float, retries: int = 0) -> Request:
-    request = line.submit(BatteryVoltageRead(), retries=retries)
-    line.outgoing(now)
-    line.written(request, now)
-    return request
-
-
 def answer(line: Session, now: float, voltage: int = 7500) -> None:
     line.receive(BatteryVoltage(voltage).encode(), now)
 
 
 def sent(line: Session) -> Request:
-    return requested(line, 0.0)
+    return ask(line, 0.0)
 
 
 def held(line: Session) -> Request:
-    request = requested(line, 0.0)
+    request = ask(line, 0.0)
     answer(line, TOO_SOON)
     return request
 
@@ -49,16 +44,16 @@ def held_twice(line: Session) -> Request:
 def dropped(line: Session) -> Request:
     """Of a line that has kept its rate, one reply that is impossible is meant for another."""
     for number in range(8):
-        requested(line, number)
+        ask(line, number)
         answer(line, number + IN_TIME)
-    request = requested(line, 9.0)
+    request = ask(line, 9.0)
     answer(line, 9.0 + TOO_SOON)
     line.tick(9.0 + IN_TIME + 0.25)
     return request
 
 
 def tried_again(line: Session) -> Request:
-    request = requested(line, 0.0, retries=1)
+    request = ask(line, 0.0, retries=1)
     line.tick(1.0)
     return request
 
@@ -78,13 +73,13 @@ def replaced(line: Session) -> Request:
 
 
 def answered(line: Session) -> Request:
-    request = requested(line, 0.0)
+    request = ask(line, 0.0)
     answer(line, IN_TIME)
     return request
 
 
 def given_up(line: Session) -> Request:
-    request = requested(line, 0.0)
+    request = ask(line, 0.0)
     line.tick(1.0)
     return request
 

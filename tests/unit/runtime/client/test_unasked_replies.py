@@ -9,6 +9,7 @@ from busservo import BatteryVoltage, BatteryVoltageRead, Controller, ServoPositi
 from busservo._library import LIBRARY
 from framewire.client.session import Session
 
+from tests.lines.questions import ask
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from busservo import Message
-    from framewire.client.request import Request
 
 REPLY_TIMEOUT = 0.25
 TRIP = 10 / 960
@@ -83,13 +83,6 @@ def test_what_comes_by_itself_is_a_report(name: str, monkeypatch: pytest.MonkeyP
     counters = line.counters
     assert counters.reports + counters.replies + counters.unsolicited == len(came)
     assert counters.reports == len(reports)
-
-
-def ask(line: Session, now: float) -> Request:
-    request = line.submit(BatteryVoltageRead())
-    assert line.outgoing(now)
-    line.written(request, now)
-    return request
 
 
 def taken(line: Session) -> Iterator[Message]:

@@ -32,6 +32,7 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.programs import ran
 from tests.timeouts import GENEROUS
+from tests.unit.runtime.command.test_settings_file import refused_port
 
 Capture = pytest.CaptureFixture[str]
 
@@ -134,13 +135,7 @@ def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
 def test_the_rate_is_that_of_the_port(
     monkeypatch: pytest.MonkeyPatch, words: list[str], baud: str
 ) -> None:
-    opened: list[tuple[str, float]] = []
-
-    def refuse(port: str, *_line: object, baud: float, **_: object) -> object:
-        opened.append((port, baud))
-        raise PortNotFoundError(port, "it is a test", "look elsewhere")
-
-    monkeypatch.setattr(link, "open_port", refuse)
+    opened = refused_port(monkeypatch)
     assert main([*words, "--port", "COM7", "--baud", baud]) == 2
     assert opened == [("COM7", float(baud))]
 

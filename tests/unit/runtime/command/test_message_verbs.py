@@ -26,6 +26,7 @@ from tests.crowd import Crowd
 from tests.factories import BUSSERVO, data_of, files_of, library
 from tests.handed import program_of
 from tests.in_turn import in_turn
+from tests.lines.at_board import received_by
 from tests.mutations.places import GONE, with_
 from tests.timeouts import GENEROUS, await_that
 
@@ -144,14 +145,7 @@ def test_what_is_far_outside_the_limits_is_named_and_the_rest_is_held(
 
 
 def test_stop_ends_the_group_before_it_holds(board: VirtualController, capsys: Capture) -> None:
-    received: list[Message] = []
-    accepted = board.board.accepted
-
-    def noted(message: Message) -> None:
-        received.append(message)
-        accepted(message)
-
-    board.board.accepted = noted  # type: ignore[method-assign]
+    received = received_by(board)
     assert main(["run", "8", "unlimited", "--port", board.port, *FAST]) == 0
     assert main(["stop", "1-2", "--port", board.port, *FAST]) == 0
     assert capsys.readouterr().err == "servos 1, 2 held\n"

@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 
 from tests.commands import Ended, called
 from tests.in_turn import in_turn
+from tests.lines.at_board import received_by
 from tests.timeouts import GENEROUS, await_that
 
 PATIENT = ("--timeout", str(GENEROUS), "--baud", "inf")
@@ -50,15 +51,7 @@ class Desk(NamedTuple):
 
 @pytest.fixture
 def desk(board: VirtualController, tmp_path: Path) -> Desk:
-    received: list[Message] = []
-    accepted = board.board.accepted
-
-    def noted(message: Message) -> None:
-        received.append(message)
-        accepted(message)
-
-    board.board.accepted = noted  # type: ignore[method-assign]
-    return Desk(board, received, tmp_path / "poses.json")
+    return Desk(board, received_by(board), tmp_path / "poses.json")
 
 
 def poses_of(*poses: Any, **more: Any) -> str:

@@ -27,6 +27,7 @@ from tests.factories import (
 )
 from tests.handed import handed_by
 from tests.in_turn import in_turn
+from tests.lines.servo_bus import frame
 from tests.protocols.specs import FILES
 
 LAYOUT = compiled_file(BUSSERVO).model
@@ -34,14 +35,8 @@ SERVO_BUS = "LX-16A bus servo protocol"
 DIALECT = "The dialect of LeArm and uHand boards"
 
 
-def servo_bus_frame(servo_id: int, command: int, parameters: bytes = b"") -> bytes:
-    """Return a frame as published for the LX-16A: 55 55 ID LEN CMD parameters CHECKSUM."""
-    summed = bytes([servo_id, len(parameters) + 3, command]) + parameters
-    return b"\x55\x55" + summed + bytes([~sum(summed) & 0xFF])
-
-
-MOVE = servo_bus_frame(1, 1, bytes.fromhex("20 03 E8 03"))
-ASK = servo_bus_frame(7, 28)
+MOVE = frame(1, 1, 0x20, 0x03, 0xE8, 0x03)
+ASK = frame(7, 28)
 
 
 @in_turn(

@@ -20,6 +20,7 @@ from tests.contract.independent.ports import StrangersPort, VirtualPort
 from tests.contract.independent.strangers import BANNER, GPS, MODEM, SKETCH, Print, Stranger
 from tests.handed import program_of
 from tests.in_turn import in_turn
+from tests.lines.servo_bus import frame
 from tests.protocols.specs import FILES
 from tests.rows import some
 
@@ -286,16 +287,10 @@ def test_what_is_no_frame_never_passes(data: bytes, inverted: bool) -> None:
 # --- A library whose look-alike has no checksum --------------------------------------------------
 
 
-def servo_reply(servo_id: int, command: int, parameters: bytes) -> bytes:
-    """Return a frame as published for the LX-16A: 55 55 ID LEN CMD parameters CHECKSUM."""
-    summed = bytes([servo_id, len(parameters) + 3, command]) + parameters
-    return b"\x55\x55" + summed + bytes([~sum(summed) & 0xFF])
-
-
 @in_turn("servo_id", lambda: range(1, 12))
 @in_turn("size", lambda: range(3, 10))
 def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size: int) -> None:
-    reply = servo_reply(servo_id, 2, bytes.fromhex("F4 01 E8 03"))[:size]
+    reply = frame(servo_id, 2, 0xF4, 0x01, 0xE8, 0x03)[:size]
     found = examined(Stranger(answer=lambda _: reply), "lxservo")
     assert (found["look-alike"].state, found["rate"].state) == (UNKNOWN, FAILED)
     assert found["look-alike"].seen.startswith("not recognised: ")
@@ -307,7 +302,7 @@ def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size:
         (Stranger(Print(0.05, GPS, 1.0), rate=115200), UNKNOWN, f"they are text: {GPS_TEXT}"),
         (Stranger(Print(0.05, REPLY, 1.0), rate=115200), FAILED, "Hiwonder bus servo controller"),
         (
-            Stranger(answer=lambda _: servo_reply(1, 2, bytes(4)), rate=115200),
+            Stranger(answer=lambda _: frame(1, 2, *bytes(4)), rate=115200),
             PASSED,
             "what came is this protocol",
         ),
