@@ -10,13 +10,16 @@
 A line stands for itself and for what is indented deeper below it; where several begin so, the
 outermost is meant. With `under`, a text or a line is looked for below that key alone. `times`
 adds the lines so often, with # counting up from 0. What is added can be marked: «» around the
-place of a finding, ⟦⟧ around another place.
+place of a finding, ⟦⟧ around another place. A pair of texts of any size is put in one's place.
 """
 
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _MARKS = re.compile("[«»⟦⟧]")
 _KEYS = {"under", "replace", "with", "mark", "instead", "before", "after", "remove", "add", "times"}
@@ -31,8 +34,20 @@ def unmarked(text: str) -> str:
     return _MARKS.sub("", text)
 
 
-def edited(text: str, edit: dict[str, Any]) -> str:
+def change(file: Path, *edits: dict[str, Any] | tuple[str, str]) -> None:
+    """Change a file where it lies. Raises EditError if an edit does not apply."""
+    text = file.read_text(encoding="utf-8")
+    for edit in edits:
+        text = edited(text, edit)
+    file.write_text(text, encoding="utf-8")
+
+
+def edited(text: str, edit: dict[str, Any] | tuple[str, str]) -> str:
     """Change a text. Raises EditError if the edit does not apply."""
+    if isinstance(edit, tuple):
+        old, new = edit
+        _once(old, [text.count("\n", 0, at.start()) for at in re.finditer(re.escape(old), text)])
+        return text.replace(old, new)
     if unknown := edit.keys() - _KEYS:
         raise EditError(f"an edit has no `{min(unknown)}`")
     lines = text.split("\n")

@@ -11,13 +11,14 @@ import pytest
 from framegen.cli import main
 
 from tests.factories import DEMO, ROOT
+from tests.mutations.spec_edits import change as change_file
 from tests.programs import ran
 from tests.repository import commit, git, start
 from tests.unit.comparison.test_automation import ACTION, HOOKS, read
 
 GIT = shutil.which("git")
 BASH = shutil.which("bash")
-MILLISECONDS = ("type: u16\n        unit: s\n", "type: u16\n        unit: ms\n")
+MILLISECONDS = {"under": "ramp_s", "replace": "unit: s", "with": "unit: ms"}
 
 needs_bash = pytest.mark.skipif(
     os.name == "nt" or BASH is None or GIT is None,
@@ -45,11 +46,7 @@ def checkout(tmp_path: Path) -> Path:
 
 def change(checkout: Path) -> None:
     """Give a field of a checkout's spec another unit."""
-    file = checkout / "spec" / "greenhouse.yaml"
-    text = file.read_text(encoding="utf-8")
-    old, new = MILLISECONDS
-    assert old in text
-    file.write_text(text.replace(old, new, 1), encoding="utf-8")
+    change_file(checkout / "spec" / "greenhouse.yaml", MILLISECONDS)
 
 
 class Runner:

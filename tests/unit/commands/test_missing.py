@@ -13,6 +13,7 @@ from framegen.witnesses import DECLARATION, read_witnesses
 from tests.commands import called
 from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, ROOT, data_of
 from tests.in_turn import in_turn
+from tests.mutations.spec_edits import change
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -72,11 +73,7 @@ class Project(NamedTuple):
 
     def edit(self, file: str, *edits: tuple[str, str]) -> None:
         """Replace texts of a file, each of which is there once."""
-        text = (self.folder / file).read_text(encoding="utf-8")
-        for old, new in edits:
-            assert text.count(old) == 1, old
-            text = text.replace(old, new)
-        self.write(file, text)
+        change(self.folder / file, *edits)
 
     def write(self, file: str, text: str) -> None:
         """Write a file."""

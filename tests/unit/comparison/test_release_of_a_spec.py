@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from contextlib import redirect_stdout
+from functools import partial
 from pathlib import Path
 from shutil import copytree
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -20,6 +21,7 @@ from framegen.writing import disk
 
 from tests import bad_specs
 from tests.factories import data_of
+from tests.mutations.spec_edits import change as change_file
 from tests.mutations.spec_edits import edited
 
 if TYPE_CHECKING:
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
 SPEC = Path("spec/lamps.yaml")
+change = partial(change_file, SPEC)
 FIRST = Path("spec/released/lamps-1.0.0.yaml")
 FADE = """\
 LampFade:
@@ -77,13 +80,6 @@ def _project(first: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 def programs(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let programs count as well."""
     monkeypatch.setattr(comparison, "program_effects", program_effects)
-
-
-def change(*edits: dict[str, Any]) -> None:
-    text = SPEC.read_text(encoding="utf-8")
-    for edit in edits:
-        text = edited(text, edit)
-    SPEC.write_text(text, encoding="utf-8")
 
 
 def history(*entries: str) -> dict[str, Any]:

@@ -75,11 +75,6 @@ def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
     return {path for path in paths if before.get(path) != after.get(path)}
 
 
-def replaced(text: str, old: str, new: str) -> str:
-    assert text.count(old) == 1
-    return text.replace(old, new)
-
-
 # ------------------------------------------------------------------ what nothing shows
 
 
