@@ -67,7 +67,16 @@ Steps: TypeAlias = "tuple[str | int, ...]"
 
 def data_of(file: Path) -> Data:
     """Return the values of a spec file."""
-    return read_tree(read_source(file))[0].data
+    return _values(read_source(file))
+
+
+def data_in(text: str) -> Data:
+    """Return the values of the text of a spec, or of a part of one."""
+    return _values(Source("made_up.yaml", text))
+
+
+def _values(source: Source) -> Data:
+    return read_tree(source)[0].data
 
 
 def first_edition() -> Data:
@@ -88,7 +97,7 @@ def first_model() -> Model:
 
 def kiln() -> Data:
     """Return the values of the first spec that the language guide puts together."""
-    return read_tree(SPECS["kiln"])[0].data
+    return _values(SPECS["kiln"])
 
 
 def yaml_of(value: object) -> str:

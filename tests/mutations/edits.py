@@ -16,7 +16,7 @@ from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree
 
 from tests.factories import BUSSERVO, DEMO, Data, data_of
-from tests.mutations.places import GONE, renamed, reordered, with_
+from tests.mutations.places import GONE, having, renamed, reordered, with_
 from tests.protocols.specs import FILES
 
 SPECS = {
@@ -79,8 +79,7 @@ BEEP: Data = {
 
 def _one(data: Data, place: str, value: Any) -> tuple[Data, Data]:
     """Return a spec, and the same with another value at a place."""
-    steps = [int(step) if step.isdigit() else step for step in place.split(".")]
-    return data, with_(data, *steps, value)
+    return data, having(data, {place: value})
 
 
 def _called(data: Data, old: str, new: str) -> tuple[Data, Data]:

@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from tests.factories import Data, Steps
 
@@ -32,6 +32,14 @@ def leaves(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
         yield path, value
     for step, inner in _inside(value):
         yield from leaves(inner, (*path, step))
+
+
+def having(data: Data, values: Mapping[str, Any]) -> Data:
+    """Return a copy with a value at each of these dotted places, or without it where it is GONE."""
+    for place, value in values.items():
+        steps = (int(step) if step.isdigit() else step for step in place.split("."))
+        data = with_(data, *steps, value)
+    return data
 
 
 def texts(value: Any) -> Iterator[tuple[Steps, str]]:

@@ -6,7 +6,6 @@ import json
 from typing import TYPE_CHECKING
 
 import pytest
-import yaml
 from framegen.explain import explain
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
 from framegen.model.codec import decode
@@ -14,7 +13,7 @@ from framegen.model.data import method_terms
 from framewire.explain.checksum import checksum
 from framewire.explain.text import as_json, as_text
 
-from tests.factories import compiled_of, library, library_files
+from tests.factories import compiled_of, data_in, library, library_files
 from tests.handed import explanations_of
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of, model_of
@@ -304,7 +303,7 @@ messages:
 def test_what_nothing_tells_apart_is_explained_as_each_of_them(
     data: str, reason: str, due: str
 ) -> None:
-    compiled = compiled_of(yaml.safe_load(LIKE_EACH_OTHER))
+    compiled = compiled_of(data_in(LIKE_EACH_OTHER))
     assert compiled.findings == []
     frame = bytes.fromhex(data)
     here = explain(compiled.model, frame, compiled.model.directions)

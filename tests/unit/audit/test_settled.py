@@ -10,11 +10,11 @@ from framegen.compile import compile_spec
 from framegen.model.codec import encode
 from framegen.model.model import Model
 from framegen.reading.source import Source
-from framegen.reading.yamltree import read_tree
 
-from tests.factories import BUSSERVO, ROOT, compiled_file, compiled_of, data_of
+from tests.factories import BUSSERVO, ROOT, compiled_file, compiled_of, data_in, data_of
 from tests.in_turn import in_turn
 from tests.lines.tallied_line import audited, spoken
+from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
 SPECS = {**FILES, "busservo": BUSSERVO}
@@ -25,7 +25,7 @@ def with_examples(data: dict[str, Any], name: str, yaml: str) -> None:
     """Add examples to a message, as the report writes them."""
     lines = [line.removeprefix("    ") for line in yaml.splitlines()]
     data["messages"][name].setdefault("examples", [])
-    added = read_tree(Source("pasted", "\n".join(["examples:", *lines])))[0].data
+    added = data_in("\n".join(["examples:", *lines]))
     data["messages"][name]["examples"] += added["examples"]
 
 
@@ -83,7 +83,7 @@ def asking(concerns: str) -> Model:
     """Return busservo with one open question."""
     data = data_of(BUSSERVO)
     text = f"unknowns:\n  - concerns: {concerns}\n    what: Something.\n"
-    data["unknowns"] = read_tree(Source("unknowns", text))[0].data["unknowns"]
+    data["unknowns"] = data_in(text)["unknowns"]
     return compiled_of(data).model
 
 
@@ -123,9 +123,8 @@ def test_a_question_about_a_request_stays_open_until_it_is_answered() -> None:
 def test_an_example_of_the_same_frame_is_confirmed_and_keeps_its_source(
     origin: dict[str, Any],
 ) -> None:
-    data = data_of(BUSSERVO)
     example = {"title": "Ask", "hex": ASK, "values": {}, **origin}
-    data["messages"]["BatteryVoltageRead"]["examples"] = [example]
+    data = having(data_of(BUSSERVO), {"messages.BatteryVoltageRead.examples": [example]})
     model = compiled_of(data).model
     text = f"{ASK}  # 0 s, host: a\n{TELL}  # 1 s, controller: a\n"
     yaml = next(

@@ -16,6 +16,7 @@ from framegen.reading.source import Source
 from tests import bad_specs
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_of, data_of
 from tests.in_turn import in_turn
+from tests.mutations.places import having
 from tests.mutations.spec_edits import edited
 
 if TYPE_CHECKING:
@@ -66,8 +67,7 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
 def test_a_value_of_another_kind_is_reported_by_its_kind(
     key: str, said: object, expected: str
 ) -> None:
-    data = data_of(BUSSERVO)
-    data["messages"]["ServoMove"]["examples"][0]["values"][key] = said
+    data = having(data_of(BUSSERVO), {f"messages.ServoMove.examples.0.values.{key}": said})
     assert [finding.message for finding in compiled_of(data).findings][:1] == [expected]
 
 

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import Spec
 from framegen.model.model import derive
-from framegen.reading.source import Source
-from framegen.reading.yamltree import read_tree
 
 from tests.bad_specs import BASES
-from tests.factories import data_of
+from tests.factories import data_in, data_of
 
 if TYPE_CHECKING:
     from framegen.comparison.changes.change import ChangeRule
@@ -27,12 +25,8 @@ _FIELD = {"about": "A field."}
 @cache
 def example(rule: ChangeRule) -> tuple[Data, Data]:
     """Return the spec before and after, without examples of frames but for the rule's own."""
-    before, after = (_read(text) for text in (rule.before, rule.after))
+    before, after = (data_in(text) if text else {} for text in (rule.before, rule.after))
     return _built(rule, before, after), _built(rule, after, before)
-
-
-def _read(text: str) -> Data:
-    return read_tree(Source("example.yaml", text))[0].data if text else {}
 
 
 def _built(rule: ChangeRule, own: Data, other: Data) -> Data:

@@ -16,7 +16,7 @@ from tests.in_turn import in_turn
 from tests.mutations.edits import EDITS, SERVO, SPECS, edition, pair_of
 from tests.mutations.kinds import keys_of_the_language
 from tests.mutations.leaves import mirrored, told_at_their_places, turned
-from tests.mutations.places import leaves, renamed, with_
+from tests.mutations.places import GONE, having, leaves, renamed, with_
 from tests.unit.comparison.rule_examples import example
 
 if TYPE_CHECKING:
@@ -146,10 +146,9 @@ def test_what_is_said_otherwise_of_the_same_message_is_the_same(
 def test_changes_come_in_the_order_of_the_new_edition_and_what_is_gone_last() -> None:
     from framegen.comparison.edition import Edition  # noqa: PLC0415
 
-    data = with_(SERVO, "messages", "ServoMove", "id", 4)
-    data = with_(data, "link", "baud", 19200)
-    data = with_(data, "messages", "ServoUnload", "fields", "servo_ids", "count", "2..")
-    del data["pose"]
+    several = {"messages.ServoMove.id": 4, "link.baud": 19200, "pose": GONE}
+    count = {"messages.ServoUnload.fields.servo_ids.count": "2.."}
+    data = having(SERVO, several | count)
     compiled = [compiled_of(each) for each in (SERVO, data)]
     editions = []
     for each in compiled:

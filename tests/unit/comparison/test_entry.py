@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import copy
 from typing import TYPE_CHECKING
 
 import pytest
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.entry import sentences
-from framegen.reading.source import Source
-from framegen.reading.yamltree import read_tree
 
 from tests.bad_specs import base
-from tests.factories import DEMO, data_of
+from tests.factories import DEMO, data_in, data_of
 from tests.mutations.edits import edition
+from tests.mutations.places import having
 from tests.mutations.spec_edits import edited
 
 if TYPE_CHECKING:
@@ -23,7 +21,7 @@ OLD = data_of(DEMO)
 
 
 def lamps(text: str) -> Edition:
-    return edition(read_tree(Source("lamps.yaml", text))[0].data)
+    return edition(data_in(text))
 
 
 def told(**changes: str) -> list[str]:
@@ -50,14 +48,12 @@ def test_a_few_changes_of_words_are_told_and_many_are_counted() -> None:
 
 
 def test_examples_follow_what_changed_unless_nothing_else_did() -> None:
-    new = copy.deepcopy(OLD)
-    (example, *_) = new["messages"]["VentsOpen"]["examples"]
-    example["hex"] = f"{example['hex'][:-2]}77"
+    frame = OLD["messages"]["VentsOpen"]["examples"][0]["hex"]
+    new = having(OLD, {"messages.VentsOpen.examples.0.hex": f"{frame[:-2]}77"})
     alone = sentences(Comparison(edition(OLD), edition(new)), examples=False)
     assert len(alone) == 1
     assert "VentsOpen.examples[0]" in alone[0]
-    new["protocol"]["title"] = "A hothouse"
-    comparison = Comparison(edition(OLD), edition(new))
+    comparison = Comparison(edition(OLD), edition(having(new, {"protocol.title": "A hothouse"})))
     assert [alone[0] in sentences(comparison, examples=each) for each in (True, False)] == [
         True,
         False,
@@ -65,9 +61,8 @@ def test_examples_follow_what_changed_unless_nothing_else_did() -> None:
 
 
 def test_a_deprecation_is_told_with_its_reason_before_mere_words() -> None:
-    new = copy.deepcopy(OLD)
-    new["messages"]["VentsOpen"]["deprecated"] = "VentsMove is smoother."
-    new["protocol"]["title"] = "A hothouse"
+    why = {"messages.VentsOpen.deprecated": "VentsMove is smoother."}
+    new = having(OLD, {**why, "protocol.title": "A hothouse"})
     first, words = sentences(Comparison(edition(OLD), edition(new)))
     assert first == "VentsOpen is deprecated now: VentsMove is smoother."
     assert "VentsOpen" not in words

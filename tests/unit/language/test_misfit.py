@@ -20,6 +20,7 @@ from framegen.language.other_words import (
 
 from tests.factories import DEMO, compiled_of, data_of
 from tests.in_turn import in_turn
+from tests.mutations.places import having
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -93,8 +94,8 @@ def test_a_misfit_is_reported_in_the_words_of_the_language(
 
 
 def test_a_key_that_is_no_number_is_reported_once_whatever_its_value() -> None:
-    data = data_of(DEMO)
-    data["lookalikes"]["old_stations"]["commands"] = {"lit": {"what": "It shines."}}
+    commands = {"lit": {"what": "It shines."}}
+    data = having(data_of(DEMO), {"lookalikes.old_stations.commands": commands})
     found = [(f.path, f.message) for f in compiled_of(data).findings]
     path = "lookalikes.old_stations.commands.lit"
     assert found[0] == (path, "a whole number is expected here, not `lit`")

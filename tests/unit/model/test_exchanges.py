@@ -9,18 +9,14 @@ import pytest
 
 from tests.factories import Data, files_of, kiln, layout_of, library
 from tests.lines.timed_line import client_of
+from tests.mutations.places import GONE, having
 
 
 def long_question(*, echoed: bool) -> Data:
     """Return the kiln, whose question for dampers can name more than its reply has room for."""
-    data = kiln()
     # A pose is only there where the reply repeats the question.
-    del data["pose"]
-    question = data["messages"]["DamperRead"]
-    question["method"] = "read_dampers(damper_ids) -> positions"
-    if not echoed:
-        del question["echoed"]
-    return data
+    method = {"messages.DamperRead.method": "read_dampers(damper_ids) -> positions", "pose": GONE}
+    return having(kiln(), method | ({} if echoed else {"messages.DamperRead.echoed": GONE}))
 
 
 @pytest.mark.parametrize(("echoed", "most", "split"), [(True, 84, True), (False, 0, False)])

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, compiled_file, data_of
 from tests.in_turn import in_turn
+from tests.mutations.places import having
 
 SERVO = compiled_file(BUSSERVO).model
 HOUSE = compiled_file(DEMO).model
@@ -160,8 +161,7 @@ def test_a_verdict_stands_whatever_comes_behind(
 
 
 def test_a_part_behind_the_fields_is_a_slot_like_any_other() -> None:
-    data = data_of(BUSSERVO)
-    data["frame"]["end"] = {"is": "constant", "bytes": "0D 0A"}
+    data = having(data_of(BUSSERVO), {"frame.end": {"is": "constant", "bytes": "0D 0A"}})
     model = derive(Spec.model_validate(data))
     move = model.messages["ServoMove"]
     frame = bytes.fromhex("55 55 08 03 01 E8 03 01 20 03 0D 0A")

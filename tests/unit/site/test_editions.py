@@ -7,8 +7,9 @@ from itertools import pairwise
 import pytest
 from framegen.comparison.listing import edition_of
 from framegen.reading.source import Source
-from framegen.reading.yamltree import Unusable, read_tree
+from framegen.reading.yamltree import Unusable
 
+from tests.factories import data_in
 from tests.in_turn import in_turn
 from tests.mutations.prose import with_prose
 from tests.mutations.spec_edits import edited
@@ -181,7 +182,7 @@ def elements_of_release(payload: str) -> dict[str, list[tuple[str, list[str]]]]:
 
     Code is left out: between two backticks, it is what a sentence may have.
     """
-    data = read_tree(Source("lamps.yaml", FIRST))[0].data
+    data = data_in(FIRST)
     site = Editions(SECOND, (respelled(with_prose(data, payload)).text,))
     pages = {path: site.page(f"{path}.html") for path in EXPOSED}
     return {

@@ -16,6 +16,7 @@ from framegen.site.project import Project
 from framegen.site.site import render_site
 from framegen.targets import docs
 
+from tests.factories import BUSSERVO, data_of
 from tests.in_turn import in_turn
 from tests.unit.site.reference import (
     ROOT,
@@ -258,7 +259,7 @@ def test_errata_look_alikes_and_history_are_shown(name: str) -> None:
 
 
 def test_anchors_hold_whatever_the_spec_calls_things() -> None:
-    data = read_tree(reference("busservo").source)[0].data
+    data = data_of(BUSSERVO)
     data["lookalikes"] = {"content": data["lookalikes"].pop("lx16a"), **data["lookalikes"]}
     data["protocol"]["version"] = data["history"][0]["version"] = "2.0.0-rc.1"
     site = reference_of(respelled(data))
@@ -304,7 +305,7 @@ def shape(slots: list[dict[str, Any]]) -> list[tuple[str, str, int]]:
 
 
 def test_a_spec_with_nothing_optional_has_a_reference() -> None:
-    data = read_tree(reference("busservo").source)[0].data
+    data = data_of(BUSSERVO)
     for key in ("errata", "unknowns", "lookalikes", "reserved", "history", "pose"):
         del data[key]
     needless = ("description", "vendor_name", "reply", "reports", "echoed", "acknowledged")

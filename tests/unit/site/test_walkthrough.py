@@ -7,6 +7,7 @@ from framegen.targets.docs.stream_examples import stream_examples
 from framegen.targets.docs.walkthrough import Walkthrough, walkthrough
 
 from tests.factories import DEMO, compiled_file, compiled_of, data_of, layout_of
+from tests.mutations.places import GONE, having
 from tests.unit.site.peers import Event
 from tests.unit.site.reference import reference
 
@@ -79,21 +80,20 @@ def test_a_report_comes_between_a_request_and_its_reply_only_from_the_same_end()
         "StationState",
     ]
     # Without that report, nothing that the station sends is one.
-    del data["messages"]["VentJammed"], data["messages"]["VentsOpen"]["reports"]
-    spec = compiled_of(data).read
+    without = {"messages.VentJammed": GONE, "messages.VentsOpen.reports": GONE}
+    spec = compiled_of(having(data, without)).read
     assert spec is not None
     assert interruption(derive(spec)) is None
 
 
 def test_an_empty_list_in_an_example_removes_no_stream_example() -> None:
-    data = data_of(DEMO)
-    message = data["messages"]["VentsOpen"]
-    message["fields"]["vents"]["count"] = "0..8"
-    message["examples"][0] |= {
-        "hex": "C3 5A A5 10 00 03 00 00 00",
-        "values": {"ramp_s": 0, "vents": []},
+    example = "messages.VentsOpen.examples.0"
+    empty = {
+        "messages.VentsOpen.fields.vents.count": "0..8",
+        f"{example}.hex": "C3 5A A5 10 00 03 00 00 00",
+        f"{example}.values": {"ramp_s": 0, "vents": []},
     }
-    spec = compiled_of(data).read
+    spec = compiled_of(having(data_of(DEMO), empty)).read
     assert spec is not None
     examples = stream_examples(derive(spec))
     assert [each.id for each in examples] == [
@@ -103,8 +103,7 @@ def test_an_empty_list_in_an_example_removes_no_stream_example() -> None:
 
 
 def test_a_report_of_another_end_comes_between_no_request_and_its_reply() -> None:
-    data = data_of(DEMO)
-    data["messages"]["VentJammed"]["direction"] = "display -> gateway"
+    data = having(data_of(DEMO), {"messages.VentJammed.direction": "display -> gateway"})
     spec = compiled_of(data).read
     assert spec is not None
     assert interruption(derive(spec)) is None

@@ -13,6 +13,7 @@ from framegen.model.codec import encode
 
 from tests.factories import data_of, files_of, library, library_of
 from tests.lines.timed_line import ScriptedLine, client_on
+from tests.mutations.places import having
 from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
@@ -162,9 +163,8 @@ def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
 
 def test_a_status_with_another_good_value_fails_with_all_others() -> None:
     """A sensor whose status is 1 after a success raised on every success."""
-    spec = data_of(FILES["dynamixel1"])
-    spec["protocol"]["name"] = "well"
-    spec["messages"]["Status"]["failure"] = "error unless 1"
+    one = {"protocol.name": "well", "messages.Status.failure": "error unless 1"}
+    spec = having(data_of(FILES["dynamixel1"]), one)
     answers = [frame("dynamixel1", "Status", servo_id=1, error=each, data=[]) for each in (0, 2, 1)]
     line = ScriptedLine(lambda _: answers.pop(0))
     with library(files_of(spec)) as well, client_on(line, well.Controller) as bus:

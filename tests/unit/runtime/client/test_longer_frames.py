@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from tests.factories import Data, data_of, files_of, library, library_of
+from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -19,10 +20,8 @@ GAP = 0.05
 
 def refusing() -> Data:
     """Return the gauges of the guide, whose fault is also what comes instead of a pressure."""
-    found = data_of(FILES["gauges"])
-    found["protocol"]["name"] = "refusing"
-    found["messages"]["PressureRead"]["refusal"] = "Fault"
-    return found
+    refusal = {"protocol.name": "refusing", "messages.PressureRead.refusal": "Fault"}
+    return having(data_of(FILES["gauges"]), refusal)
 
 
 @pytest.fixture(scope="module")

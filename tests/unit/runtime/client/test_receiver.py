@@ -10,6 +10,7 @@ from framegen.model.codec import encode
 from framewire.client.session import Session
 
 from tests.factories import Data, data_of, files_of, layout_of, library
+from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
@@ -18,11 +19,11 @@ if TYPE_CHECKING:
 
 def data() -> Data:
     """Return a spec in which a reply is as long as its length can say."""
-    found = data_of(FILES["ubx"])
-    found["messages"]["MonVer"]["fields"]["extensions"]["count"] = "0.."
     # What comes again and again once it is switched on, and is asked for as well.
-    found["messages"]["CfgMsgRateSet"]["reports"] = ["NavPvt"]
-    return found
+    reports = {"messages.CfgMsgRateSet.reports": ["NavPvt"]}
+    return having(
+        data_of(FILES["ubx"]), {"messages.MonVer.fields.extensions.count": "0..", **reports}
+    )
 
 
 @pytest.fixture(scope="module", autouse=True)

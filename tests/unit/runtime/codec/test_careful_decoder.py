@@ -6,7 +6,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 import pytest
-import yaml
 from busservo import (
     ActionGroupCompleted,
     ActionGroupStarted,
@@ -22,8 +21,9 @@ from busservo._library import CODEC
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import compiled_of, library, library_files
+from tests.factories import compiled_of, data_in, library, library_files
 from tests.in_turn import in_turn
+from tests.mutations.places import having
 from tests.strategies import joined
 
 if TYPE_CHECKING:
@@ -241,9 +241,7 @@ messages:
     ],
 )
 def test_an_acknowledgement_makes_no_other_frame_doubtful(end: dict[str, object]) -> None:
-    data = yaml.safe_load(ACKNOWLEDGED)
-    data["frames"]["normal"]["check"] = end
-    compiled = compiled_of(data)
+    compiled = compiled_of(having(data_in(ACKNOWLEDGED), {"frames.normal.check": end}))
     assert compiled.findings == []
     with library(library_files(compiled)) as made:
         codec = import_module(f"{made.__name__}._library").CODEC

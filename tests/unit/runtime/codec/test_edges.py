@@ -19,6 +19,7 @@ from framewire.frame.pluralize import describe_range
 from tests.cases import CASES
 from tests.factories import BUSSERVO, DEMO, compiled_file, compiled_of, data_of, layout_of
 from tests.in_turn import in_turn
+from tests.mutations.places import GONE, having
 
 COMMANDS = ", ".join(map(str, sorted({kind.COMMAND for kind in busservo.MESSAGES})))
 
@@ -87,8 +88,7 @@ def test_a_bare_number_in_a_list_has_the_name_of_the_list() -> None:
 
 
 def test_a_list_without_declared_counts_may_be_empty() -> None:
-    data = data_of(BUSSERVO)
-    del data["messages"]["ServoUnload"]["fields"]["servo_ids"]["count"]
+    data = having(data_of(BUSSERVO), {"messages.ServoUnload.fields.servo_ids.count": GONE})
     items = layout_of(data).messages["ServoUnload"].items
     assert items is not None
     assert (items.low, items.high) == (0, 252)

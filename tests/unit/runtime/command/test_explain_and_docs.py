@@ -8,7 +8,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
-import yaml
 from busservo.__main__ import main
 from framegen.cases.invalid import invalid_frames
 from framegen.cases.valid import valid_frames
@@ -32,6 +31,7 @@ from tests.factories import (
 )
 from tests.handed import explanations_of
 from tests.in_turn import in_turn
+from tests.mutations.places import renamed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -65,8 +65,7 @@ def by_reference(model: Model, frame: bytes) -> tuple[str, dict[str, Any]]:
 
 def bent_names() -> Data:
     """Return a spec with an endpoint and a message whose names the library has taken."""
-    text = DEMO.read_text(encoding="utf-8").replace("gateway", "either")
-    made: Data = yaml.safe_load(text.replace("VentsOpen", "Exception"))
+    made: Data = renamed(renamed(data_of(DEMO), "gateway", "either"), "VentsOpen", "Exception")
     assert made["endpoints"].keys() >= {"either"}
     assert "Exception" in made["messages"]
     return made

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from tests.factories import DEMO, data_of, files_of, library
 from tests.lines.timed_line import TimedLine, client_on
+from tests.mutations.places import having
 
 TEXT = "Vents open by themselves since 2024."
 SAID = f"VentsOpen is deprecated: {TEXT}"
@@ -23,8 +24,7 @@ SAID = f"VentsOpen is deprecated: {TEXT}"
 @pytest.fixture(scope="module")
 def old() -> Iterator[ModuleType]:
     """A library with a deprecated command that its client sends, and one that others send."""
-    data = data_of(DEMO)
-    data["messages"]["VentsOpen"]["deprecated"] = TEXT
+    data = having(data_of(DEMO), {"messages.VentsOpen.deprecated": TEXT})
     with library(files_of(data)) as made:
         yield made
 
