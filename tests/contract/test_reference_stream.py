@@ -17,7 +17,6 @@ HOUSE = ReferenceDecoder(compiled_file(DEMO).model, [Direction("gateway", "stati
 TIGHT = ReferenceDecoder(HOUSE.model, HOUSE.directions, max_frame=8)
 
 STOP = "55550207"
-TAIL = ("too short", "5555")
 # A line, its bytes, and what they are: a message by name, else `?` or the reason, and the bytes.
 LINES: list[tuple[ReferenceDecoder, str, list[tuple[str, str]]]] = [
     (HOST, "", []),

@@ -112,13 +112,6 @@ def _overwritten(line: str) -> str:
     return "".join(seen).rstrip()
 
 
-def run(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
-    """Run a verb in a process of its own, without a terminal."""
-    command = [sys.executable, "-m", "busservo", *words]
-    options = {"capture_output": True, "text": True, "timeout": GENEROUS, "check": False} | options
-    return subprocess.run(command, env=ENVIRONMENT, **options)  # noqa: PLW1510 - among the options
-
-
 def start(*words: str, **options: Any) -> subprocess.Popen[str]:
     """Start a verb in a process of its own, to go on beside the test."""
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options

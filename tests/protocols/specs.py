@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
-import random
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from framegen.model.codec import encode
 from framegen.model.slots import Items, Number, Packed, Text
 from hypothesis import strategies as st
 
@@ -16,8 +13,6 @@ from tests.factories import compiled_file
 from tests.guide_specs import file_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.model.slots import Field
@@ -113,53 +108,3 @@ def _texts(longest: int) -> st.SearchStrategy[str]:
     """Return texts that do not end with a zero, which is padding where the size is fixed."""
     characters = st.characters(min_codepoint=0, max_codepoint=127)
     return st.text(characters, max_size=longest).filter(lambda text: not text.endswith("\0"))
-
-
-def frames_of(name: str, count: int, seed: int = 0) -> Iterator[bytes]:
-    """Yield so many frames of a protocol, every message among them, the same for each seed."""
-    chance = random.Random(f"{name} {seed}")  # noqa: S311 - no secret
-    messages = list(messages_of(name).values())
-    for number in range(count):
-        message = messages[number] if number < len(messages) else chance.choice(messages)
-        yield encode(message, _any_values(message, chance))
-
-
-def _any_values(message: MessageLayout, chance: random.Random) -> Values:
-    values = {slot.name: _any_value(slot, chance) for slot in message.arguments}
-    if message.optional:
-        there = message.there(chance.choice(list(message.counts)))
-        values |= {slot.name: None for slot in message.optional if slot not in there}
-    return values
-
-
-def _any_value(slot: Field, chance: random.Random) -> Any:
-    match slot:
-        case Number():
-            return _any_number(slot, chance)
-        case Text():
-            return _any_text(chance, slot.size)
-        case Packed():
-            return [chance.randint(slot.low, slot.high) for _ in range(slot.count)]
-        case Items():
-            count = chance.randint(slot.low, max(slot.low, min(slot.high, FEW)))
-            return _any_items(slot, count, chance)
-
-
-def _any_number(number: Number, chance: random.Random) -> float:
-    if number.is_float:
-        # Few enough digits for four bytes, too.
-        return math.ldexp(chance.randrange(-1000, 1000), -3)
-    low, high = number.low, number.high
-    return chance.choice([low, high, *[chance.randint(low, high)] * 8])
-
-
-def _any_items(items: Items, count: int, chance: random.Random) -> Any:
-    if items.text is not None:
-        return _any_text(chance, count)
-    if items.element is None:
-        return [_any_value(items.fields[0], chance) for _ in range(count)]
-    return [{field.name: _any_value(field, chance) for field in items.fields} for _ in range(count)]
-
-
-def _any_text(chance: random.Random, size: int) -> str:
-    return "".join(chance.choices("ABCDEFGH 0123456789=.;", k=size))

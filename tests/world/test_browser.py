@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.factories import vectors_of, write_files
+from tests.factories import write_files
 from tests.unit.site.browser import (
     MILLISECONDS,
     Visit,
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page as Tab
 
 SITE = reference("busservo")
-VECTORS = vectors_of(SITE.compiled)
 NAMES = [path for path in SITE.pages if "/" not in path]
 
 pytestmark = needs_chromium

@@ -52,13 +52,6 @@ def of_node(ending: str, text_of: Callable[[Compiled], str]) -> Answerer:
     return answers
 
 
-def page_command(compiled: Compiled, folder: Path) -> list[str]:
-    """Write the page with the decoder to `folder`; return the command that runs its script."""
-    page = folder / "decoder.html"
-    page.write_text(decoder_page(compiled), encoding="utf-8")
-    return [str(NODE), str(ANSWER), str(page)]
-
-
 def decoder_page(compiled: Compiled) -> str:
     """Return the page with the decoder, as it is in a site, of which it is one of many."""
     site = Site(Project([compiled]), snippets())

@@ -22,7 +22,6 @@ def explained(effect: Effect, *edits: tuple[object, ...]) -> list[str]:
 
 
 WIDER = (*MOVE, "fields", "time_ms", "type", "u32")
-UNIT = (*MOVE, "fields", "time_ms", "unit", "s")
 WORDS = (*MOVE, "summary", "Move.")
 HEADER = ("frame", "header", "bytes", "55 AA")
 METHOD = (*MOVE, "method", "move(targets, time_ms)")

@@ -33,13 +33,6 @@ def replies_to(source: str, *questions: str, timeout: float = GENEROUS) -> list[
         return [program.ask(question) for question in questions]
 
 
-ECHO = """
-    import sys
-    for line in sys.stdin:
-        print(line.strip(), "end", sep="\\n", flush=True)
-"""
-
-
 def test_a_program_is_started_once_and_questioned_line_by_line() -> None:
     source = """
         import os, sys

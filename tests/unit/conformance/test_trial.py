@@ -18,7 +18,6 @@ from framegen.conformance.question_reader import NotAQuestion, read_question
 from framegen.conformance.questions import questions
 from framegen.conformance.strip import strip
 from framegen.conformance.trial import Trial, hold
-from framegen.language.values import Direction
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
 SPECS = [BUSSERVO, DEMO.with_name("everything.yaml")]
 OTHERS = sorted({*DEMO.parent.glob("*.yaml")} - {*SPECS})
 MODEL = first_model()
-HOST = Direction("host", "controller")
 
 
 class Fake(Program):

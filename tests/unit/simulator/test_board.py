@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 NOD = ActionGroup([Step(300, {1: 600}), Step(200, {1: 400})])
-# The clock counts in floats.
-A_MOMENT = 1e-6
 
 
 def positions(host: Host, *servo_ids: int) -> list[tuple[int, int]]:

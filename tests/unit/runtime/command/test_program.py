@@ -1,13 +1,10 @@
 """What a library hands to its command, and that nothing else in it is of one protocol."""
 
 from importlib import import_module
-from pathlib import Path
 
 import pytest
 from framewire.command.own_verbs import EXAMPLES, FIRST, OTHERS
 from framewire.command.program import Program
-
-ROOT = Path(__file__).parents[4]
 
 
 @pytest.mark.parametrize("package", ["busservo", "lxservo"])
