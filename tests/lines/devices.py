@@ -6,6 +6,7 @@ from typing import Any
 from framegen.conformance.device.step import column
 from framegen.model.codec import encode, values_of
 from framegen.model.exchanges import Exchange
+from framegen.model.layout import MessageLayout
 from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 
@@ -73,32 +74,35 @@ def is_divided(model: Model) -> bool:
     return not all(each.frame.header for each in sent) or not all(map(line.decode_so_far, frames))
 
 
-def in_reply_to(exchange: Exchange, requested: dict[str, Any]) -> dict[str, Any]:
-    """Return the address and the running number of a reply: those of the request."""
-    assert exchange.reply is not None
-    given = {part.role: requested[part.name] for part in exchange.request.frame.given}
-    parts = exchange.reply.frame.given
-    return {part.name: given[part.role] for part in parts if part.role in given}
+def answers_to(
+    exchange: Exchange, reply: MessageLayout, requested: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the values of an answer: of its first example, and what follows from the request."""
+    values = dict(reply.message.examples[0].values)
+    asked = {part.role: requested[part.name] for part in exchange.request.frame.given}
+    values |= {part.name: asked[part.role] for part in reply.frame.given if part.role in asked}
+    if reply is not exchange.reply:
+        return values
+    if exchange.failure is not None:
+        values[exchange.failure.name] = exchange.good
+    values = exchange.with_count(requested, values)
+    for one, other in exchange.echoed:
+        name, _, inner = other.partition(".")
+        if inner:
+            first = values[name][0]
+            values[name] = [{**first, inner: value} for value in column(requested, one)]
+        else:
+            values[name] = requested[one]
+    return values
 
 
 def _replies(model: Model, event: Any, device: int | None) -> Iterator[bytes]:
     exchange = next((each for each in model.exchanges if each.request == event.message), None)
     if exchange is None or exchange.reply is None:
         return
-    values = dict(exchange.reply.message.examples[0].values)
     requested = values_of(exchange.request, event.data)
     if exchange.address is not None:
         to = requested[exchange.address.name]
         if to in exchange.address.silent or device not in (None, to):
             return
-    values |= in_reply_to(exchange, requested)
-    values = exchange.with_count(requested, values)
-    for one, other in exchange.echoed:
-        name, _, inner = other.partition(".")
-        first = values[name][0] if inner else None
-        values[name] = (
-            [{**first, inner: value} for value in column(requested, one)]
-            if first is not None
-            else requested[one]
-        )
-    yield encode(exchange.reply, values)
+    yield encode(exchange.reply, answers_to(exchange, exchange.reply, requested))

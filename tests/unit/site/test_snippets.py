@@ -19,6 +19,7 @@ from framegen.render import snippets
 from tests.factories import compiled_file, library, library_of
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
+from tests.lines.devices import answers_to
 from tests.lines.timed_line import ScriptedLine, client_on
 from tests.protocols.specs import FILES
 from tests.rows import some
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from framegen.model.exchanges import Exchange
-    from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.targets.target import Snippet
 
@@ -82,20 +82,7 @@ def _answers(model: Model, exchange: Exchange, asked: dict[str, Any], wanted: st
     reports = [model.messages[name] for name in exchange.reports]
     replies = [each for each in exchange.answers if each.name == wanted]
     chosen = [*(replies or exchange.answers[:1]), *reports]
-    return [encode(each, _replied(exchange, each, asked)) for each in chosen]
-
-
-def _replied(exchange: Exchange, reply: MessageLayout, asked: dict[str, Any]) -> dict[str, Any]:
-    values = dict(reply.message.examples[0].values)
-    frame = reply.frame
-    repeated = [each.name for each in (frame.address, frame.counter) if each is not None]
-    repeated += [there for own, there in exchange.echoed if own == there]
-    values |= {name: asked[name] for name in repeated if name in asked and name in values}
-    if reply is exchange.reply:
-        values = exchange.with_count(asked, values)
-    if exchange.failure is not None and exchange.failure.name in values:
-        values[exchange.failure.name] = exchange.good
-    return values
+    return [encode(each, answers_to(exchange, each, asked)) for each in chosen]
 
 
 # A library is made for each, which takes a while.

@@ -24,7 +24,7 @@ from lxservo_simulator import VirtualBus
 from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
 from tests.in_turn import in_turn
 from tests.lines.at_board import end_of
-from tests.lines.devices import by_the_reference, in_reply_to, is_divided
+from tests.lines.devices import answers_to, by_the_reference, is_divided
 from tests.lines.timed_line import TimedLine
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
@@ -158,24 +158,9 @@ def _saying(made: Any, exchange: Exchange) -> Callable[[Any], Any]:
 
     def handle(message: Any) -> Any:
         asked = values_in(exchange.request, message)
-        return made_of(made, reply, values_in_reply(exchange, asked))
+        return made_of(made, reply, answers_to(exchange, reply, asked))
 
     return handle
-
-
-def values_in_reply(exchange: Exchange, asked: dict[str, Any]) -> dict[str, Any]:
-    """Return values of a reply: of its first example, and from whom it was asked."""
-    reply = exchange.reply
-    assert reply is not None
-    values = dict(reply.message.examples[0].values)
-    values |= in_reply_to(exchange, asked)
-    values = exchange.with_count(asked, values)
-    for one, other in exchange.echoed:
-        name, _, inner = other.partition(".")
-        values[name] = (
-            [{**values[name][0], inner: each} for each in asked[one]] if inner else (asked[one])
-        )
-    return values
 
 
 @pytest.mark.parametrize("name", each_protocol(ASKED))
