@@ -6,7 +6,7 @@ import linecache
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import cache, lru_cache
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
@@ -252,6 +252,15 @@ def _code_at(path: str, code: CodeType) -> CodeType:
     """Return code as if it had been compiled from the file at `path`."""
     inner = (_code_at(path, it) if isinstance(it, CodeType) else it for it in code.co_consts)
     return code.replace(co_filename=path, co_consts=tuple(inner))
+
+
+@contextmanager
+def imported(*libraries: Mapping[str, str], folder: Path | None = None) -> Iterator[None]:
+    """Import libraries under their own names, until the end."""
+    with ExitStack() as until:
+        for files in libraries:
+            until.enter_context(library(files, folder))
+        yield
 
 
 @contextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-from contextlib import ExitStack
 from functools import cache
 from itertools import cycle, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -15,7 +14,7 @@ from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, data_of, files_of, layout_of, library
+from tests.factories import BUSSERVO, DEMO, data_of, files_of, imported, layout_of
 from tests.few_each import few_each
 
 if TYPE_CHECKING:
@@ -50,10 +49,7 @@ SPECS = {name: SPECS[name] for name in MODELS}
 @pytest.fixture(scope="module", autouse=True)
 def libraries() -> Iterator[None]:
     """Return all of them, imported under their own names."""
-    with ExitStack() as stack:
-        for name, data in SPECS.items():
-            if name != "busservo":
-                stack.enter_context(library(files_of(data)))
+    with imported(*(files_of(data) for name, data in SPECS.items() if name != "busservo")):
         yield
 
 

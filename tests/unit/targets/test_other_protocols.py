@@ -17,7 +17,7 @@ from framegen.language.command_verbs import OF_POSES
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
-from tests.factories import BUSSERVO, DEMO, ROOT, Data, compiled_file, data_of, library, library_of
+from tests.factories import BUSSERVO, DEMO, ROOT, Data, compiled_file, data_of, imported, library_of
 from tests.mutations.places import texts
 from tests.programs import ran
 
@@ -127,9 +127,7 @@ def test_the_words_of_a_protocol_are_found_in_its_own_library() -> None:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """Return where the libraries of the others stand side by side; they are imported as well."""
     made = tmp_path_factory.mktemp("others")
-    with contextlib.ExitStack() as stack:
-        for file in OTHERS.values():
-            stack.enter_context(library(library_of(file), made))
+    with imported(*map(library_of, OTHERS.values()), folder=made):
         yield made / "generated"
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import importlib
-from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 import lxservo
 import pytest
 
-from tests.factories import library, library_of
+from tests.factories import imported, library_of
 from tests.lines.servo_bus import READ_ID, READ_POSITION, frame
 from tests.lines.timed_line import ScriptedLine, client_of, client_on
 from tests.protocols.specs import FILES
@@ -21,9 +20,7 @@ if TYPE_CHECKING:
 @pytest.fixture(scope="module", autouse=True)
 def libraries() -> Iterator[None]:
     """Return the libraries, imported under their own names."""
-    with ExitStack() as stack:
-        for name in ("mavlink1", "modbus"):
-            stack.enter_context(library(library_of(FILES[name])))
+    with imported(*(library_of(FILES[name]) for name in ("mavlink1", "modbus"))):
         yield
 
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import asyncio
 import importlib
 import pickle
-from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.codec import encode
 
-from tests.factories import data_of, files_of, library, library_of
+from tests.factories import data_of, files_of, imported, library, library_of
 from tests.lines.timed_line import ScriptedLine, client_on
 from tests.mutations.places import having
 from tests.protocols.specs import FILES, messages_of
@@ -25,9 +24,7 @@ NAMES = ("dynamixel1", "modbus")
 @pytest.fixture(scope="module", autouse=True)
 def libraries() -> Iterator[None]:
     """Return the libraries, imported under their own names."""
-    with ExitStack() as stack:
-        for name in NAMES:
-            stack.enter_context(library(library_of(FILES[name])))
+    with imported(*(library_of(FILES[name]) for name in NAMES)):
         yield
 
 

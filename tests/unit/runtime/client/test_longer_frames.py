@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import importlib
-from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.factories import Data, data_of, files_of, library, library_of
+from tests.factories import Data, data_of, files_of, imported, library_of
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
@@ -27,13 +26,8 @@ def refusing() -> Data:
 @pytest.fixture(scope="module")
 def libraries() -> Iterator[Callable[[str], Any]]:
     """Return what imports a module of a library: `gauges.messages`."""
-    with ExitStack() as until:
-        for files in (
-            library_of(FILES["gauges"]),
-            files_of(refusing()),
-            library_of(FILES["roboclaw"]),
-        ):
-            until.enter_context(library(files))
+    others = (library_of(FILES[name]) for name in ("gauges", "roboclaw"))
+    with imported(files_of(refusing()), *others):
         yield importlib.import_module
 
 

@@ -10,7 +10,7 @@ from framegen.model.codec import NotAFrame
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import DEMO, data_of, files_of, layout_of, library
+from tests.factories import DEMO, data_of, files_of, imported, layout_of
 from tests.lines.timed_line import client_of
 from tests.lines.virtual_line import run
 
@@ -21,10 +21,7 @@ MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
 @pytest.fixture(scope="module", autouse=True)
 def libraries() -> Iterator[None]:
     """Return both libraries, imported under their own names."""
-    with (
-        library(files_of(WEATHER)),
-        library(files_of(LAMP)),
-    ):
+    with imported(files_of(WEATHER), files_of(LAMP)):
         yield
 
 
