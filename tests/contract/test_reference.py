@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import importlib
 from functools import cache
-from itertools import cycle, pairwise
-from typing import TYPE_CHECKING, Any, TypeAlias
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.codec import NotAFrame, decode
@@ -16,6 +16,8 @@ from hypothesis import strategies as st
 
 from tests.factories import BUSSERVO, DEMO, data_of, files_of, imported, layout_of
 from tests.few_each import few_each
+from tests.protocols.streams import read_by_reference, told
+from tests.strategies import pieces
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -23,9 +25,6 @@ if TYPE_CHECKING:
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
-
-# What was found on a line: the name of a message, or the reason why it is none, and its bytes.
-Found: TypeAlias = tuple[str, bytes]
 
 SPECS = {
     data["protocol"]["name"]: data
@@ -154,48 +153,12 @@ def lines(model: Model) -> st.SearchStrategy[bytes]:
 
 
 @st.composite
-def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
-    """Return the line, cut anywhere, also into single bytes."""
-    if draw(st.booleans()):
-        return [line[at : at + 1] for at in range(len(line))]
-    cuts = sorted(draw(st.lists(st.integers(0, len(line)), max_size=8)))
-    return [line[start:end] for start, end in pairwise([0, *cuts, len(line)])]
-
-
-@st.composite
 def ways(draw: st.DrawFn, model: Model) -> Sequence[Direction]:
     """Return one direction, or all of them."""
     return draw(st.sampled_from([[way] for way in model.directions] + [list(model.directions)]))
 
 
 # --- What was found ------------------------------------------------------------------------------
-
-
-def reported(events: Sequence[Any], name: str) -> list[Found]:
-    """Return the events of a library, noise joined."""
-    library = lib(name)
-    found: list[Found] = []
-    last: Any = None
-    for event in events:
-        if isinstance(event, library.Message):
-            found.append((type(event).__name__, event.encode()))
-        elif type(event) is library.UnknownFrame:
-            found.append(("unknown frame", event.data))
-        elif type(last) is library.Noise and last.reason is event.reason:
-            found[-1] = (found[-1][0], found[-1][1] + event.data)
-        else:
-            found.append((event.reason.value, event.data))
-        last = event
-    return found
-
-
-def expected(line: ReferenceDecoder, stretch: bytes) -> list[Found]:
-    """Return the events of the reference for a stretch of a line, with silence behind it."""
-    names = {"unknown": "unknown frame"}
-    return [
-        (event.message.name if event.message else names.get(event.kind, event.reason), event.data)
-        for event in line.decode(stretch)
-    ]
 
 
 def way_of(name: str, directions: Sequence[Direction]) -> Any:
@@ -223,19 +186,12 @@ def test_a_stream_decoder_agrees_with_the_reference(name: str, data: st.DataObje
         for chunk in chunks:
             events += decoder.feed(chunk)
             assert decoder.pending < min(largest, max_frame or largest)
-        assert messages(reported(events, name)) == messages(
-            [
-                (event.message.name, event.data)
-                for event in line.decode_so_far(stretch)
-                if event.message
-            ]
-        )
-        assert reported(events + decoder.flush(), name) == expected(line, stretch)
-
-
-def messages(found: list[Found]) -> list[Found]:
-    """Return the messages among the events."""
-    return [each for each in found if each[0][0].isupper()]
+        assert [each[:2] for each in told(lib(name), events) if each[0][0].isupper()] == [
+            (event.message.name, event.data)
+            for event in line.decode_so_far(stretch)
+            if event.message
+        ]
+        assert told(lib(name), events + decoder.flush()) == read_by_reference(line, stretch)
 
 
 @each_spec

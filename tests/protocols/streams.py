@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
+    from framegen.model.stream import ReferenceDecoder
 
 # What was found on a line: what it is, its bytes, and why it is no message.
 Told: TypeAlias = tuple[str, bytes, str]
@@ -104,3 +105,20 @@ def joined(events: Iterable[Told]) -> list[Told]:
         else:
             whole.append((kind, data, reason))
     return whole
+
+
+def told(made: Any, events: Iterable[Any]) -> list[Told]:
+    """Return what the decoder of a library finds."""
+    return joined(reported(made, event) for event in events)
+
+
+def read_by_reference(line: ReferenceDecoder, stretch: bytes) -> list[Told]:
+    """Return what the reference finds on a line that is quiet then."""
+    return joined(
+        (
+            event.message.name if event.message else event.kind,
+            event.data,
+            "" if event.message else event.reason,
+        )
+        for event in line.decode(stretch)
+    )

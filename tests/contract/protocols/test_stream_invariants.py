@@ -15,12 +15,13 @@ from hypothesis import strategies as st
 from tests.few_each import few_each
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
-from tests.protocols.streams import Told, all_ways, joined, lines, reported
+from tests.protocols.streams import all_ways, lines, read_by_reference, told
 from tests.rows import each_protocol, some
+from tests.strategies import pieces
 from tests.unit.runtime.codec.test_stream import calls
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from framegen.language.values import Direction
     from framegen.model.layout import MessageLayout
@@ -34,31 +35,6 @@ COUNTED = {"everything", "gauges", "lxservo", "modbus"}
 each_counted = pytest.mark.parametrize(
     ("name", "way"), some(EACH_WAY, lambda name, _way: name in COUNTED)
 )
-
-
-def told(made: Any, events: Iterable[Any]) -> list[Told]:
-    """Return what the decoder of a library finds."""
-    return joined(reported(made, event) for event in events)
-
-
-def cut(data: st.DataObject, line: bytes) -> list[bytes]:
-    """Return a line in pieces of any size, also in single bytes."""
-    if data.draw(st.booleans()):
-        return [line[at : at + 1] for at in range(len(line))]
-    cuts = sorted(data.draw(st.lists(st.integers(0, len(line)), max_size=6)))
-    return [line[start:end] for start, end in pairwise([0, *cuts, len(line)])]
-
-
-def read_by_reference(line: ReferenceDecoder, stretch: bytes) -> list[Told]:
-    """Return what the reference finds on a line that is quiet then."""
-    return joined(
-        (
-            event.message.name if event.message else event.kind,
-            event.data,
-            "" if event.message else event.reason,
-        )
-        for event in line.decode(stretch)
-    )
 
 
 def drawn_line(data: st.DataObject, name: str) -> bytes:
@@ -84,7 +60,7 @@ def test_messages_come_as_soon_as_they_are_certain(
     # From quiet to quiet.
     for stretch in [drawn_line(data, name), drawn_line(data, name)]:
         events: list[Any] = []
-        for chunk in cut(data, stretch):
+        for chunk in data.draw(pieces(stretch)):
             events += decoder.feed(chunk)
             assert decoder.pending < max(1, min(largest, max_frame or largest))
         assert [(kind, data) for kind, data, _ in told(made, events) if kind[0].isupper()] == [
