@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 from shutil import which
 
+from tests.factories import write_files
 from tests.programs import ran
 
 # Neither the machine nor a hook that runs the tests has a say.
@@ -35,10 +36,7 @@ def commit(
     folder: Path, files: dict[str, str], tag: str = "", message: str = "What it holds"
 ) -> None:
     """Write files below the folder, commit all there is, and tag it."""
-    for path, text in files.items():
-        file = folder / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
+    write_files(files, folder)
     git(folder, "add", "--all")
     git(folder, "commit", "--quiet", "--allow-empty", "--message", message)
     if tag:

@@ -13,7 +13,7 @@ from framegen.language.load import MAX_BYTES
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable
 
-from tests.factories import BUSSERVO, DEMO, ROOT
+from tests.factories import BUSSERVO, DEMO, ROOT, write_files
 from tests.in_turn import in_turn
 from tests.repository import ALONE, OF_A_HOOK, commit, git, start
 
@@ -25,6 +25,12 @@ def version(text: str, number: str) -> str:
     """Return a spec that gives itself another version."""
     head, _, rest = text.partition("version: ")
     return f'{head}version: "{number}"\n{rest.partition(chr(10))[2]}'
+
+
+def release(project: Path, *numbers: str) -> None:
+    """Keep editions of the lamp in a project."""
+    kept = {f"spec/released/stage_lamp-{each}.yaml": version(LAMPS, each) for each in numbers}
+    write_files(kept, project)
 
 
 @pytest.fixture(scope="module")
@@ -122,12 +128,9 @@ def test_what_a_revision_does_not_have_is_left_out_and_named(clone: Path) -> Non
 
 
 def test_the_newest_released_edition_comes_before_the_last_commit(copy: Path) -> None:
-    folder = copy / "spec" / "released"
-    folder.mkdir()
-    for number in ("0.9.0", "0.10.0", "0.10.0-rc.2", "0.10.0-rc.10", "0.9.10"):
-        (folder / f"stage_lamp-{number}.yaml").write_text(version(LAMPS, number), encoding="utf-8")
-    for name in ("stage_lamp-newest", "stage_lamp-1", "stage_lamps-1.0.0", "lamp-1.0.0"):
-        (folder / f"{name}.yaml").write_text(LAMPS, encoding="utf-8")
+    release(copy, "0.9.0", "0.10.0", "0.10.0-rc.2", "0.10.0-rc.10", "0.9.10")
+    others = ("stage_lamp-newest", "stage_lamp-1", "stage_lamps-1.0.0", "lamp-1.0.0")
+    write_files({f"spec/released/{name}.yaml": LAMPS for name in others}, copy)
     assert [file.stem for file in released(copy / "spec", "stage_lamp")] == [
         "stage_lamp-0.10.0",
         "stage_lamp-0.10.0-rc.10",
@@ -163,11 +166,7 @@ def test_the_newest_released_edition_comes_before_the_last_commit(copy: Path) ->
 def test_final_editions_before_the_one_that_is_compared_are_kept(
     copy: Path, words: tuple[str, ...], kept: list[str]
 ) -> None:
-    folder = copy / "spec" / "released"
-    folder.mkdir()
-    for number in ("0.1.0", "0.2.0", "0.2.1", "0.2.2-rc.1", "0.3.0"):
-        text = version(LAMPS, number)
-        (folder / f"stage_lamp-{number}.yaml").write_text(text, encoding="utf-8")
+    release(copy, "0.1.0", "0.2.0", "0.2.1", "0.2.2-rc.1", "0.3.0")
     found = find_editions(*words)
     (old,) = (old for old, new in found.pairs if new.spec.protocol.name == "stage_lamp")
     assert [each.edition.version for each in found.kept(old)] == kept
@@ -242,10 +241,8 @@ def test_two_files_of_the_same_text_are_two_editions(copy: Path) -> None:
 def test_without_a_repository_only_files_can_be_named(
     clone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    project = tmp_path / "project" / "spec"
-    project.mkdir(parents=True)
-    (project / "lamp.yaml").write_text(LAMPS, encoding="utf-8")
-    monkeypatch.chdir(project.parent)
+    write_files({"project/spec/lamp.yaml": LAMPS}, tmp_path)
+    monkeypatch.chdir(tmp_path / "project")
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path))
     for words in ((), ("v1",), ("HEAD:spec/lamp.yaml",), ("HEAD", "lamp")):
         with pytest.raises(Unusable, match="git finds no repository here") as caught:
@@ -267,8 +264,7 @@ def test_the_first_edition_of_a_spec_has_nothing_to_be_compared_with(
     clone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     start(tmp_path / "new")
-    (tmp_path / "new" / "spec").mkdir()
-    (tmp_path / "new" / "spec" / "lamp.yaml").write_text(LAMPS, encoding="utf-8")
+    write_files({"new/spec/lamp.yaml": LAMPS}, tmp_path)
     monkeypatch.chdir(tmp_path / "new")
     first = "spec/lamp.yaml has no earlier edition yet: none is released, and no commit before "
     assert find_editions() == Editions([], [f"{first}this has it"])
@@ -340,8 +336,7 @@ def written(copy: Path, *specs: tuple[str, str]) -> None:
     """Have these specs lie there, and no others."""
     for file in (copy / "spec").glob("*.yaml"):
         file.unlink()
-    for name, text in specs:
-        (copy / "spec" / f"{name}.yaml").write_text(text, encoding="utf-8")
+    write_files({f"spec/{name}.yaml": text for name, text in specs}, copy)
 
 
 WEATHER = (ROOT / "tests" / "specs" / "weather.yaml").read_text(encoding="utf-8")
@@ -380,11 +375,9 @@ def test_a_spec_is_followed_to_its_new_name_or_is_gone(
 
 
 def test_a_released_protocol_without_a_spec_is_gone(copy: Path) -> None:
-    folder = copy / "spec" / "released"
-    folder.mkdir()
-    for name in ("stage_lamp-0.3.0", "stage_lamp-0.2.0", "other-1.0.0", "notes"):
-        text = version(LAMPS, name.rpartition("-")[2])
-        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+    release(copy, "0.3.0", "0.2.0")
+    others = {"other-1.0.0": version(LAMPS, "1.0.0"), "notes": version(LAMPS, "notes")}
+    write_files({f"spec/released/{name}.yaml": text for name, text in others.items()}, copy)
     written(copy, ("blinds", BLINDS))
     git(copy, "add", "--all")
     git(copy, "commit", "--quiet", "--message", "Without the lamp")

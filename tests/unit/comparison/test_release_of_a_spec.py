@@ -20,7 +20,7 @@ from framegen.comparison.report.verdict import BREAKS, UNCERTAIN
 from framegen.writing import disk
 
 from tests import bad_specs
-from tests.factories import data_of
+from tests.factories import data_of, write_files
 from tests.mutations.spec_edits import change as change_file
 from tests.mutations.spec_edits import edited
 
@@ -56,8 +56,7 @@ RAISED = {"under": "protocol", "replace": '"1.0.0"', "with": "2.0.0  # soon"}
 def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a project of lamps whose first edition is released."""
     folder = tmp_path_factory.mktemp("first")
-    (folder / "spec").mkdir()
-    (folder / SPEC).write_text(LAMPS, encoding="utf-8")
+    write_files({SPEC.as_posix(): LAMPS}, folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         printed = io.StringIO()

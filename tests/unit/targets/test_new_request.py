@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from framegen.cli import main
 
+from tests.factories import write_files
 from tests.programs import ran
 
 ROOT = Path(__file__).parents[3]
@@ -180,10 +181,8 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a project of the spec with one more command, one more question and its reply."""
     folder = tmp_path_factory.mktemp("lamps")
     text = (ROOT / "spec" / "busservo.yaml").read_text(encoding="utf-8")
-    (folder / "spec").mkdir()
-    spec = folder / "spec" / "busservo.yaml"
-    spec.write_text(text.replace("\n  ServoUnload:", NEW, 1), encoding="utf-8")
-    assert main(["generate", str(spec)]) == 0
+    write_files({"spec/busservo.yaml": text.replace("\n  ServoUnload:", NEW, 1)}, folder)
+    assert main(["generate", str(folder / "spec" / "busservo.yaml")]) == 0
     return folder
 
 
