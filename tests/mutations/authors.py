@@ -1,4 +1,4 @@
-"""Specs whose things keep their identity while an author changes them, and the map of their names.
+"""A second opinion: what an author knows of a changed spec, whose things keep their identity.
 
 Each message, field, named value and bit carries a mark that stays with it, whatever it is called
 and wherever it is put. What carries the same mark in two editions is the same thing: that is what

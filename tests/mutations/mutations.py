@@ -1,4 +1,4 @@
-"""Editions that authors might publish: what they change, by name, in specs of every kind.
+"""A second opinion: editions that authors might publish, and what they know that they changed.
 
 `editions("busservo")` is a strategy; `after(spec, names, seed)` is one of its results, made again.
 """

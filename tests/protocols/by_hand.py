@@ -1,4 +1,4 @@
-"""Frames of protocols without a peer on the package index, written by hand with `struct` alone."""
+"""A second opinion: frames of protocols that no package speaks, by hand with `struct` alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A judge of editions that lets their generated libraries talk, and knows the author's map.
+"""A second opinion: a judge of editions, whose libraries talk, and who knows the author's map.
 
 It shares no code with framegen's comparison. What an end makes of a frame is what the library of
 its edition makes of it; who is who, the author has told.

@@ -1,4 +1,4 @@
-"""A serial line, bit by bit: what a receiver makes of the levels that a sender puts on it."""
+"""A second opinion: a serial line bit by bit, and what a receiver makes of the levels on it."""
 
 from __future__ import annotations
 
