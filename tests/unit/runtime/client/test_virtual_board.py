@@ -1,50 +1,16 @@
-"""Both ends of this project together: the client against the virtual controller and its faults."""
+"""Both ends of this project together: the client against the virtual controller."""
 
 from __future__ import annotations
-
-import math
 
 import pytest
 from busservo import (
     ActionGroupCompleted,
     BatteryVoltage,
     Controller,
-    IncompleteReplyError,
-    NoReplyError,
     NoReportError,
-    ServoPosition,
 )
-from busservo_simulator import Faults
 
-from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
-
-
-@in_turn("seed", lambda: range(25))
-def test_whatever_goes_wrong_no_position_is_wrong(seed: int) -> None:
-    faults = Faults(
-        seed=seed, noise=0.3, splits=0.5, delays=0.2, dropped=0.2, fewer=0.3, unsolicited=0.4
-    )
-    with virtual_board(servos=range(1, 7), faults=faults) as board:
-        controller = client_at(board, Controller, baud=math.inf, settle=None)
-        for turn in range(12):
-            requested = [1 + turn % 3, 4, 6]
-            began = board.clock.now()
-            try:
-                positions: tuple[object, ...] = controller.read_servo_positions(requested)
-                assert len(positions) == 3
-            except IncompleteReplyError as error:
-                positions = error.arrived
-                assert len(positions) + len(error.missing) == 3  # noqa: PT017 - both ways are right
-            except NoReplyError:
-                positions = ()
-            for each in positions:
-                assert isinstance(each, ServoPosition)
-                assert each.servo_id in requested
-                assert each.position == 500
-            assert board.clock.now() - began < 2
-        controller.close()
-        assert board.rejects.total == 0
 
 
 def test_a_motion_and_a_group_from_beginning_to_end() -> None:
