@@ -79,7 +79,7 @@ def test_no_two_bad_specs_are_the_same() -> None:
 
 def test_a_bad_spec_is_printed_as_a_file(capsysbinary: pytest.CaptureFixture[bytes]) -> None:
     bad_specs.main(["invisible-character-as-is"])
-    text = bad_specs.base("lamps").replace("title: Lamps", "title: La\u200bmps")
+    text = edited(bad_specs.base("lamps"), ("title: Lamps", "title: La\u200bmps"))
     assert capsysbinary.readouterr().out == text.encode()
 
 

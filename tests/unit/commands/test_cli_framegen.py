@@ -21,8 +21,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.bad_specs import bad_spec
-from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
+from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, write_files
 from tests.in_turn import in_turn
+from tests.mutations.spec_edits import edited
 from tests.programs import ran
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
@@ -256,7 +257,7 @@ def test_check_shows_few_remarks_of_one_rule(tmp_path: Path, capsys: Capture) ->
 
 def test_check_says_when_it_did_not_get_past_the_shape(tmp_path: Path, capsys: Capture) -> None:
     file = tmp_path / "shapeless.yaml"
-    file.write_text(SPEC.read_text(encoding="utf-8").replace("link:\n", "lnik:\n", 1))
+    file.write_text(edited(SPEC.read_text(encoding="utf-8"), ("link:\n", "lnik:\n")))
     assert main(["check", str(file)]) == 1
     assert capsys.readouterr().err == (
         f"2 findings in {file.as_posix()}; "
@@ -349,9 +350,7 @@ def test_an_unknown_rule_gets_a_suggestion(capsys: Capture) -> None:
 
 def project(folder: Path, *specs: str) -> Path:
     """Make a project with these specs, empty."""
-    (folder / "spec").mkdir(parents=True)
-    for name in specs:
-        (folder / "spec" / name).write_text("")
+    write_files({f"spec/{name}": "" for name in specs}, folder)
     return folder
 
 

@@ -11,6 +11,7 @@ from framegen.site.site import render_site
 
 from tests.factories import compiled_file, write_files
 from tests.in_turn import in_turn
+from tests.mutations.spec_edits import edited
 from tests.unit.site.reference import LAMP
 
 SPEC = str(LAMP)
@@ -68,7 +69,7 @@ def test_a_spec_with_findings_has_no_reference(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     broken = tmp_path / "broken.yaml"
-    broken.write_text(TEXT.replace("    id: 0x20\n", "    id: 300\n"))
+    broken.write_text(edited(TEXT, ("    id: 0x20\n", "    id: 300\n")))
     assert main(["docs", str(broken), "--out", str(tmp_path / "site")]) == 1
     said = capsys.readouterr()
     assert "id-range" in said.out
@@ -136,8 +137,7 @@ def test_a_release_that_is_no_text_is_named(
 def test_a_release_says_what_its_name_says(
     project: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str
 ) -> None:
-    assert TEXT.count(old) == 1
-    (project / RELEASED).write_text(TEXT.replace(old, new), encoding="utf-8")
+    (project / RELEASED).write_text(edited(TEXT, (old, new)), encoding="utf-8")
     error = refused(capsys)
     assert f"{RELEASED} says that it is {said}, and its name is stage_lamp-0.4.0" in error
     assert "hint: " in error
@@ -156,7 +156,7 @@ def test_a_release_that_cannot_be_shown_is_named(
 
 
 def test_a_release_that_only_rules_dislike_is_shown(project: Path) -> None:
-    other = TEXT.replace("hex: 7E 04 20 FF 00 00", "hex: 7E 04 20 FE 00 00")
+    other = edited(TEXT, ("hex: 7E 04 20 FF 00 00", "hex: 7E 04 20 FE 00 00"))
     (project / RELEASED).write_text(other, encoding="utf-8")
     assert main(["docs", "--out", "site"]) == 0
     assert Path("site/reference/stage_lamp/0.4.0/messages/ColourShow.html").is_file()

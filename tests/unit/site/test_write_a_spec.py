@@ -16,6 +16,7 @@ from pydantic import BaseModel
 
 from tests.guide_specs import BLOCKS, GUIDE, NAMES, SPECS
 from tests.in_turn import in_turn
+from tests.mutations.spec_edits import edited
 
 SPEC = SPECS["kiln"]
 # The remarks that the guide shows, by spec.
@@ -54,7 +55,7 @@ def test_a_copied_example_means_the_same_with_its_first_line(name: str) -> None:
 
 
 def test_the_guide_shows_what_is_said_of_a_wrong_checksum() -> None:
-    text = SPECS["pumps"].text.replace("crc-16/modbus", "crc-16/arc")
+    text = edited(SPECS["pumps"].text, ("crc-16/modbus", "crc-16/arc"))
     source = Source("spec/pumps.yaml", text)
     said = next(each for each in compile_spec(source).findings if ".Status." in each.path)
     [shown] = re.findall(r"```text\n(example: .*?)```", GUIDE, re.DOTALL)
