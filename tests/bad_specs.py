@@ -135,9 +135,7 @@ def _load(file: Path) -> list[Case]:
 
 def _text(case: Case) -> str:
     text = str(case["text"]) if "text" in case else base(case.get("base", "lamps"))
-    for edit in case.get("edits", ()):
-        text = edited(text, edit)
-    return text
+    return edited(text, *case.get("edits", ()))
 
 
 def _repeated(said: Case) -> list[Case]:

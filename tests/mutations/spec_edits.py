@@ -16,10 +16,12 @@ place of a finding, ⟦⟧ around another place. A pair of texts of any size is 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+Edit: TypeAlias = "dict[str, Any] | tuple[str, str]"
 
 _MARKS = re.compile("[«»⟦⟧]")
 _KEYS = {"under", "replace", "with", "mark", "instead", "before", "after", "remove", "add", "times"}
@@ -34,16 +36,19 @@ def unmarked(text: str) -> str:
     return _MARKS.sub("", text)
 
 
-def change(file: Path, *edits: dict[str, Any] | tuple[str, str]) -> None:
+def change(file: Path, *edits: Edit) -> None:
     """Change a file where it lies. Raises EditError if an edit does not apply."""
-    text = file.read_text(encoding="utf-8")
+    file.write_text(edited(file.read_text(encoding="utf-8"), *edits), encoding="utf-8")
+
+
+def edited(text: str, *edits: Edit) -> str:
+    """Change a text, one edit after the other. Raises EditError if one does not apply."""
     for edit in edits:
-        text = edited(text, edit)
-    file.write_text(text, encoding="utf-8")
+        text = _edited(text, edit)
+    return text
 
 
-def edited(text: str, edit: dict[str, Any] | tuple[str, str]) -> str:
-    """Change a text. Raises EditError if the edit does not apply."""
+def _edited(text: str, edit: Edit) -> str:
     if isinstance(edit, tuple):
         old, new = edit
         _once(old, [text.count("\n", 0, at.start()) for at in re.finditer(re.escape(old), text)])

@@ -25,27 +25,28 @@ history:
 FIRST = LAMPS.rstrip() + HISTORY
 
 # The second: LampState is called LampLevel, which is accepted, and LampRead stays.
-SECOND = (
-    FIRST.replace("LampState", "LampLevel")
-    .replace("  LampLevel:\n", "  LampLevel:\n    was: LampState\n")
-    .replace('version: "1.0.0"\n  authority', 'version: "2.0.0"\n  authority')
-    .replace(
-        "history:\n",
-        'history:\n  - version: "2.0.0"\n    changes: [LampState is called LampLevel.]\n'
-        "    breaks: {messages.LampLevel: Nobody reads <states>.}\n",
-    )
+SECOND = edited(
+    FIRST.replace("LampState", "LampLevel"),
+    ("  LampLevel:\n", "  LampLevel:\n    was: LampState\n"),
+    {"under": "protocol", "replace": '"1.0.0"', "with": '"2.0.0"'},
+    {
+        "before": '- version: "1.0.0"',
+        "add": '- version: "2.0.0"\n  changes: [LampState is called LampLevel.]\n'
+        "  breaks: {messages.LampLevel: Nobody reads <states>.}",
+    },
 )
 # The third: LampsSet is gone, and the number of a lamp may be larger.
-THIRD = edited(SECOND, {"remove": "LampsSet:"})
-THIRD = (
-    THIRD.replace("lamp_id: {type: u8, about: The lamp.}", "lamp_id: {type: u16, about: The lamp.}")
-    .replace("    length: 2\n", "    length: 3\n")
-    .replace("AA 55 02 08 01", "AA 55 03 08 01 00")
-    .replace('version: "2.0.0"\n  authority', 'version: "3.0.0"\n  authority')
-    .replace(
-        "history:\n",
-        'history:\n  - version: "3.0.0"\n    changes: [Lamps are numbered up to 65535.]\n',
-    )
+THIRD = edited(
+    SECOND,
+    {"remove": "LampsSet:"},
+    {"under": "protocol", "replace": '"2.0.0"', "with": '"3.0.0"'},
+    {
+        "before": '- version: "2.0.0"',
+        "add": '- version: "3.0.0"\n  changes: [Lamps are numbered up to 65535.]',
+    },
+    ("AA 55 02 08 01", "AA 55 03 08 01 00"),
+    ("    length: 2\n", "    length: 3\n"),
+    ("lamp_id: {type: u8, about: The lamp.}", "lamp_id: {type: u16, about: The lamp.}"),
 )
 
 
