@@ -6,10 +6,11 @@ import sys
 from functools import cached_property
 
 from ..edition import refuse_others
+from ..part import part_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from typing import Any, TypeAlias
+    from typing import TypeAlias
 
     from ..codec.protocol_codec import ProtocolCodec
     from ..explain.protocol import Protocol
@@ -59,7 +60,7 @@ class Library:
     @cached_property
     def exchanges(self) -> dict[type[Message], Exchange]:
         """What answers each message that a client sends, and the method that sends it."""
-        exchanges: dict[type[Message], Exchange] = self._part("_exchanges").EXCHANGES
+        exchanges: dict[type[Message], Exchange] = part_of(self.package, "_exchanges").EXCHANGES
         return exchanges
 
     @cached_property
@@ -81,25 +82,25 @@ class Library:
     @cached_property
     def limits(self) -> Limits:
         """The limits of what a client sends unless it is told otherwise."""
-        limits: Limits = self._part("_exchanges").LIMITS
+        limits: Limits = part_of(self.package, "_exchanges").LIMITS
         return limits
 
     @cached_property
     def pose(self) -> Pose | None:
         """How positions are read, commanded and released; None for a protocol without positions."""
-        pose: Pose | None = self._part("_exchanges").POSE
+        pose: Pose | None = part_of(self.package, "_exchanges").POSE
         return pose
 
     @cached_property
     def client(self) -> type[Client]:
         """The client for threads."""
-        client: type[Client] = self._part("_controller").Controller
+        client: type[Client] = part_of(self.package, "_controller").Controller
         return client
 
     @cached_property
     def async_client(self) -> type[AsyncClient]:
         """The client for asyncio."""
-        client: type[AsyncClient] = self._part("_async_controller").AsyncController
+        client: type[AsyncClient] = part_of(self.package, "_async_controller").AsyncController
         return client
 
     def open_transport(
@@ -130,7 +131,3 @@ class Library:
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""
         return self.codec.protocol()
-
-    def _part(self, name: str) -> Any:
-        # Not importlib, which would have to be imported first.
-        return __import__(f"{self.package}.{name}", fromlist=[name])

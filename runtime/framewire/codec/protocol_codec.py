@@ -5,10 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from operator import index
 
+from ..part import part_of
+
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from typing import Any
 
     from ..explain.protocol import Protocol
     from ..frame.direction import Direction
@@ -53,30 +54,30 @@ class ProtocolCodec:
     @cached_property
     def messages(self) -> tuple[type[Message], ...]:
         """All messages, in the order in which they are declared."""
-        return tuple(self._part("messages").MESSAGES)
+        return tuple(part_of(self.package, "messages").MESSAGES)
 
     @cached_property
     def heads(self) -> Heads:
         """The beginnings of all frames: the envelopes, and what follows from them."""
-        heads: Heads = self._part("_envelopes").HEADS
+        heads: Heads = part_of(self.package, "_envelopes").HEADS
         return heads
 
     @cached_property
     def decoder(self) -> type[StreamDecoder]:
         """What decodes a stream of bytes."""
-        decoder: type[StreamDecoder] = self._part("_codec").StreamDecoder
+        decoder: type[StreamDecoder] = part_of(self.package, "_codec").StreamDecoder
         return decoder
 
     @cached_property
     def unknown_frame(self) -> type[UnknownFrame]:
         """The class of frames with a command that the protocol does not know."""
-        unknown: type[UnknownFrame] = self._part("_codec").UnknownFrame
+        unknown: type[UnknownFrame] = part_of(self.package, "_codec").UnknownFrame
         return unknown
 
     @cached_property
     def lookalikes(self) -> tuple[Lookalike, ...]:
         """The protocols that are easily taken for this one."""
-        known: tuple[Lookalike, ...] = self._part("_lookalikes").LOOKALIKES
+        known: tuple[Lookalike, ...] = part_of(self.package, "_lookalikes").LOOKALIKES
         return known
 
     @cached_property
@@ -161,7 +162,3 @@ class ProtocolCodec:
         from ..explain.carried_model import protocol
 
         return protocol(self.package)
-
-    def _part(self, name: str) -> Any:
-        # Not importlib, which would have to be imported first.
-        return __import__(f"{self.package}.{name}", fromlist=[name])

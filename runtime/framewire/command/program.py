@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from functools import cached_property
 
+from ..part import part_of
 from .own_verbs import EXAMPLES, FIRST, OTHERS
 
 TYPE_CHECKING = False
@@ -108,8 +109,7 @@ class Program:
     @cached_property
     def library(self) -> Library:
         """The library, which is not imported for those who only look around."""
-        # Not importlib, which would have to be imported first.
-        library: Library = __import__(f"{self.package}._library", fromlist=["LIBRARY"]).LIBRARY
+        library: Library = part_of(self.package, "_library").LIBRARY
         return library
 
     @property
