@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -98,7 +99,7 @@ def run(arguments: Namespace) -> int:
         _sum_up(outputs, specs, root, f"{len(would.changes) or 'none'} would change")
         return 1 if would.changes and arguments.check else 0
     done = write(root, outputs, all_of=all_of, shared=shared, force=arguments.force)
-    _report(done)
+    _report(done, _copies(specs))
     _sum_up(outputs, specs, root, f"{len(done.changes) or 'none'} changed")
     return 0
 
@@ -123,12 +124,27 @@ def _show(found: Survey) -> None:
     _remark(found)
 
 
-def _report(done: Written) -> None:
+def _copies(specs: Sequence[Compiled]) -> tuple[str, ...]:
+    """Return the folders of what is brought as it is: nobody wants to hear of each file."""
+    from framegen.targets.table import TARGETS  # noqa: PLC0415
+
+    folders = {each for spec in specs for made in TARGETS for each in made.copies(spec.model)}
+    return tuple(f"{folder}/" for folder in sorted(folders))
+
+
+def _report(done: Written, copies: tuple[str, ...]) -> None:
+    brought: Counter[tuple[str, str]] = Counter()
     for change in done.changes:
+        what = "removed" if change.new is None else "wrote"
         if change.path in done.kept:
             print(f"kept {visible(change.path)} as {visible(done.kept[change.path])}")
+        elif folder := next(filter(change.path.startswith, copies), ""):
+            brought[what, folder] += 1
+            continue
         if change.new is not None or change.path not in done.kept:
-            print(f"{'removed' if change.new is None else 'wrote'} {visible(change.path)}")
+            print(f"{what} {visible(change.path)}")
+    for (what, folder), number in brought.items():
+        print(f"{what} {pluralize(number, 'file')} of {visible(folder)}")
     _remark(done)
 
 

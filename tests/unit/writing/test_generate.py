@@ -89,7 +89,9 @@ def test_everything_is_written_where_nothing_was(tmp_path: Path, capsys: Capture
     assert set(found) == {*FILES, *MANIFESTS}
     assert {path: found[path] for path in FILES} == {p: t.encode() for p, t in FILES.items()}
     out, err = capsys.readouterr()
-    assert out == "".join(f"wrote {path}\n" for path in sorted(found))
+    brought = {path for path in found if path.startswith(f"{RUNTIME}/")}
+    said = [*sorted(found.keys() - brought), f"{len(brought)} files of {RUNTIME}/"]
+    assert out == "".join(f"wrote {each}\n" for each in said)
     assert f"{len(found)} files from" in err
 
 
@@ -354,13 +356,21 @@ def test_the_runtime_goes_and_comes_back_as_it_is_said(
     assert main([*shared, "--diff"]) == 0
     assert f"--- a/{RUNTIME}/line/link.py\n+++ /dev/null\n" in capsys.readouterr().out
     assert snapshot(project) == before
+    capsys.readouterr()
     assert main(shared) == 0
+    number = sum(data is not None for path, data in before.items() if path.startswith(RUNTIME))
+    # Nobody wants to hear of each of them.
+    said = capsys.readouterr().out
+    assert f"removed {number} files of {RUNTIME}/\n" in said
+    assert f"{RUNTIME}/l" not in said
     assert not (project / RUNTIME).exists()
     assert main([*shared, "--check"]) == 0
     assert main(["generate", "--check", *words]) == 1
     capsys.readouterr()
     assert main(["generate", "--runtime", "carried", *words]) == 0
-    assert "left alone" not in capsys.readouterr().err
+    printed = capsys.readouterr()
+    assert "left alone" not in printed.err
+    assert f"wrote {number} files of {RUNTIME}/\n" in printed.out
     assert snapshot(project) == before
 
 
