@@ -36,7 +36,7 @@ class Library:
 
     def write(self, folder: Path) -> None:
         """Write it, as a package of its name."""
-        (folder / self.name).mkdir()
+        (folder / self.name).mkdir(parents=True)
         for path, text in self.modules.items():
             (folder / self.name / path).write_text(text, encoding="utf-8", newline="")
 

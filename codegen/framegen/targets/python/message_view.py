@@ -224,7 +224,9 @@ class MessageView:
             names = [each.name for each in self.layout.optional]
             return Bracketed("flat = cls.SHAPE.tail(", names, ")").fitted(8)
         items = self.layout.items
-        return "" if items is None else f"flat = cls.{items.name}.packed({items.name})"
+        if items is None:
+            return ""
+        return Bracketed(f"flat = cls.{items.name}.packed(", [items.name], ")").fitted(8)
 
     @property
     def sealed_packing(self) -> str:
