@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..frame.direction import Direction
 from ..frame.message import Message
+from ..frame.table import measured
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def decoding(
         # What `read` does with a frame of a kind seen before; the call alone would cost a fifth.
         if type(frame) is bytes:
             entry = table.get(frame[head])
-            if entry is not None:
+            while entry is not None:
                 size, at, until, count, kind, holds, _ = entry
                 if (
                     len(frame) == size
@@ -47,6 +48,8 @@ def decoding(
                     message = _new(kind)
                     message._frame = frame
                     return message
+                # Of some, only the count says how long they are.
+                entry = None if size else measured(entry, frame, 0)
         return table.read(frame)
 
     return decode
