@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from framegen.model.codec import encode
+from framegen.model.codec import Decoded, decode, encode
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,7 +14,7 @@ from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.by_hand import BY_HAND
 from tests.protocols.peers import PEERS
-from tests.protocols.specs import FILES, SPOKEN, messages_of, values_of
+from tests.protocols.specs import FILES, SPOKEN, messages_of, model_of, values_of
 
 if TYPE_CHECKING:
     from tests.protocols.peer import Peer
@@ -53,8 +53,10 @@ def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.D
 def test_a_frame_written_by_hand_has_the_same_bytes(
     name: str, message: str, data: st.DataObject
 ) -> None:
-    values = data.draw(values_of(name, message))
-    assert BY_HAND[name][message](values) == encode(messages_of(name)[message], values)
+    values, layout = data.draw(values_of(name, message)), messages_of(name)[message]
+    frame = BY_HAND[name][message](values)
+    assert frame == encode(layout, values)
+    assert decode(model_of(name), layout.direction, frame) == Decoded(layout, values)
 
 
 def test_every_message_is_held_to_what_others_write_or_read() -> None:

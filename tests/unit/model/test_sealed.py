@@ -38,6 +38,39 @@ def test_the_outer_one_covers_what_the_inner_one_is(parts: dict[str, Any], seale
     assert frame.sealed(bytes(blank), {}) == whole
 
 
+def fletcher(*covers: str) -> dict[str, Any]:
+    return {"is": "checksum", "type": "u16", "method": "fletcher-8", "covers": covers}
+
+
+HIDDEN = {"is": "id", "type": "u16", "sent": False}
+
+
+@pytest.mark.parametrize(
+    ("parts", "sealed"),
+    [
+        # Between what it covers, and behind it, stands what it does not.
+        (
+            {"start": PARTS["start"], "gap": {"is": "reserved", "bytes": "07"}}
+            | {"body": PARTS["body"], "check": {**INNER, "covers": ["start", "body"]}},
+            "55 07 01 03 57",
+        ),
+        (
+            {**PARTS, "check": fletcher("body"), "end": {"is": "constant", "bytes": "0A"}},
+            "55 01 03 04 05 0A",
+        ),
+        # In the order in which they are named.
+        ({**PARTS, "check": fletcher("body", "start")}, "55 01 03 59 5E"),
+        ({**PARTS, "what": HIDDEN, "check": fletcher("body", "what")}, "55 01 03 07 11"),
+    ],
+)
+def test_a_checksum_covers_what_is_named_and_no_more(parts: dict[str, Any], sealed: str) -> None:
+    frame = derive_envelope(TypeAdapter(Frame).validate_python(parts), "little")
+    whole, (check,) = bytes.fromhex(sealed), frame.checksums
+    at = check.at + len(whole)
+    blank = whole[:at] + bytes(check.size) + whole[at + check.size :]
+    assert frame.sealed(blank, {"what": 0x0201}) == whole
+
+
 def test_a_circle_of_checksums_ends_as_well() -> None:
     circle = {**PARTS, "inner": {**INNER, "covers": ["outer"]}, "outer": OUTER}
     frame = derive_envelope(TypeAdapter(Frame).validate_python(circle), "little")
