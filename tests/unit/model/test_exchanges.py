@@ -6,8 +6,10 @@ import importlib
 from typing import Any
 
 import pytest
+from framegen.language.spec import Spec
+from framegen.model.model import derive
 
-from tests.factories import Data, files_of, kiln, layout_of, library
+from tests.factories import BUSSERVO, Data, data_of, files_of, kiln, layout_of, library
 from tests.lines.timed_line import client_of
 from tests.mutations.places import GONE, having
 
@@ -17,6 +19,13 @@ def long_question(*, echoed: bool) -> Data:
     # A pose is only there where the reply repeats the question.
     method = {"messages.DamperRead.method": "read_dampers(damper_ids) -> positions", "pose": GONE}
     return having(kiln(), method | ({} if echoed else {"messages.DamperRead.echoed": GONE}))
+
+
+def test_a_method_that_is_not_declared_takes_the_list_first() -> None:
+    data = data_of(BUSSERVO)
+    del data["messages"]["ServoMove"]["method"]
+    exchange = derive(Spec.model_validate(data)).exchanges_by_request["ServoMove"]
+    assert (exchange.method.name, exchange.arguments) == ("servo_move", ("targets", "time_ms"))
 
 
 @pytest.mark.parametrize(("echoed", "most", "split"), [(True, 84, True), (False, 0, False)])

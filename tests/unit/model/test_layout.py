@@ -9,7 +9,7 @@ from framegen.model.codec import NotAFrame, Unencodable, decode, encode
 from framegen.model.envelope import derive_envelope
 from framegen.model.facts import NoSuchFact, look_up
 from framegen.model.layout import MessageLayout
-from framegen.model.model import Model
+from framegen.model.model import Model, derive
 from framegen.model.slots import Items, Number
 from framewire.frame.pluralize import describe_range
 from hypothesis import given
@@ -98,6 +98,16 @@ def test_how_many_servos_a_frame_has_room_for() -> None:
         "ServoPositions": (0, 84),
     }
     assert SERVO.messages["ActionGroupStop"].counts == range(1)
+
+
+def test_a_list_ends_where_the_number_of_its_bytes_does() -> None:
+    data = data_of(DEMO)
+    readings = data["messages"]["StationState"]["fields"]["readings"]
+    readings["sized_by"] = readings.pop("counted_by")
+    state = derive(Spec.model_validate(data)).messages["StationState"]
+    assert state.counts == range(128)
+    frame = encode(state, {"uptime_s": 0, "readings": [-1] * 127})
+    assert frame == bytes.fromhex("C3 5A A5 11 01 03 00 00 00 00 FE") + 254 * b"\xff"
 
 
 def test_the_frame_of_bus_servos() -> None:
