@@ -104,6 +104,7 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "length counts itself": _one(HOUSE, "frame.size.counts", ["size", "payload"]),
     "name of a constant part": _called(HOUSE, "preamble", "start"),
     "name of the library": _one(SERVO, "protocol.name", "servobus"),
+    "name of the client": _one(HOUSE, "protocol.client", "Climate"),
     "version": _one(HOUSE, "protocol.version", "9.0.0"),
     "name of an end": _called(HOUSE, "display", "screen"),
     "client and device exchanged": _one(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from framegen.checks.named import classes
 from framegen.checks.rule import Problem, StructureRule
-from framegen.language.spec import ListField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +18,7 @@ def _look(spec: Spec) -> Iterator[Problem]:
     # Compared in lower case, since ServoMove and Servomove become one word where they are
     # functions, and one file on Windows and macOS.
     first: dict[str, tuple[KeyPath, str]] = {}
-    for path, name, on_key in _classes(spec):
+    for path, name, on_key in classes(spec):
         there, other = first.setdefault(name.lower(), (path, name))
         if there != path:
             message = (
@@ -29,16 +29,6 @@ def _look(spec: Spec) -> Iterator[Problem]:
             yield Problem(
                 path, message, "choose another name", on_key, (there, "the first is here")
             )
-
-
-def _classes(spec: Spec) -> Iterator[tuple[KeyPath, str, bool]]:
-    for name in spec.messages:
-        yield ("messages", name), name, True
-    for name, message in spec.messages.items():
-        for field_name, field in message.fields.items():
-            if isinstance(field, ListField):
-                path = ("messages", name, "fields", field_name, "element")
-                yield path, field.element, False
 
 
 RULE = StructureRule(

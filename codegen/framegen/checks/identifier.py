@@ -24,6 +24,7 @@ _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+")
 
 def _look(spec: Spec) -> Iterator[Problem]:
     yield from _snake(("protocol", "name"), spec.protocol.name, on_key=False)
+    yield from _pascal(("protocol", "client"), spec.protocol.client, on_key=False)
     for section in ("sources", "endpoints", "frames", "lookalikes"):
         for name in getattr(spec, section):
             yield from _snake((section, name), name)
@@ -86,9 +87,9 @@ def _words(name: str) -> list[str]:
 RULE = StructureRule(
     id="identifier",
     title="Every name is an identifier in any language",
-    why="Names go into code, files and addresses: messages and elements in PascalCase, all others "
-    "in snake_case. A word that a language has reserved is allowed here: its target adds a "
-    "suffix.",
+    why="Names go into code, files and addresses: messages, elements and the client in "
+    "PascalCase, all others in snake_case. A word that a language has reserved is allowed "
+    "here: its target adds a suffix.",
     bad="fields: {Servo-ID: {type: u8}}",
     good="fields: {servo_id: {type: u8}}",
     look=_look,

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 # two: endpoints make a direction, fields and their values a constant, messages a handler.
 _ENDPOINT = 20
 _PROTOCOL = 30
+_CLIENT = 30
 _CLASS = 40
 _METHOD = 48
 _OTHERS = 60
@@ -29,6 +30,7 @@ _SHOWN = 24
 
 def _look(spec: Spec) -> Iterator[Problem]:
     yield from _name(("protocol", "name"), spec.protocol.name, _PROTOCOL, on_key=False)
+    yield from _class(("protocol", "client"), spec.protocol.client, on_key=False, most=_CLIENT)
     for name in spec.endpoints:
         yield from _name(("endpoints", name), name, _ENDPOINT)
     for section in ("sources", "frames", "lookalikes"):
@@ -60,8 +62,8 @@ def _messages(spec: Spec) -> Iterator[Problem]:
                     yield from _name((*inside, "fields", inner), inner, _OTHERS)
 
 
-def _class(path: KeyPath, name: str, *, on_key: bool) -> Iterator[Problem]:
-    long = list(_name(path, name, _CLASS, on_key=on_key))
+def _class(path: KeyPath, name: str, *, on_key: bool, most: int = _CLASS) -> Iterator[Problem]:
+    long = list(_name(path, name, most, on_key=on_key))
     yield from long
     if not long:
         yield from _name(path, snake_case(name), _METHOD, on_key=on_key)

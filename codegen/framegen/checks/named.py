@@ -47,3 +47,14 @@ def former_names(path: KeyPath, thing: object) -> Iterator[tuple[KeyPath, str]]:
 def _of_number(path: KeyPath, field: NumberField) -> Iterator[tuple[KeyPath, Mapping[str, Any]]]:
     yield (*path, "values"), field.values
     yield (*path, "bits"), field.bits
+
+
+def classes(spec: Spec) -> Iterator[tuple[KeyPath, str, bool]]:
+    """Yield each message and each class of elements: its place, its name, and if that is a key."""
+    for name in spec.messages:
+        yield ("messages", name), name, True
+    for name, message in spec.messages.items():
+        for field_name, field in message.fields.items():
+            if isinstance(field, ListField):
+                path = ("messages", name, "fields", field_name, "element")
+                yield path, field.element, False

@@ -20,6 +20,7 @@ from pydantic import (
 )
 from pydantic import Field as Key
 
+from framegen.language.class_names import DEFAULT_CLIENT
 from framegen.language.edition import LATEST, Edition
 from framegen.language.formula import Formula, LengthRule, parse_formula, sizes_of
 from framegen.language.names import named_once, names_of
@@ -100,6 +101,11 @@ class Protocol(Part):
     description: str = Key("", description="What a newcomer should know, in a paragraph or two.")
     notes: list[Note] = Key(
         [], description="What other sources than the one that decides know, each with its source."
+    )
+    client: str = Key(
+        DEFAULT_CLIENT,
+        description="The class of the client, in PascalCase, such as `Arm`: the one for asyncio is "
+        "`AsyncArm` then, and `open_arm` and `open_async_arm` open a port.",
     )
     distribution: Distribution | None = Key(
         None,

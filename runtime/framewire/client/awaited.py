@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .async_client import AsyncClient
 
 _Client = TypeVar("_Client", bound="AsyncClient")
-_HOW = "enter open_async_controller() with `async with`, or await it"
+_HOW = "enter it with `async with`, or await it"
 
 
 class Awaited(Generic[_Client]):
@@ -26,7 +26,7 @@ class Awaited(Generic[_Client]):
     ) -> None:
         self._open = opener
         self._make = make
-        self._controller: _Client
+        self._client: _Client
 
     def __await__(self) -> Generator[Any, None, _Client]:
         return self._opened().__await__()
@@ -51,14 +51,14 @@ class Awaited(Generic[_Client]):
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        await self._controller.__aexit__(kind, error, traceback)
+        await self._client.__aexit__(kind, error, traceback)
 
     async def _opened(self) -> _Client:
         # Opening may take a while (a socket, a slow adapter), and would block the loop.
         transport = await opened(self._open)
         try:
-            self._controller = self._make(transport)
+            self._client = self._make(transport)
         except BaseException:
             transport.close()
             raise
-        return await self._controller.__aenter__()
+        return await self._client.__aenter__()

@@ -150,7 +150,7 @@ class BaseClient:
         if ids is not None:
             return ids
         if not self._ids:
-            raise EncodeError("ids", ids, "give them here, or to open_controller(ids=…)")
+            raise EncodeError("ids", ids, "give them here, or as ids=… when the client is opened")
         return self._ids
 
     # ------------------------------------------------------------------ what each client adds

@@ -33,19 +33,28 @@ else:
 class Library:
     """What a generated library hands to the runtime.
 
-    `package` is its import name, `edition` that of the runtime which it was generated for, and
-    `protocol_version` the version of the specification. What takes time to import is imported when
-    it is first asked for. Raises ImportError for an edition that this runtime does not serve.
+    `package` is its import name, `edition` that of the runtime which it was generated for,
+    `protocol_version` the version of the specification, and `client` the class of its client for
+    threads. What takes time to import is imported when it is first asked for. Raises ImportError
+    for an edition that this runtime does not serve.
     """
 
     def __init__(
-        self, package: str, *, edition: int, protocol_version: str, link: Link, codec: ProtocolCodec
+        self,
+        package: str,
+        *,
+        edition: int,
+        protocol_version: str,
+        link: Link,
+        codec: ProtocolCodec,
+        client: str = "Controller",
     ) -> None:
         refuse_others(edition, package)
         self.package = package
         self.protocol_version = protocol_version
         self.link = link
         self.codec = codec
+        self._client = client
 
     def __repr__(self) -> str:
         return f"<the library {self.package} of protocol version {self.protocol_version}>"
@@ -94,13 +103,14 @@ class Library:
     @cached_property
     def client(self) -> type[Client]:
         """The client for threads."""
-        client: type[Client] = part_of(self.package, "_controller").Controller
+        client: type[Client] = getattr(part_of(self.package, "_controller"), self._client)
         return client
 
     @cached_property
     def async_client(self) -> type[AsyncClient]:
         """The client for asyncio."""
-        client: type[AsyncClient] = part_of(self.package, "_async_controller").AsyncController
+        module = part_of(self.package, "_async_controller")
+        client: type[AsyncClient] = getattr(module, f"Async{self._client}")
         return client
 
     def open_transport(

@@ -134,6 +134,20 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
         ["renamed: `import busservo` is now `import servobus`"],
         ["renamed: `import servobus` is now `import busservo`"],
     ),
+    "name of the client": (
+        [
+            (
+                "renamed: `Controller` is now `Climate`, `open_async_controller` is now "
+                "`open_async_climate`, `open_controller` is now `open_climate`"
+            )
+        ],
+        [
+            (
+                "renamed: `Climate` is now `Controller`, `open_async_climate` is now "
+                "`open_async_controller`, `open_climate` is now `open_controller`"
+            )
+        ],
+    ),
     "no HID board": (["removed: `hid://` does not find 0483:5750 any more"], []),
     "id": (
         ["value: `ServoMove.COMMAND` is 4; it was 3"],

@@ -18,6 +18,7 @@ from framegen.comparison.programs.library import library_effects
 from framegen.comparison.programs.rendered import NoLibrary, rendered
 from framegen.comparison.surface import read_surface
 from framegen.language.paths import NoPath, read_path
+from framegen.model.client_names import client_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -84,11 +85,12 @@ def _of_package(pair: Pair) -> Iterator[Effect]:
     old, new = (each.model.spec.protocol.name for each in (pair.old, pair.new))
     if old != new:
         yield Effect("programs", "renamed", name, name, f"`import {old}` is now `import {new}`")
+    names = client_names(pair.new.spec)
     client = pair.new.model.roles.client
     if pair.ends.get(pair.old.model.roles.client) != client:
         ends = ("endpoints",)
         was = pair.old.model.roles.client
-        text = f"`Controller` is the end of the {client} now; it was that of the {was}"
+        text = f"`{names.threads}` is the end of the {client} now; it was that of the {was}"
         yield Effect("programs", "meaning", ends, ends, text)
     boards = [
         {(each.vendor, each.product) for each in spec.link.usb_hid} if spec.link.usb_hid else set()
@@ -103,7 +105,7 @@ def _of_package(pair: Pair) -> Iterator[Effect]:
     for key in ("baud", "local_echo"):
         was, given = getattr(specs[0].link, key), getattr(specs[1].link, key)
         if was != given:
-            text = f"`open_controller({key}={given})` is the default; it was {was}"
+            text = f"`{names.opener}({key}={given})` is the default; it was {was}"
             yield Effect("programs", "value", ("link", key), ("link", key), text, breaks=False)
     if specs[0].pose is not None and specs[1].pose is not None:
         ids = specs[0].pose.ids, specs[1].pose.ids

@@ -8,7 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from framegen.comparison.programs.moves import Moves
-from framegen.comparison.programs.origins import origins, requests
+from framegen.comparison.programs.origins import CLIENT, DEVICES, origins, requests
+from framegen.model.client_names import client_names
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,12 +17,13 @@ if TYPE_CHECKING:
     from framegen.comparison.pair import Pair
     from framegen.comparison.programs.origins import Origin
     from framegen.comparison.surface import Surface
+    from framegen.language.spec import Spec
     from framegen.reading.yamltree import KeyPath
 
 _DOTTED = re.compile(r"[A-Za-z_][\w.]*")
 _QUOTED = re.compile(r"'[^']*'")
 # What addresses and answers of devices bring with them.
-_OF_FRAMES = re.compile(r"(Async)?(OneDevice|AllDevices|Controller|Device)\b|UnknownFrame\b")
+_OF_FRAMES = re.compile(r"(Async)?(OneDevice|AllDevices|Device)\b|UnknownFrame\b")
 
 
 @dataclass(eq=False)
@@ -45,6 +47,12 @@ class Libraries:
     def new_origins(self) -> dict[str, Origin]:
         """What each name of the new library is called after."""
         return origins(self.pair.new.model)
+
+    @cached_property
+    def asyncio(self) -> re.Pattern[str]:
+        """What is in front of the names for asyncio, which are those for threads but for this."""
+        clients = (client_names(each.spec).threads for each in (self.pair.old, self.pair.new))
+        return re.compile(rf"\bAsync(?=(?:{'|'.join([*clients, *DEVICES, 'Motion'])})\b)")
 
     @cached_property
     def _named(self) -> dict[Origin, str]:
@@ -85,30 +93,37 @@ class Libraries:
         """Return what a name of the old library is called after in both editions."""
         origin = self._origin(name, self.old_origins)
         if origin is None:
-            path = self._shared(name, self.pair.old.spec.frames)
-            return path, self._shared(name, self.pair.new.spec.frames)
+            old, new = self.pair.old.spec, self.pair.new.spec
+            return self._shared(name, old, old), self._shared(name, old, new)
         return origin, self.moves.path(origin)
 
     def new_path(self, name: str) -> KeyPath:
         """Return what a name of the new library is called after."""
         origin = self._origin(name, self.new_origins)
-        return self._shared(name, self.pair.new.spec.frames) if origin is None else origin
+        new = self.pair.new.spec
+        return self._shared(name, new, new) if origin is None else origin
 
     @staticmethod
     def _origin(name: str, known: dict[str, Origin]) -> KeyPath | None:
-        while name:
-            if name in known:
-                return known[name].path
-            name = name.rpartition(".")[0]
+        owner = name
+        while owner:
+            # What a client has beside methods of messages does not follow from its name.
+            if owner in known and (owner == name or known[owner].path != CLIENT):
+                return known[owner].path
+            owner = owner.rpartition(".")[0]
         return None
 
     @staticmethod
-    def _shared(name: str, frames: object) -> KeyPath:
+    def _shared(name: str, own: Spec, spec: Spec) -> KeyPath:
+        """Return what brings a name of the library of one spec, in that or in another."""
         if name in ("RefusedError", "FailureError"):
             return ("messages",)
         if name.startswith("Direction"):
             return ("endpoints",)
-        return (("frames",) if frames else ("frame",)) if _OF_FRAMES.match(name) else ("protocol",)
+        of_client = name.partition(".")[0] in client_names(own).classes
+        if of_client or _OF_FRAMES.match(name):
+            return ("frames",) if spec.frames else ("frame",)
+        return ("protocol",)
 
     def attribute(self, beside: str, found: re.Match[str]) -> str:
         """Return `self.name` in the class of an old name, as the new library spells it."""
@@ -119,6 +134,10 @@ class Libraries:
         """Return a type or a value of the old library as the new one spells it."""
 
         def one(found: re.Match[str]) -> str:
+            owner, dot, last = found[0].rpartition(".")
+            if dot and found[0] not in self.now:
+                # What a class inherits is called as it is in the runtime.
+                return f"{self.now.get(owner) or owner}.{last}"
             return self.now.get(found[0]) or found[0]
 
         quoted = _QUOTED.search(text)

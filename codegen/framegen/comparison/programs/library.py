@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
 
 _SELF = re.compile(r"\bself\.(\w+)")
-_ASYNC = re.compile(r"\bAsync(?=Controller|OneDevice|AllDevices|Motion)")
 
 
 def library_effects(libraries: Libraries) -> Iterator[Effect]:
@@ -26,7 +25,7 @@ def library_effects(libraries: Libraries) -> Iterator[Effect]:
     seen: set[tuple[object, ...]] = set()
     for effect in (*_lost(libraries), *_gained(libraries)):
         # What is true of one client is true of the others.
-        text = _ASYNC.sub("", effect.text)
+        text = libraries.asyncio.sub("", effect.text)
         key = (effect.outcome, effect.path, text.rpartition(".")[2])
         if key not in seen:
             seen.add(key)
@@ -58,7 +57,7 @@ def _gained(libraries: Libraries) -> Iterator[Effect]:
         owner = name.rpartition(".")[0]
         is_new = name not in known and (owner in known or owner in ("", "messages"))
         role = libraries.new_origins[name].role if name in libraries.new_origins else ""
-        told = _ASYNC.search(name) or role in ("mask", "command", "way", "union")
+        told = libraries.asyncio.search(name) or role in ("mask", "command", "way", "union")
         if is_new and not told and not name.startswith(("Device.on_", "strategies.")):
             path = libraries.new_path(name)
             yield Effect("programs", "added", None, path, f"`{name}` is new", breaks=False)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.language.spec import ListField, NumberField
 from framegen.language.values import Direction
+from framegen.model.client_names import client_names
 from framegen.model.exchanges import method_of, snake_case
 from framegen.targets.python.names import (
     bit_name,
@@ -29,10 +30,11 @@ if TYPE_CHECKING:
     from framegen.reading.yamltree import KeyPath
     from framegen.targets.python.names import Names
 
-# The classes with a method for each message of the client; those for one device leave out its
-# address.
-CLIENTS = ("Controller", "OneDevice", "AllDevices")
+# The classes with a method for each message of the client, but for the client itself: these leave
+# out the address of a device.
+DEVICES = ("OneDevice", "AllDevices")
 POSE_METHODS = ("hold", "present", "targets")
+CLIENT = ("protocol", "client")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +61,7 @@ def origins(model: Model) -> dict[str, Origin]:
 def _origins(model: Model) -> Iterator[tuple[str, Origin]]:
     names = names_of(model)
     spec = model.spec
+    yield from ((name, Origin(role, CLIENT)) for role, name in clients_of(model).items())
     for name, layout in model.messages.items():
         yield from _of_message(names, name, layout)
         message = spec.messages[name]
@@ -74,8 +77,9 @@ def _origins(model: Model) -> Iterator[tuple[str, Origin]]:
     if spec.pose is not None:
         for key in POSE_METHODS:
             method = names.of("method", getattr(spec.pose, key))
-            for client in ("Controller", "AsyncController"):
-                yield f"{client}.{method}", Origin(f"{client} method", ("pose", key))
+            for client in ("threads", "asyncio"):
+                owner = clients_of(model)[client]
+                yield f"{owner}.{method}", Origin(f"{client} method", ("pose", key))
 
 
 def _of_message(names: Names, name: str, layout: MessageLayout) -> Iterator[tuple[str, Origin]]:
@@ -125,9 +129,21 @@ def _of_field(
 
 def _of_method(names: Names, name: str, message: Message) -> Iterator[tuple[str, Origin]]:
     method = names.of("method", method_of(name, message).name)
-    for client in CLIENTS:
-        for each in (client, f"Async{client}"):
-            yield f"{each}.{method}", Origin(f"{each} method", ("messages", name))
+    owners = {each: clients_of(names.model)[each] for each in ("threads", "asyncio")}
+    owners |= {each: each for device in DEVICES for each in (device, f"Async{device}")}
+    for role, owner in owners.items():
+        yield f"{owner}.{method}", Origin(f"{role} method", ("messages", name))
+
+
+def clients_of(model: Model) -> Mapping[str, str]:
+    """Return the names that follow from that of the client, each by what it is."""
+    names = client_names(model.spec)
+    return {
+        "threads": names.threads,
+        "asyncio": names.asyncio,
+        "opener": names.opener,
+        "async opener": names.async_opener,
+    }
 
 
 def frame_path(model: Model, frame: str) -> KeyPath:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from framegen.model.client_names import client_names
 from framegen.targets.python.client_view import ClientView
 from framegen.targets.python.escape import Bracketed
 from framegen.targets.python.exports import import_order
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
     from framegen.targets.python.method_view import MethodView
-
-_OPEN = 'with open_controller("COM5") as controller:  # or "/dev/ttyUSB0"'
 
 
 def client_snippet(library: Model, message: MessageLayout) -> str:
@@ -34,14 +33,15 @@ def client_snippet(library: Model, message: MessageLayout) -> str:
     for method in _methods(library, library.refuses.get(message.name, [])):
         lines = ["try:", f"    {_call(method, 8)}", "except RefusedError as error:"]
         return _program(library, ["RefusedError"], [*lines, "    print(error.refusal)"])
+    client = client_names(library.spec).variable
     causes = _methods(library, library.reports_on.get(message.name, []))
     return _program(
         library,
         [message.name],
         [
             *(_call(method) for method in islice(causes, 1)),
-            "# Or controller.on_report(print): every report. NoReportError: none came in time.",
-            f"print(controller.wait_for({message.name}, timeout=30))",
+            f"# Or {client}.on_report(print): every report. NoReportError: none came in time.",
+            f"print({client}.wait_for({message.name}, timeout=30))",
         ],
     )
 
@@ -54,7 +54,7 @@ def _methods(library: Model, requests: Iterable[str]) -> Iterator[MethodView]:
 
 def _call(method: MethodView, indent: int = 4) -> str:
     """Return the call of a method, which is printed where it returns what came back."""
-    before = f"controller.{method.name}("
+    before = f"{method.flavour.variable}.{method.name}("
     if method.exchange.reply is None:
         return method.example_call(before).fitted(indent)
     call = method.example_call(f"print({before}")
@@ -62,6 +62,8 @@ def _call(method: MethodView, indent: int = 4) -> str:
 
 
 def _program(library: Model, names: list[str], lines: list[str]) -> str:
-    imported = ", ".join(sorted([*names, "open_controller"], key=import_order))
+    client = client_names(library.spec)
+    imported = ", ".join(sorted([*names, client.opener], key=import_order))
+    opened = f'with {client.opener}("COM5") as {client.variable}:  # or "/dev/ttyUSB0"'
     body = "".join(f"    {line}\n" for line in lines)
-    return f"from {library.spec.protocol.name} import {imported}\n\n{_OPEN}\n{body}"
+    return f"from {library.spec.protocol.name} import {imported}\n\n{opened}\n{body}"

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
+from framegen.language.class_names import DEFAULT_CLIENT
+from framegen.model.client_names import client_names
 from framegen.model.exchanges import STEPS_PER_SECOND
 from framegen.model.slots import Items
 from framegen.targets.python.bus_view import BusView
@@ -22,6 +24,7 @@ from framegen.targets.python.spelling import direction_member
 
 if TYPE_CHECKING:
     from framegen.language.values import Range
+    from framegen.model.client_names import ClientNames
     from framegen.model.exchanges import Exchange
     from framegen.model.model import Model
 
@@ -46,10 +49,24 @@ class ClientView:
 
     model: Model
 
-    FLAVOURS: ClassVar = {
-        "Controller": Flavour("def ", "", "Motion", "Controller"),
-        "AsyncController": Flavour("async def ", "await ", "AsyncMotion", "AsyncController"),
-    }
+    @property
+    def names(self) -> ClientNames:
+        """What the clients and their functions are called."""
+        return client_names(self.model.spec)
+
+    @property
+    def is_named(self) -> bool:
+        """Whether the spec has a name of its own for them."""
+        return self.names.threads != DEFAULT_CLIENT
+
+    @property
+    def _flavour(self) -> Flavour:
+        return Flavour("def ", "", "Motion", self.names.threads, self.names.variable)
+
+    @property
+    def _async_flavour(self) -> Flavour:
+        names = self.names
+        return Flavour("async def ", "await ", "AsyncMotion", names.asyncio, names.variable)
 
     @property
     def about(self) -> list[str]:
@@ -93,12 +110,12 @@ class ClientView:
     @property
     def methods(self) -> list[MethodView]:
         """The methods of the client for threads."""
-        return self._methods(self.FLAVOURS["Controller"])
+        return self._methods(self._flavour)
 
     @property
     def async_methods(self) -> list[MethodView]:
         """The methods of the client for asyncio."""
-        return self._methods(self.FLAVOURS["AsyncController"])
+        return self._methods(self._async_flavour)
 
     def _methods(self, flavour: Flavour) -> list[MethodView]:
         return [MethodView(each, self.model, flavour) for each in self.model.exchanges]
@@ -106,18 +123,17 @@ class ClientView:
     def method(self, request: str) -> MethodView | None:
         """Return the method of the client for threads that sends a message, if one does."""
         exchange = self.model.exchanges_by_request.get(request)
-        flavour = self.FLAVOURS["Controller"]
-        return None if exchange is None else MethodView(exchange, self.model, flavour)
+        return None if exchange is None else MethodView(exchange, self.model, self._flavour)
 
     @property
     def pose(self) -> PoseView | None:
         """The pose methods of the client for threads, where there are any."""
-        return self._pose(self.FLAVOURS["Controller"])
+        return self._pose(self._flavour)
 
     @property
     def async_pose(self) -> PoseView | None:
         """The pose methods of the client for asyncio."""
-        return self._pose(self.FLAVOURS["AsyncController"])
+        return self._pose(self._async_flavour)
 
     def _pose(self, flavour: Flavour) -> PoseView | None:
         pose = self.model.spec.pose
@@ -255,12 +271,12 @@ class ClientView:
     @property
     def device_imports(self) -> list[str]:
         """The imports of the clients of one device and of all."""
-        return self._device_imports("._controller", "Controller", self.methods)
+        return self._device_imports("._controller", self.names.threads, self.methods)
 
     @property
     def async_device_imports(self) -> list[str]:
         """The same for asyncio."""
-        return self._device_imports("._async_controller", "AsyncController", self.async_methods)
+        return self._device_imports("._async_controller", self.names.asyncio, self.async_methods)
 
     def _device_imports(self, module: str, client: str, methods: list[MethodView]) -> list[str]:
         addressed = [method for method in methods if method.has_address]

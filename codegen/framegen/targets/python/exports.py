@@ -10,19 +10,19 @@ from framegen.targets.python.escape import WIDTH
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from framegen.model.client_names import ClientNames
+
 _Order: TypeAlias = "tuple[int, tuple[tuple[str, int, str], ...], str]"
 # Text, and the number behind it.
 _NUMBERED = re.compile(r"(?=.)(\D*)(\d*)")
 
-# What every library exports besides its messages, and the module that each is in.
+# What every library exports besides its messages and its client, and the module that each is in.
 HOMES = {
     "MESSAGES": ".messages",
     "PROTOCOL_VERSION": "._library",
     "AbsentError": "framewire.line.link_errors",
-    "AsyncController": "._async_controller",
     "AsyncMotion": "framewire.client.motion",
     "ClosedError": "framewire.line.link_errors",
-    "Controller": "._controller",
     "Counters": "framewire.codec.counters",
     "DecodeError": "framewire.frame.errors",
     "Device": ".device",
@@ -56,8 +56,6 @@ HOMES = {
     "WriteStuckError": "framewire.line.link_errors",
     "__version__": "._version",
     "decode": "._codec",
-    "open_async_controller": "._async_controller",
-    "open_controller": "._controller",
     "open_transport": "._library",
 }
 # What a library exports beside that whose devices have addresses, or one that nobody answers, and
@@ -74,6 +72,16 @@ OF_FAILURES = {
     "FailureError": "framewire.client.failures",
     "RefusedError": "framewire.client.failures",
 }
+
+
+def homes_of_client(client: ClientNames) -> dict[str, str]:
+    """Return the names of a client, and the module that each is in."""
+    return {
+        client.threads: "._controller",
+        client.asyncio: "._async_controller",
+        client.opener: "._controller",
+        client.async_opener: "._async_controller",
+    }
 
 
 def export_order(name: str) -> _Order:

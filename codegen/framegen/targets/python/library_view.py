@@ -10,6 +10,7 @@ from framewire.edition import EDITION
 
 from framegen.language.spec import Distribution
 from framegen.model.apart import begun
+from framegen.model.client_names import client_names
 from framegen.targets.python.checksum_view import checksums_of
 from framegen.targets.python.envelope_view import EnvelopeView
 from framegen.targets.python.escape import Bracketed, literal
@@ -19,6 +20,7 @@ from framegen.targets.python.exports import (
     OF_BROADCASTS,
     OF_FAILURES,
     export_order,
+    homes_of_client,
     import_from,
     import_order,
 )
@@ -231,7 +233,7 @@ class LibraryView:
         classes = [*(message.name for message in self.messages), *elements]
         types = [union.name for union in self.unions]
         exchanges = self.model.exchanges
-        homes = dict(HOMES)
+        homes = HOMES | homes_of_client(client_names(self.model.spec))
         homes |= OF_ADDRESSES if any(each.address for each in exchanges) else {}
         homes |= OF_BROADCASTS if any(each.silent for each in exchanges) else {}
         homes |= OF_FAILURES if any(each.refusal or each.failure for each in exchanges) else {}

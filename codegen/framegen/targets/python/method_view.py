@@ -53,13 +53,15 @@ _PARTLY = (
 class Flavour:
     """The style of one of the clients: what precedes a definition, a call and an example.
 
-    `motion` is the result for a message that lasts, `client` the class of the client.
+    `motion` is the result for a message that lasts, `client` the class of the client, and
+    `variable` what examples call one.
     """
 
     define: str
     wait: str
     motion: str
     client: str
+    variable: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +165,7 @@ class MethodView:
     @property
     def example_lines(self) -> list[str]:
         """The first example of the message, as an interactive session."""
-        call = f"{self.flavour.wait}controller.{self.name}("
+        call = f"{self.flavour.wait}{self.flavour.variable}.{self.name}("
         reply = self.exchange.reply
         if reply is None:
             return self._session(f"sent = {call}")

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, TypeVar
 
 from framegen.language.spec import IdPart, ListField
 from framegen.language.values import Direction, Failure, Method
+from framegen.model.client_names import client_names
 from framegen.model.exchanges import arguments_of, method_of, snake_case
 from framegen.model.roles import Roles
 from framegen.model.slots import Constant, Items, Number, Packed, Text
-from framegen.targets.python.reserved import RESERVED
+from framegen.targets.python.reserved import CLIENTS, RESERVED
 from framegen.targets.target import BentName
 
 if TYPE_CHECKING:
@@ -31,7 +32,12 @@ if TYPE_CHECKING:
     from framegen.targets.target import Reserved
 
 _Named = TypeVar("_Named", bound="Number | Text | Packed")
-_TAKEN = {(row.kind, word): row for row in reversed(RESERVED) for word in row.words}
+_TAKEN = {
+    (row.kind, word): row
+    for row in reversed(RESERVED)
+    for word in row.words
+    if row.words is not CLIENTS
+}
 _CLASSES = ("message", "element")
 # What the constants of envelopes end in, and no other: a message class names one in its body.
 _ENVELOPE = "_ENVELOPE"
@@ -130,6 +136,8 @@ class Names:
             return row.why, row.suffix
         if kind == "id" and name.endswith(_ENVELOPE):
             return "may be the constant of an envelope", "_"
+        if kind in _CLASSES and name in client_names(self.model.spec).classes:
+            return "is a client of this library", kind.capitalize()
         if kind in _CLASSES and name in self._unions:
             return "is whatever one end sends", kind.capitalize()
         if kind == "element" and name in self._ids:

@@ -6,54 +6,21 @@ version. The name of a protocol is none of these: `protocol-name` refuses one th
 
 from __future__ import annotations
 
+from framegen.language.class_names import (
+    AMBIGUOUS_CLASSES,
+    DEFAULT_CLIENT,
+    LIBRARY_CLASSES,
+    PYTHON_CLASSES,
+)
 from framegen.language.package_names import BUILTINS, KEYWORDS, words
+from framegen.model.client_names import ClientNames
 from framegen.targets.target import Reserved
 
 # What the clients' own annotations are made of: a method hides no other builtin from anybody.
 TYPES = words("bool bytes dict float int list object str tuple type")
 
-# Letters that are taken for digits.
-AMBIGUOUS_CLASSES = words("I O")
+# A letter that is taken for a digit.
 AMBIGUOUS = words("l")
-
-# Classes that Python has without an import, or that generated modules import.
-PYTHON_CLASSES = words(
-    """
-    False None True ArithmeticError AssertionError AttributeError BaseException BaseExceptionGroup
-    BlockingIOError BrokenPipeError BufferError BytesWarning ChildProcessError
-    ConnectionAbortedError ConnectionError ConnectionRefusedError ConnectionResetError
-    DeprecationWarning EOFError Ellipsis EncodingWarning EnvironmentError Exception
-    ExceptionGroup FileExistsError FileNotFoundError FloatingPointError FutureWarning
-    GeneratorExit IOError ImportError ImportWarning IndentationError IndexError InterruptedError
-    IsADirectoryError KeyError KeyboardInterrupt LookupError MemoryError ModuleNotFoundError
-    NameError NotADirectoryError NotImplemented NotImplementedError OSError OverflowError
-    PendingDeprecationWarning PermissionError ProcessLookupError PythonFinalizationError
-    RecursionError ReferenceError ResourceWarning RuntimeError RuntimeWarning StopAsyncIteration
-    StopIteration SyntaxError SyntaxWarning SystemError SystemExit TabError TimeoutError
-    TypeError UnboundLocalError UnicodeDecodeError UnicodeEncodeError UnicodeError
-    UnicodeTranslateError UnicodeWarning UserWarning ValueError Warning WindowsError
-    ZeroDivisionError Any Callable ClassVar Enum Final Iterable Iterator Literal Mapping
-    NamedTuple PathLike Protocol Self Sequence Struct StructError SupportsIndex TypeAlias TypeVar
-    Union
-    """
-)
-
-# What the library exports or is built of, whatever the protocol.
-LIBRARY_CLASSES = words(
-    """
-    AbsentError Address AllDevices Allowed Always AsyncAllDevices AsyncClient AsyncController
-    AsyncMotion AsyncOneDevice Client ClosedError CODEC Column Controller Counters Decoded
-    DecodeError Device Direction DisconnectedError DoubtfulReplyError EchoError Element EncodeError
-    Event Exchange EXCHANGES F32 F64 FailureError Failures Field HEADS I16 I24 I32 I64 I8
-    IncompleteReplyError Items Kind LIBRARY LimitError LIMITS Limits LineCounters LineError
-    LINK List Message MESSAGES MixedElement Motion Noise NoReplyError NoReportError NotHeldError
-    Number OneDevice Optional Packed PortAddressError PortBusyError PortNotFoundError
-    PortPermissionError POSE Pose ProtocolError Reason RECEIVED RefusedError Rejects Report Reserved
-    Run SearchStrategy Sent Shape StreamDecoder SwappedF32 SwappedF64 SwappedI16 SwappedI24
-    SwappedI32 SwappedI64 SwappedU16 SwappedU24 SwappedU32 SwappedU64 Table Text Timed Transport
-    TransportError U16 U24 U32 U64 U8 UNFIT UnknownFrame WriteStuckError
-    """
-)
 
 # What every client has besides the methods of its messages.
 CLIENT_ATTRIBUTES = words(
@@ -89,20 +56,26 @@ COMMAND = words("COMMAND")
 # The classes of fields that a message class names in its body, behind its constants.
 FIELD_CLASSES = words("F32 F64 I16 I24 I32 I64 I8 U16 U24 U32 U64 U8")
 
+# The clients of a library whose spec does not name them: in each, those of its own are taken.
+CLIENTS = ClientNames(DEFAULT_CLIENT).classes
+
 _KEYWORD = "is a word of Python itself"
 _BUILTIN = "would hide what Python has under this name"
 _AMBIGUOUS = "is taken for a digit"
 _ANNOTATION = "is what types are named by"
 _ATTRIBUTE = "is an attribute of every message"
+_CLIENT = "is a client of a library whose spec names no other"
 _CONSTANT = "is a constant of messages, which hides it there"
 
 RESERVED = (
     Reserved("endpoint", SENDERS, "has a meaning of its own in recordings and options", "_"),
     Reserved("message", PYTHON_CLASSES, "is a class of Python's own", "Message"),
     Reserved("message", LIBRARY_CLASSES, "is a class of every library", "Message"),
+    Reserved("message", CLIENTS, _CLIENT, "Message"),
     Reserved("message", AMBIGUOUS_CLASSES, _AMBIGUOUS, "Message"),
     Reserved("element", PYTHON_CLASSES, "is a class of Python's own", "Element"),
     Reserved("element", LIBRARY_CLASSES, "is a class of every library", "Element"),
+    Reserved("element", CLIENTS, _CLIENT, "Element"),
     Reserved("element", CONSTANTS | COMMAND, _CONSTANT, "Element"),
     Reserved("element", AMBIGUOUS_CLASSES, _AMBIGUOUS, "Element"),
     Reserved("field", KEYWORDS, _KEYWORD, "_"),

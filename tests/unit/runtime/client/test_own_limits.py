@@ -105,7 +105,7 @@ def test_a_protocol_without_a_pose_takes_no_ids_and_no_limits() -> None:
             client(VirtualLine(), limits={1: (0, 9)})
 
 
-NO_IDS = r"ids: give them here, or to open_controller\(ids=…\)"
+NO_IDS = "ids: give them here, or as ids=… when the client is opened"
 
 
 def test_positions_are_read_of_the_ids_of_the_client() -> None:
