@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import asyncio
 import heapq
-import importlib
 import math
 from typing import TYPE_CHECKING, Any
 
 from busservo_simulator import VirtualClock
 from busservo_simulator.virtual_loop import VirtualLoop
+
+from tests.handed import handed_by
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -163,8 +164,7 @@ def client_of(device: Any, kind: type | None = None, **given: Any) -> Any:
         for each in type(device).__mro__
         if each.__name__ == "Device"
     )
-    library = importlib.import_module(package)
-    return client_on(DeviceLine(device), kind or library.Controller, **given)
+    return client_on(DeviceLine(device), kind or handed_by(package).client, **given)
 
 
 def client_on(line: Any, kind: type, **given: Any) -> Any:

@@ -16,11 +16,20 @@ from framegen.model.codec import encode, values_of
 from framegen.model.verdict import weigh_whole
 from framegen.render import snippets
 
-from tests.factories import compiled_file, library, library_of
+from tests.factories import (
+    compiled_file,
+    compiled_of,
+    data_of,
+    library,
+    library_files,
+    library_of,
+)
+from tests.handed import handed_by
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.devices import answers_to
 from tests.lines.timed_line import ScriptedLine, client_on
+from tests.mutations.places import having
 from tests.protocols.specs import FILES
 from tests.rows import some
 from tests.unit.site.reference import SPECS, reference
@@ -48,11 +57,11 @@ def shown(model: Model, name: str) -> dict[str, Snippet]:
     return {each.name: each for each in found}
 
 
-def ran(made: ModuleType, source: str, controller: Any) -> str:
-    """Run a program with a controller behind whatever port it opens; return what it prints."""
+def ran(made: ModuleType, source: str, client: Any, opener: str = "open_controller") -> str:
+    """Run a program with a client behind whatever port it opens; return what it prints."""
     output = io.StringIO()
     with (
-        mock.patch.object(made, "open_controller", return_value=controller),
+        mock.patch.object(made, opener, return_value=client),
         contextlib.redirect_stdout(output),
     ):
         exec(source, {})  # noqa: S102 - our own pages
@@ -88,24 +97,34 @@ def _answers(model: Model, exchange: Exchange, asked: dict[str, Any], wanted: st
 # A library is made for each, which takes a while.
 @pytest.mark.parametrize("name", some(OTHERS, lambda name: name in QUICK))
 def test_every_snippet_of_a_protocol_runs(name: str) -> None:
-    compiled = compiled_file(OTHERS[name])
-    model = compiled.model
-    silent = {each.request.name for each in model.exchanges if not each.answers}
     with library(library_of(OTHERS[name])) as made:
-        for message in model.messages:
-            found = shown(model, message)
-            assert not found or "Codec" in found
-            for kind, snippet in found.items():
-                assert snippet.language == ("sh" if kind == "Shell" else "python")
-                if kind == "Client":
-                    line = answering(model, message)
-                    client = client_on(line, made.Controller, local_echo=False)
-                    printed = ran(made, snippet.code, client)
-                    assert printed or message in silent, message
-                    assert line.written or line.unasked, message
-                elif kind == "Codec":
-                    received = model.messages[message].direction != model.roles.sent
-                    assert bool(ran(made, snippet.code, None)) == received, message
+        snippets_run(made, compiled_file(OTHERS[name]).model, "open_controller")
+
+
+def test_every_snippet_of_a_client_with_a_name_of_its_own_runs() -> None:
+    data = having(data_of(OTHERS["modbus"]), {"protocol.client": "Bus"})
+    compiled = compiled_of(data)
+    with library(library_files(compiled)) as made:
+        snippets_run(made, compiled.model, "open_bus")
+
+
+def snippets_run(made: ModuleType, model: Model, opener: str) -> None:
+    """Run every snippet of a library, in which one function opens a client for threads."""
+    silent = {each.request.name for each in model.exchanges if not each.answers}
+    for message in model.messages:
+        found = shown(model, message)
+        assert not found or "Codec" in found
+        for kind, snippet in found.items():
+            assert snippet.language == ("sh" if kind == "Shell" else "python")
+            if kind == "Client":
+                line = answering(model, message)
+                client = client_on(line, handed_by(made.__name__).client, local_echo=False)
+                printed = ran(made, snippet.code, client, opener)
+                assert printed or message in silent, message
+                assert line.written or line.unasked, message
+            elif kind == "Codec":
+                received = model.messages[message].direction != model.roles.sent
+                assert bool(ran(made, snippet.code, None, opener)) == received, message
 
 
 @in_turn("message", lambda: SERVO.messages)
