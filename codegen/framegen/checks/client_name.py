@@ -30,13 +30,15 @@ _ENDINGS = ("Message", "Element")
 def _look(spec: Spec) -> Iterator[Problem]:
     names = client_names(spec)
     name = names.threads
-    # A message that has the usual name is bent: nobody has chosen the other.
-    if name == DEFAULT_CLIENT:
+    # A message that has the usual name is bent: nobody has chosen the other. What is spelt like no
+    # class at all is found by `identifier`.
+    if name == DEFAULT_CLIENT or not name[:1].isupper():
         return
     why = _why_taken(names)
-    if name != _ASYNC and name.startswith(_ASYNC):
+    rest = name.removeprefix(_ASYNC)
+    if rest != name and rest[:1].isupper():
         what = f"`{name}` begins with `{_ASYNC}`, as the client for asyncio does"
-        yield Problem(_PATH, what, f"write `{name.removeprefix(_ASYNC)}`")
+        yield Problem(_PATH, what, f"write `{rest}`")
     elif why:
         yield Problem(_PATH, f"`{name}` {why}", f"choose another name, such as `{name}Client`")
     for path, other, _ in classes(spec):

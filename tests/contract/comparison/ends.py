@@ -19,6 +19,7 @@ from framegen.render import render_target
 from framegen.targets import python
 
 from tests.factories import library
+from tests.handed import handed_by
 from tests.lines.timed_line import DeviceLine, client_on
 from tests.protocols.libraries import made_of
 
@@ -72,7 +73,7 @@ class Ends:
     def client(self, which: Which, device: Any, *, echo: bool = False) -> Iterator[Any]:
         """Return a client of an edition on a line to a device; nothing in it sleeps."""
         line = DeviceLine(device, echo=echo)
-        with client_on(line, self.library(which).Controller, limits=None) as client:
+        with client_on(line, handed_by(self.library(which).__name__).client, limits=None) as client:
             yield client
 
     def seen(self, play: Play, device: Which) -> Seen:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.model.exchanges import snake_case
 
+from tests.handed import handed_by
 from tests.lines.timed_line import ScriptedLine, client_on
 
 if TYPE_CHECKING:
@@ -37,14 +38,14 @@ def namespace(made: ModuleType) -> dict[str, Any]:
     for module in ("messages", "device", "strategies", "recordings"):
         names[module] = importlib.import_module(f"{made.__name__}.{module}")
     # Some are imported when they are first used.
-    importlib.import_module(f"{made.__name__}._library")
+    client_class = handed_by(made.__name__).client
 
     def asked(call: Callable[[Any], object], *replies: Any) -> object:
         """Return what a call of the client gives; each frame that it sends gets a reply."""
         frames = (reply.encode() for reply in replies)
         line = ScriptedLine(lambda _: next(frames, b""))
         options = {"baud": math.inf, "local_echo": False}
-        with client_on(line, names["Controller"], **options) as client:
+        with client_on(line, client_class, **options) as client:
             return call(client)
 
     def handled(handler: str, message: Any, reply: Any) -> object:
@@ -188,6 +189,8 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
         yield f"Direction.{way.name}"
         yield f"StreamDecoder(Direction.{way.name}).feed(b'')"
     exchanges = importlib.import_module(f"{made.__name__}._exchanges")
+    handed = handed_by(made.__name__)
+    clients = [handed.client.__name__, handed.async_client.__name__]
     for kind, exchange in exchanges.EXCHANGES.items():
         usual = usual_values(kind)
         reply = _reply(exchange, usual)
@@ -204,16 +207,16 @@ def _of_ends(made: ModuleType) -> Iterator[str]:
             yield f"isinstance(asked(lambda client: client.{exchange.method}({named})), Sent)"
         handler = f"on_{snake_case(kind.__name__)}"
         call = made_by_name(kind.__name__, usual)
-        yield f"callable(AsyncController.{exchange.method})"
+        yield f"callable({clients[1]}.{exchange.method})"
         yield f"handled({handler!r}, {call}, {reply})"
         yield f"callable(Device.{handler})"
     methods = {exchange.method for exchange in exchanges.EXCHANGES.values()}
-    for client in ("Controller", "AsyncController", "OneDevice", "AllDevices"):
+    for client in (*clients, "OneDevice", "AllDevices"):
         for each, value in vars(getattr(made, client, object)).items():
             if not each.startswith("_"):
                 yield f"callable({client}.{each})"
                 # What others of a client take is seen where they are called.
-                called = client.endswith("Controller") and each in methods
+                called = client in clients and each in methods
                 if inspect.isfunction(value) and not called:
                     yield f"accepted({client}.{each}, {_needed(value)})"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from functools import cache
 from importlib import import_module
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from busservo_simulator import VirtualClock
 from busservo_simulator.virtual_loop import run_virtual
+from framegen.checks import client_name
 from framegen.comparison import surface
 from framegen.render import render, snippets
 from framegen.site.project import Project
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from framegen.compile import Compiled
+    from framegen.language.spec import Spec
 
 # One with poses, and one whose devices have addresses.
 FILES = {"busservo": BUSSERVO, "lxservo": ROOT / "spec" / "lxservo.yaml"}
@@ -165,3 +168,31 @@ def test_several_words_become_several() -> None:
     client = snippets()["python"](model, message, message.message.examples[0])[0]
     assert 'with open_green_house("COM5") as green_house:' in client.code
     assert "green_house." in client.code
+
+
+def test_no_client_hides_what_a_library_has() -> None:
+    spec = layout_of(data_of(FILES["lxservo"])).spec
+    files = files_of("lxservo")
+    there = {name for name in bound_in(files) if name[0].isupper() and name.isalnum()} - NAMES
+    assert {"OneDevice", "NoReplyError", "Position", "HostMessage", "Sent", "Client"} <= there
+    assert {name for name in there if not refused(spec, name)} == set()
+    # These begin as a class of Python's own, or end as one of the library's, and are neither.
+    for name in ("Arm", "Bus", "AsynchronousMotor", "Clients", "ARM", "Controller", "Lxservo"):
+        assert not refused(spec, name), name
+
+
+def bound_in(files: dict[str, str]) -> set[str]:
+    """Return the names that the modules of clients import or define, or the package exports."""
+    modules = ("_controller.py", "_async_controller.py", "_devices.py", "__init__.pyi")
+    return {
+        (each.asname or each.name) if isinstance(each, ast.alias) else each.name
+        for path, text in files.items()
+        if path.endswith(modules)
+        for each in ast.walk(ast.parse(text))
+        if isinstance(each, ast.alias | ast.ClassDef)
+    }
+
+
+def refused(spec: Spec, name: str) -> bool:
+    protocol = spec.protocol.model_copy(update={"client": name})
+    return [*client_name.RULE.look(spec.model_copy(update={"protocol": protocol}))] != []
