@@ -24,7 +24,7 @@ from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.virtual_loop import run_virtual
 from framewire.client.exchange import Exchange
 from framewire.client.session import Session
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
@@ -34,10 +34,12 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     import pytest
     from framewire.client.request import Request
+
+    from tests.lines.virtual_line import Answer
 
 REPLY_TIMEOUT = 0.25
 # Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.
@@ -50,18 +52,33 @@ OVERDUE = 2 * (TRIP + REPLY_TIMEOUT)
 # ---------------------------------------------------------------- a value that only rises
 
 
-def rising(line: VirtualLine, late: dict[int, float]) -> Callable[[Message], Iterator[object]]:
+class Reply(NamedTuple):
+    """When a reply of a rising servo was asked for, in how many bytes, when it came, and what."""
+
+    asked: float
+    size: int
+    came: float
+    position: int
+
+    def may_be_taken_for(self, other: Reply) -> bool:
+        """Return whether this one came while the other was due, and before that.
+
+        It came no sooner than the other can have, on a line that runs a little fast.
+        """
+        return other.asked + 0.95 * other.size / 960 <= self.came < other.came
+
+
+def rising(line: VirtualLine, late: dict[int, float], said: list[Reply]) -> Answer:
     """Return a board whose servo only rises; some replies, by their number, come late."""
-    asked = 0
 
     def answer(message: Message) -> Iterator[tuple[float, bytes]]:
-        nonlocal asked
         if isinstance(message, ServoPositionsRead):
             position = int(line.now * 1000)
             reply = ServoPositions([(servo, position) for servo in message.servo_ids])
             size = len(message.encode()) + len(reply.encode())
-            yield size / 960 + late.get(asked, 0.0), reply.encode()
-            asked += 1
+            delay = size / 960 + late.get(len(said), 0.0)
+            said.append(Reply(line.now, size, line.now + delay, position))
+            yield delay, reply.encode()
 
     return answer
 
@@ -70,6 +87,10 @@ def rising(line: VirtualLine, late: dict[int, float]) -> Callable[[Message], Ite
 OvertakingLine = partial(VirtualLine, in_order=False)
 
 
+# The late reply comes 50 us before the one that is due: nothing tells which it is.
+@example(0.892578125, 0, [1, 2], 0)
+# It comes a little sooner than that can: it is dropped.
+@example(0.8916, 0, [1, 2], 0)
 @given(
     st.floats(0.5, 0.9),
     st.integers(0, 12),
@@ -80,7 +101,8 @@ def test_a_servo_that_only_rises_is_never_read_going_down(
     late_by: float, place: int, servos: list[int], retries: int
 ) -> None:
     line = OvertakingLine()
-    line.answer = rising(line, {place: late_by})  # type: ignore[assignment]
+    said: list[Reply] = []
+    line.answer = rising(line, {place: late_by}, said)
     client = client_on(
         line, Controller, baud=9600, reply_timeout=REPLY_TIMEOUT, retries=retries, settle=None
     )
@@ -93,8 +115,13 @@ def test_a_servo_that_only_rises_is_never_read_going_down(
             continue
         finally:
             assert line.now - began < 6 * REPLY_TIMEOUT
-    assert read == sorted(read)
     assert len(read) >= place + 7  # only the late one may have failed
+    if any(said[place].may_be_taken_for(each) for each in said[place + 1 :]):
+        # That one read may be stale; those behind it are right.
+        stale = [each for each in read if each == said[place].position]
+        assert len(stale) <= 1
+        read = [each for each in read if each not in stale]
+    assert read == sorted(read)
     client.close()
 
 
