@@ -170,6 +170,11 @@ class Board:
         """Return when these bytes, sent as they are, reached the host."""
         return [said.at for said in self.said if said.data == data]
 
+    def asked_at(self, number: int) -> float:
+        """Return when a question was received; before all time if it is not remembered."""
+        times = (each.at for each in reversed(self.received) if each.number == number)
+        return next(times, -math.inf)
+
     def troubled(self, since: float, until: float) -> bool:
         """Return whether a fault happened then, or a piece of such a reply reached the host."""
         return any(since <= at <= until for at in self.troubles)

@@ -3,8 +3,12 @@
 A call is right if its value answers a question that the board received after the call began. Any
 other must be excused: by a fault that happened during it or during the call before. So the second
 next call after a fault is right. A stale value is excused only if its reply was complete no earlier
-than question and reply can have fitted on the wire, if the right one had not come as well, and
-never twice in a row for one fault.
+than question and reply can have fitted on the wire, if the right one had not come as well since the
+question was sent last, and never twice in a row for one fault.
+
+A call takes as many reply times as it asked, and those for which the replies to the calls before it
+may be late: one, or two behind a call that asked again and was answered at once. It asks three
+times at most.
 """
 
 from __future__ import annotations
@@ -33,12 +37,22 @@ if TYPE_CHECKING:
 SIX = (1, 2, 3, 4, 5, 6)
 # A line may run this much faster than it should, and no host can know.
 FAST = 0.95
+# A question is asked so often at most, where no retries are wanted.
+ATTEMPTS = 3
+# Half a frame that is there as a question would end has so long to go on.
+GAP = 0.05
+# Times that are calculated in two ways differ by less.
+MOMENT = 1e-6
 
 
 class NumberingBoard(Protocol):
     """A board that answers each question with the number of it."""
 
     questions: int
+
+    def asked_at(self, number: int) -> float:
+        """Return when the board received a question; before all time for none."""
+        ...
 
     def arrivals(self, data: bytes) -> list[float]:
         """Return when these bytes reached the host."""
@@ -98,12 +112,19 @@ class Conversation:
         """The calls that ended in a declared error."""
         return [each for each in self.calls if each.number is None]
 
-    def check(self, baud: float, bound: float) -> None:
+    def check(self, baud: float, reply_timeout: float) -> None:
         """Raise AssertionError if a call took too long, or is wrong without an excuse."""
         since, before_was_stale = float("-inf"), False
+        reply_time = reply_timeout + wire_time(SIX, baud)
+        asked_again_at = float("-inf")
         for place, call in enumerate(self.calls):
             described = f"call {place} of {len(self.calls)}: {call}"
-            assert call.ended - call.began <= bound, f"it took too long: {described}"
+            asked = self._last(place) - call.before
+            waits = 2 if call.began < asked_again_at + 2 * reply_time else 1
+            bound = (waits + min(asked, ATTEMPTS)) * reply_time + GAP
+            assert call.ended - call.began <= bound, f"it took too long, {bound}: {described}"
+            if asked > 1:
+                asked_again_at = call.ended
             stale = call.number is not None and not self._fresh(call)
             if call.number is None or stale:
                 assert self.board.troubled(since, call.ended), f"nothing excuses it: {described}"
@@ -115,19 +136,29 @@ class Conversation:
                 assert any(at >= possible_at for at in arrived), (
                     f"impossible: {described}, {arrived}"
                 )
-                assert not self._answered(place), f"the right one had come as well: {described}"
+                assert not self._answered(place, baud), (
+                    f"the right one had come as well: {described}"
+                )
             since, before_was_stale = call.began, stale
 
     def _fresh(self, call: Call) -> bool:
         number = self.board.questions - (self.board.questions - (call.number or 0)) % NUMBERS
         return call.before < number
 
-    def _answered(self, place: int) -> bool:
-        """Return whether an answer to a call had come before it ended."""
-        call, following = self.calls[place], self.calls[place + 1 : place + 2]
-        last = following[0].before if following else self.board.questions
+    def _last(self, place: int) -> int:
+        """Return the number of the last question that the board received during a call."""
+        following = self.calls[place + 1 : place + 2]
+        return following[0].before if following else self.board.questions
+
+    def _answered(self, place: int, baud: float) -> bool:
+        """Return whether an answer to a call came before it ended, since it last asked.
+
+        What came at the moment at which it asked is why it asked again.
+        """
+        call, last = self.calls[place], self._last(place)
+        asked_at = self.board.asked_at(last) - seconds(question_of(call.requested), baud)
         return any(
-            at < call.ended
+            asked_at + MOMENT < at < call.ended
             for number in range(call.before + 1, last + 1)
             for at in self.board.arrivals(reply_to(call.requested, number))
         )
@@ -160,7 +191,12 @@ def reply_to(requested: Requested, number: int) -> bytes:
 
 def wire_time(requested: Requested, baud: float) -> float:
     """Return how long question and reply take on the wire, at the least."""
-    return (len(question_of(requested)) + len(reply_to(requested, 0))) * BITS_PER_BYTE / baud
+    return seconds(question_of(requested) + reply_to(requested, 0), baud)
+
+
+def seconds(data: bytes, baud: float) -> float:
+    """Return how long bytes take on the wire."""
+    return len(data) * BITS_PER_BYTE / baud
 
 
 def repeated(talks: Sequence[Conversation]) -> int:

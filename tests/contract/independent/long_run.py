@@ -18,7 +18,7 @@ from busservo import Controller, open_controller
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.contract.independent.conversation import SIX, Conversation
 from tests.contract.independent.ports import TcpPort, VirtualPort
 from tests.lines.timed_line import client_on
 from tests.timeouts import GENEROUS, await_that
@@ -84,11 +84,13 @@ class Rounds:
         self._right = self._refused = self._stale = 0
         self._began = time.monotonic()
 
-    def end(self, talks: Sequence[Conversation], baud: float, bound: float, quiet: float) -> None:
+    def end(
+        self, talks: Sequence[Conversation], baud: float, reply_timeout: float, quiet: float
+    ) -> None:
         """Check one round, once the line has been `quiet` for some seconds, and forget it."""
         board, controller = self._board, self._controller
         for talk in talks:
-            talk.check(baud, bound)
+            talk.check(baud, reply_timeout)
             self._refused += len(talk.failed)
             self._stale += len(talk.stale)
             self._right += len(talk.calls) - len(talk.failed) - len(talk.stale)
@@ -137,7 +139,7 @@ def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
         for _ in range(rounds):
             for _ in range(requests // rounds):
                 talk.ask(controller, random.choice(KINDS))
-            watch.end([talk], BAUD, 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD)), quiet=2)
+            watch.end([talk], BAUD, REPLY_TIMEOUT, quiet=2)
         watch.print_result()
 
 

@@ -122,9 +122,8 @@ class Run:
             self.reports = [each.encode() for each in controller.reports(timeout=quiet)]
             self.counters = controller.counters
 
-    def check(self, requested: Requested) -> None:
-        # A read may wait for the late reply of the one before it, and then for its own.
-        self.talk.check(BAUD, bound=3 * (REPLY_TIMEOUT + wire_time(requested, BAUD)))
+    def check(self) -> None:
+        self.talk.check(BAUD, REPLY_TIMEOUT)
         assert self.reports == self.board.reported
         assert self.board.refused == []
 
@@ -141,7 +140,7 @@ def test_after_any_fault_the_second_next_read_is_right(read: str, name: str) -> 
     script = (FAULTS | OF_POSITIONS)[name]
     for bench in BENCHES:
         run = Run(READS[read], script, bench)
-        run.check(READS[read])
+        run.check()
         if name in HARMLESS:
             assert run.talk.failed == []
 
@@ -157,7 +156,7 @@ def test_after_any_fault_in_replies_that_end_in_headers_reads_recover(
 ) -> None:
     script = (FAULTS | OF_POSITIONS)[name]
     for bench in BENCHES[1::2]:
-        Run(READS[read], script, bench, first=HEADERS[numbers]).check(READS[read])
+        Run(READS[read], script, bench, first=HEADERS[numbers]).check()
 
 
 def test_without_faults_each_request_is_sent_and_counted_once() -> None:
@@ -182,7 +181,7 @@ def test_a_duplicate_shifts_nothing(read: str) -> None:
     """A reply that came twice made 77 of 80 reads stale, without an error or a count."""
     for bench in BENCHES:
         run = Run(READS[read], faults.duplicated(), bench, reads=80)
-        run.check(READS[read])
+        run.check()
         assert (run.talk.stale, run.talk.failed) == ([], [])
         # Where the adapter hands over both at once, neither is taken, and the read is repeated.
         at_once = bench.latency > 0.01 and READS[read] is None
@@ -194,7 +193,7 @@ def test_a_duplicate_shifts_nothing(read: str) -> None:
 def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
     """`55 55 04 0F` and a report behind it were read as 21845 mV: the report's header."""
     run = Run(None, faults.cut(4, later(gap)), Bench())
-    run.check(None)
+    run.check()
     assert [call.number for call in run.talk.calls[: FAULTY - 1]] == [1, 2, 3]
     assert run.talk.calls[FAULTY - 1].number is None
 
@@ -202,7 +201,7 @@ def test_what_is_cut_off_is_not_made_whole_by_a_report(gap: float) -> None:
 @in_turn("report", lambda: [STOPPED, REPORT])
 def test_a_report_that_fills_what_is_missing_is_no_part_of_the_reply(report: bytes) -> None:
     run = Run(SIX, faults.cut(-len(report), later(0.0, report)), Bench())
-    run.check(SIX)
+    run.check()
 
 
 BYTE = BITS_PER_BYTE / BAUD
@@ -222,7 +221,7 @@ WINDOW = {
 def test_one_read_at_most_is_stale_where_time_cannot_distinguish_replies(name: str) -> None:
     after, stale = WINDOW[name]
     run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.008))
-    run.check(None)
+    run.check()
     assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY] * stale
     assert run.counters.unsolicited == 1
     assert run.talk.failed == []
@@ -234,7 +233,7 @@ def test_one_read_at_most_is_stale_where_a_board_thinks_for_longer_than_the_wire
 ) -> None:
     """The right reply then comes when that to the next question could: it is waited for."""
     run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.020), reads=20)
-    run.check(None)
+    run.check()
     assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY]
     assert run.counters.unsolicited == 1
     assert run.talk.failed == []

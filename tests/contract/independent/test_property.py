@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.contract.independent.conversation import SIX, Conversation
 from tests.contract.independent.faults import Piece
 from tests.contract.independent.ports import VirtualPort
 from tests.lines.timed_line import client_on
@@ -27,8 +27,6 @@ BAUD = 9600
 REPLY_TIMEOUT = 0.25
 # So many healthy reads show that a line keeps its rate.
 HEALTHY = 8
-# A read may wait for the late reply of the one before it, and then for its own.
-BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
 
 
 class Read(NamedTuple):
@@ -114,6 +112,6 @@ def test_every_read_is_right_or_excused_by_a_fault(
         for _ in range(3):
             talk.ask(controller, SIX)
         received += [each.encode() for each in controller.reports(timeout=2)]
-        talk.check(BAUD, BOUND)
+        talk.check(BAUD, REPLY_TIMEOUT)
         assert received == board.reported
         assert board.refused == []

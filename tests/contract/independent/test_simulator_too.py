@@ -2,24 +2,32 @@
 
 It does not record when a fault happened, so that every fault is over before the last reads, which
 must be right. No stale value may come of a reply that was impossible, whatever happens.
+
+A second copy of a reply that comes half a second behind all that was asked for is a report, since
+the same message might come by itself; and so is then whatever answers nothing.
 """
 
 from __future__ import annotations
 
 import bisect
+from collections import Counter
 from typing import TYPE_CHECKING
 
-from busservo import Controller
+from busservo import BatteryVoltage, Controller, ServoPositions
 from busservo_simulator import Faults, VirtualController
-from hypothesis import given
+from busservo_simulator.board_fault_injector import REPLIES
+from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.contract.independent.conversation import SIX, Conversation, reply_to, wire_time
 from tests.lines.at_board import virtual_board
 from tests.lines.conversation import Numbering
 from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from busservo import Message
     from busservo_simulator.memory_end import MemoryEnd
 
 BAUD = 9600
@@ -28,7 +36,8 @@ REPLY_TIMEOUT = 0.25
 HEALTHY = 8
 # By then, all that was late is there.
 QUIET = 3.0
-BOUND = 3 * (REPLY_TIMEOUT + wire_time(SIX, BAUD))
+# What answers nothing, and comes so long after the last question of its kind, is a report.
+BY_ITSELF = 0.5
 
 
 class Simulated(Numbering):
@@ -43,6 +52,8 @@ class Simulated(Numbering):
         # How many bytes there were by then, and when that was.
         self._sizes: list[int] = []
         self._times: list[float] = []
+        # When the board received each question.
+        self._asked_at = [float("-inf")]
 
     # ---------------------------------------------------------------- a transport
 
@@ -66,6 +77,9 @@ class Simulated(Numbering):
 
     # ---------------------------------------------------------------- what a test looks at
 
+    def asked_at(self, number: int) -> float:
+        return self._asked_at[number]
+
     def arrivals(self, data: bytes) -> list[float]:
         found = []
         at = self._stream.find(data)
@@ -79,6 +93,10 @@ class Simulated(Numbering):
 
     def faulted(self, since: float, until: float) -> bool:
         return self.troubled(since, until)
+
+    def _next(self) -> int:
+        self._asked_at.append(self.clock())
+        return super()._next()
 
 
 chance = st.sampled_from([0.0, 0.0, 0.1, 0.3])
@@ -107,6 +125,50 @@ holed = st.builds(
 )
 
 
+@example(
+    # Asked three times, behind a lost reply: one that was late, and two that a report delayed.
+    Faults(
+        seed=312489,
+        late=0.1,
+        late_by=0.7,
+        splits=0.3,
+        delays=0.1,
+        longest_delay=1.0,
+        dropped=0.1,
+        wrong_count=0.1,
+        unsolicited=0.3,
+    ),
+    [None, SIX, SIX, None, None],
+)
+@example(
+    # A second copy, late by so much that it may have come by itself.
+    Faults(
+        seed=2905329299,
+        coalesced=0.1,
+        delays=0.1,
+        longest_delay=1.0,
+        late=0.3,
+        late_by=0.7,
+        duplicated=0.1,
+    ),
+    [None],
+)
+@example(
+    # A second copy of what was dropped in doubt comes for the answer to the question asked again.
+    Faults(
+        seed=4265632045,
+        noise=0.1,
+        coalesced=0.3,
+        delays=0.3,
+        longest_delay=0.01,
+        late=0.3,
+        late_by=0.7,
+        duplicated=0.1,
+        dropped=0.3,
+        wrong_count=0.1,
+    ),
+    [SIX, (1, 2), None, None, None],
+)
 @given(st.one_of(whole, holed), st.lists(st.sampled_from([None, SIX, (1, 2)]), max_size=8))
 def test_every_read_from_the_faulty_simulator_is_right_or_excused(
     faults: Faults, requested: list[tuple[int, ...] | None]
@@ -126,8 +188,32 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
             simulated.calm_at = board.clock.now()
             for _ in range(3):
                 talk.ask(controller, None)
-            talk.check(BAUD, BOUND)
-            assert received == simulated.reported
+            talk.check(BAUD, REPLY_TIMEOUT)
+            replies = [each for each in received if isinstance(each, REPLIES)]
+            assert [each for each in received if each not in replies] == simulated.reported
+            check_that_they_came_by_themselves(replies, talk, simulated)
+
+
+def check_that_they_came_by_themselves(
+    replies: Sequence[Message], talk: Conversation, simulated: Simulated
+) -> None:
+    """Raise AssertionError unless these reports came, no call has them, and the first were late."""
+    taken = Counter(
+        reply_to(call.requested, call.number) for call in talk.calls if call.number is not None
+    )
+    taken.update(each.encode() for each in replies)
+    for kind in REPLIES:
+        frames = [each.encode() for each in replies if isinstance(each, kind)]
+        for place, frame in enumerate(frames):
+            arrived = simulated.arrivals(frame)
+            assert taken[frame] <= len(arrived), f"it came {arrived}, and never alone: {frame!r}"
+            asked = [
+                call.began
+                for call in talk.calls
+                if kind is (BatteryVoltage if call.requested is None else ServoPositions)
+                and call.began <= arrived[-1]
+            ]
+            assert place or max(asked) + BY_ITSELF < arrived[-1], f"it was asked for: {frame!r}"
 
 
 def test_reads_come_no_faster_than_the_line_allows() -> None:
@@ -143,4 +229,4 @@ def test_reads_come_no_faster_than_the_line_allows() -> None:
             least = 0.95 * wire_time(None, BAUD)
             early = [call for call in talk.calls if call.ended - call.began < least]
             assert early == []
-            talk.check(BAUD, BOUND)
+            talk.check(BAUD, REPLY_TIMEOUT)
