@@ -9,16 +9,21 @@ question was sent last, and never twice in a row for one fault.
 A call takes as many reply times as it asked, and those for which the replies to the calls before it
 may be late: one, or two behind a call that asked again and was answered at once. It asks three
 times at most.
+
+A reply that answers nothing half a second after all was answered is a report, as the same message
+might come by itself; and so is then each that answers nothing.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from busservo import IncompleteReplyError, NoReplyError
 
 from tests.contract.independent.board import BITS_PER_BYTE, NUMBERS
 from tests.contract.independent.firmware import (
+    QUESTIONS,
     battery_question,
     battery_reply,
     positions_question,
@@ -41,6 +46,8 @@ FAST = 0.95
 ATTEMPTS = 3
 # Half a frame that is there as a question would end has so long to go on.
 GAP = 0.05
+# What answers nothing, and comes so long after the last question of its kind, is a report.
+BY_ITSELF = 0.5
 # Times that are calculated in two ways differ by less.
 MOMENT = 1e-6
 
@@ -167,6 +174,32 @@ class Conversation:
         """Return when replies with this number were complete, until the call ended."""
         reply = reply_to(call.requested, call.number or 0)
         return [at for at in self.board.arrivals(reply) if at <= call.ended]
+
+
+def without_replies(talks: Sequence[Conversation], received: Sequence[bytes]) -> list[bytes]:
+    """Return the reports that are no replies.
+
+    Raises AssertionError if another has not come, is the value of a call, or was asked for.
+    """
+    calls = [call for talk in talks for call in talk.calls]
+    numbered = ((call.requested, call.number) for call in calls if call.number is not None)
+    taken = Counter([reply_to(*each) for each in numbered])
+    kept: list[bytes] = []
+    seen: set[int] = set()
+    for frame in received:
+        command = frame[3]
+        if command not in QUESTIONS:
+            kept.append(frame)
+            continue
+        taken[frame] += 1
+        arrived = talks[0].board.arrivals(frame)
+        assert taken[frame] <= len(arrived), f"it came {arrived}, for something else: {frame!r}"
+        asked = (call for call in calls if question_of(call.requested)[3] == command)
+        times = [call.began for call in asked if call.began <= arrived[-1]]
+        late = command in seen or max(times) + BY_ITSELF < arrived[-1]
+        assert late, f"it was asked for: {frame!r}"
+        seen.add(command)
+    return kept
 
 
 def only(positions: Sequence[tuple[int, int]], requested: Sequence[int]) -> int:

@@ -2,32 +2,24 @@
 
 It does not record when a fault happened, so that every fault is over before the last reads, which
 must be right. No stale value may come of a reply that was impossible, whatever happens.
-
-A second copy of a reply that comes half a second behind all that was asked for is a report, since
-the same message might come by itself; and so is then whatever answers nothing.
 """
 
 from __future__ import annotations
 
 import bisect
-from collections import Counter
 from typing import TYPE_CHECKING
 
-from busservo import BatteryVoltage, Controller, ServoPositions
+from busservo import Controller
 from busservo_simulator import Faults, VirtualController
-from busservo_simulator.board_fault_injector import REPLIES
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tests.contract.independent.conversation import SIX, Conversation, reply_to, wire_time
+from tests.contract.independent.conversation import SIX, Conversation, wire_time, without_replies
 from tests.lines.at_board import virtual_board
 from tests.lines.conversation import Numbering
 from tests.lines.timed_line import client_on
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from busservo import Message
     from busservo_simulator.memory_end import MemoryEnd
 
 BAUD = 9600
@@ -36,8 +28,6 @@ REPLY_TIMEOUT = 0.25
 HEALTHY = 8
 # By then, all that was late is there.
 QUIET = 3.0
-# What answers nothing, and comes so long after the last question of its kind, is a report.
-BY_ITSELF = 0.5
 
 
 class Simulated(Numbering):
@@ -189,31 +179,8 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
             for _ in range(3):
                 talk.ask(controller, None)
             talk.check(BAUD, REPLY_TIMEOUT)
-            replies = [each for each in received if isinstance(each, REPLIES)]
-            assert [each for each in received if each not in replies] == simulated.reported
-            check_that_they_came_by_themselves(replies, talk, simulated)
-
-
-def check_that_they_came_by_themselves(
-    replies: Sequence[Message], talk: Conversation, simulated: Simulated
-) -> None:
-    """Raise AssertionError unless these reports came, no call has them, and the first were late."""
-    taken = Counter(
-        reply_to(call.requested, call.number) for call in talk.calls if call.number is not None
-    )
-    taken.update(each.encode() for each in replies)
-    for kind in REPLIES:
-        frames = [each.encode() for each in replies if isinstance(each, kind)]
-        for place, frame in enumerate(frames):
-            arrived = simulated.arrivals(frame)
-            assert taken[frame] <= len(arrived), f"it came {arrived}, and never alone: {frame!r}"
-            asked = [
-                call.began
-                for call in talk.calls
-                if kind is (BatteryVoltage if call.requested is None else ServoPositions)
-                and call.began <= arrived[-1]
-            ]
-            assert place or max(asked) + BY_ITSELF < arrived[-1], f"it was asked for: {frame!r}"
+            reports = without_replies([talk], [each.encode() for each in received])
+            assert reports == [each.encode() for each in simulated.reported]
 
 
 def test_reads_come_no_faster_than_the_line_allows() -> None:
