@@ -24,7 +24,8 @@ from framegen.reading.source import Source
 from framegen.reading.yamltree import Tree, Unusable, read_tree
 from framegen.render import render_target
 from framegen.targets import python, vectors
-from framewire.explain.protocol import Slot
+from framewire.explain import words
+from framewire.protocol.words import Scale as Unit
 from pydantic import ValidationError
 
 from tests.guide_specs import SPECS
@@ -129,9 +130,8 @@ def compiled_of(data: Data, name: str = "made_up.yaml") -> Compiled:
 def in_larger_unit(text: str, value: float) -> str:
     """Return a value as an explanation has it, in the unit of a scale."""
     scale = Scale.parse(text)
-    said = [f"{scale.step:f}", scale.unit, *([f"{scale.offset:f}"] if scale.offset else [])]
-    words, _ = Slot({"role": "field", "scale": said}, "big").in_words(value)
-    return words.partition(" = ")[2]
+    unit = Unit(f"{scale.step:f}", scale.unit, f"{scale.offset:f}")
+    return f"{words.scaled(unit, value):f} {scale.unit}".rstrip()
 
 
 @cache

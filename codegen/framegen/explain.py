@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framewire.explain import explanation
 from framewire.explain.explanation import Judgement, rows_of
+from framewire.explain.slot_bytes import legal_length
 
 from framegen.language.values import Direction
 from framegen.model.verdict import weigh_whole
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 def explain(model: Model, data: bytes, directions: Sequence[Direction]) -> Explanation:
     """Explain `data` as one frame sent in any of `directions`."""
     judge = partial(_judge, model)
-    return explanation.explain(model.plain, judge, data, list(map(str, directions)))
+    return explanation.explain(model.protocol, judge, data, list(map(str, directions)))
 
 
 def _judge(model: Model, direction: str, data: bytes) -> Judgement:
@@ -35,9 +36,9 @@ def _judge(model: Model, direction: str, data: bytes) -> Judgement:
 def seen_rows(model: Model, verdict: Verdict, data: bytes) -> tuple[Row, ...]:
     """Explain the slots that agreed with the beginning of a frame."""
     end = verdict.seen[-1].end if verdict.seen else 0
-    likely = None if verdict.likely is None else model.plain.messages[verdict.likely.name]
-    slots = model.plain.envelopes[verdict.frame].head if verdict.frame else ()
+    likely = None if verdict.likely is None else model.protocol.messages[verdict.likely.name]
+    slots = model.protocol.envelopes[verdict.frame].head if verdict.frame else ()
     if likely is not None and len(verdict.seen) > len(slots):
-        length = likely.length_of(data)
+        length = legal_length(likely, data)
         slots = tuple(likely.lay_out(likely.lengths[0] if length is None else length))
     return rows_of(data, [placed for placed in slots if placed.end <= end], likely)

@@ -85,7 +85,7 @@ class Misfits:
 
     def _elsewhere(self, data: bytes) -> str:
         """Say which look-alike has this frame, and what it means there."""
-        found = recognise(self._reader.model.plain, data)
+        found = recognise(self._reader.model.protocol, data)
         if found is None:
             return ""
         meaning = f", where it {found.meaning}" if found.meaning else ""

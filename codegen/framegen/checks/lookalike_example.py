@@ -18,7 +18,7 @@ def _look(model: Model) -> Iterator[Problem]:
     for name, lookalike in model.spec.lookalikes.items():
         for index, example in enumerate(lookalike.examples):
             path = ("lookalikes", name, "examples", index, "hex")
-            found = recognise(model.plain, example.hex)
+            found = recognise(model.protocol, example.hex)
             if found is None:
                 text = f"this is no frame of {lookalike.title}"
                 yield Problem(path, text, "check its length, its checksum and its ids")

@@ -25,7 +25,7 @@ def wrong_checksum(model: Model, message: MessageLayout, data: bytes) -> str:
     for checksum in sorted(frame.checksums, key=lambda each: each.at % len(data)):
         at = checksum.at % len(data)
         if data[at : at + checksum.size] != message.checksum(checksum, data):
-            plain = model.plain
+            plain = model.protocol
             refused = Refused(
                 plain,
                 plain.envelopes[frame.name],

@@ -6,7 +6,7 @@ from collections import defaultdict
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from framewire.explain.protocol import listed
+from framewire.explain.words import listed
 
 from framegen.guess.framing import read_number
 from framegen.guess.hidden import HiddenFit

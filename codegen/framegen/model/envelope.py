@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framewire.explain.checksum import in_turn
+from framewire.protocol.envelope import in_turn
 
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import (

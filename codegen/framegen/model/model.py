@@ -6,17 +6,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framewire.explain.protocol import Protocol
+from framewire.explain.words import opening
 
-from framegen.model.data import model_data
 from framegen.model.envelope import derive_envelope
 from framegen.model.exchanges import exchanges
 from framegen.model.layout import derive_message
 from framegen.model.limits import sending_limits
+from framegen.model.protocol import protocol_of
 from framegen.model.roles import kinds, settle
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
+
+    from framewire.protocol.protocol import Protocol
 
     from framegen.language.spec import Spec
     from framegen.language.values import Direction
@@ -101,9 +103,9 @@ class Model:
         return [way for way in self.ways if way in self._sent]
 
     @cached_property
-    def plain(self) -> Protocol:
-        """The model as plain data, for what explains it; a library carries the same."""
-        return Protocol(model_data(self))
+    def protocol(self) -> Protocol:
+        """The facts of it, for what explains it; a library carries the same."""
+        return protocol_of(self)
 
     def sent(self, direction: Direction) -> Sequence[MessageLayout]:
         """Return the messages of one direction, in the order of the spec."""
@@ -145,7 +147,7 @@ class Model:
 
     def opening(self, directions: Iterable[Direction]) -> str:
         """Return the beginning of a frame of these directions, in words."""
-        return self.plain.opening(map(str, directions))
+        return opening(self.protocol, map(str, directions))
 
     def largest(self, directions: Iterable[Direction]) -> int:
         """Return the size of the largest legal frame of these directions; 0 for no messages."""

@@ -276,7 +276,7 @@ class _Look:
         return partial(self._expected, reason, offset, likely)
 
     def _expected(self, reason: str, offset: int, likely: MessageLayout | None) -> str:
-        plain, ways = self.model.plain, self.directions
+        plain, ways = self.model.protocol, self.directions
         message = None if likely is None else plain.messages[likely.name]
         frame, largest = plain.envelopes[self.frame.name], self.largest
         refused = Refused(plain, frame, ways, self.data, reason, offset, message, largest)

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from typing import TypeAlias
 
     from ..codec.protocol_codec import ProtocolCodec
-    from ..explain.protocol import Protocol
     from ..frame.message import Message
     from ..line.hid_port import HidPort
     from ..line.link import Link
     from ..line.log import Log
     from ..line.serial_port import SerialPort
+    from ..protocol.protocol import Protocol
     from .async_client import AsyncClient
     from .client import Client
     from .exchange import Exchange, Unaddressed

@@ -11,11 +11,11 @@ TYPE_CHECKING = False  # typing alone would double the time that the import take
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..explain.protocol import Protocol
     from ..frame.direction import Direction
     from ..frame.heads import Heads
     from ..frame.message import Message
     from ..frame.table import Table
+    from ..protocol.protocol import Protocol
     from .careful_decoder import CarefulDecoder
     from .decoder import StreamDecoder
     from .lookalike import Lookalike
@@ -159,6 +159,6 @@ class ProtocolCodec:
 
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""
-        from ..explain.carried_model import protocol
+        from ..protocol.form import carried_by
 
-        return protocol(self.package)
+        return carried_by(self.package)

@@ -8,7 +8,6 @@ from warnings import catch_warnings, simplefilter
 
 from ..codec.hextext import HexError, read_hex
 from ..codec.noise import Noise, UnknownFrame
-from ..explain.carried_model import classes
 from ..frame.errors import DecodeError, EncodeError
 from .console import visible
 from .encode import message_named
@@ -84,7 +83,7 @@ class Answerer:
     @cached_property
     def _classes(self) -> dict[str, str]:
         """The class of each message by its name in the specification, which others use."""
-        return classes(self._library.protocol())
+        return self._library.protocol().classes
 
     @cached_property
     def _names(self) -> dict[str, str]:

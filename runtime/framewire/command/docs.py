@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 
+from ..protocol.form import data_of, message_data
 from .exit_codes import DONE
 from .reference_page import message_list, message_page
 from .reference_search import find, folded, near
@@ -17,7 +18,8 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from typing import Any
 
-    from ..explain.protocol import Message, Protocol
+    from ..protocol.message import Message
+    from ..protocol.protocol import Protocol
     from .program import Program
 
 ABOUT = """\
@@ -63,8 +65,10 @@ def run(arguments: Namespace, program: Program) -> int:
 def _entries(model: Protocol, topic: str, found: list[Message]) -> list[dict[str, Any]]:
     """Return what is printed as JSON."""
     if not topic:
-        return [{"name": message.name, **message.said} for message in found]
-    entries = model.said[topic]
+        return [
+            {"name": message.name, **message_data(message, model.byte_order)} for message in found
+        ]
+    entries = data_of(model)[topic]
     if isinstance(entries, dict):
         return [{"name": name, **entry} for name, entry in entries.items()]
     return list(entries)

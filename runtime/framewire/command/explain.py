@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 from ..codec.hextext import HexError, read_hex
-from ..explain.carried_model import classes
 from ..explain.explanation import Judgement, explain
 from ..explain.text import as_json, as_text
 from ..frame.errors import DecodeError
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 
     from ..codec.protocol_codec import ProtocolCodec
     from ..explain.explanation import Explanation
-    from ..explain.protocol import Protocol
+    from ..protocol.protocol import Protocol
     from .program import Program
 
 ENDS = {NOT_ALL: "the bytes are no frame"}
@@ -56,8 +55,8 @@ def explained(
     model: Protocol, data: bytes, codec: ProtocolCodec, sender: str | None = None
 ) -> Explanation:
     """Explain bytes as the library decodes them; as sent by one end alone, if it is given."""
-    ways = {text: codec.directions(model.said["members"][text]) for text in model.directions}
-    names = {kind: name for name, kind in classes(model).items()}
+    ways = {text: codec.directions(model.members[text]) for text in model.directions}
+    names = {kind: name for name, kind in model.classes.items()}
 
     def judge(direction: str, frame: bytes) -> Judgement:
         try:

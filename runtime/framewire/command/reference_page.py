@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from ..explain.explanation import rows_of
 from ..explain.pattern import pattern
-from ..explain.protocol import listed
+from ..explain.slot_bytes import legal_length
 from ..explain.text import to_hex
+from ..explain.words import kind_in_words, listed, order_in_words
 from ..frame.pluralize import describe_range, pluralize
+from ..protocol.slots import Constant, List, Number, Packed, Text
 from .reference_topics import erratum_lines, unknown_line
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from typing import Any
+    from collections.abc import Iterable, Iterator, Sequence
 
-    from ..explain.protocol import Message, Protocol, Slot
+    from ..protocol.message import Message
+    from ..protocol.protocol import Protocol
+    from ..protocol.slots import Field
+    from ..protocol.words import Example, Note
     from .sheet import Sheet
 
 # Elements of a list in an example that are shown one by one.
@@ -33,9 +37,9 @@ def message_list(
     """
     if command:
         sheet.heading(model.title)
-        sheet.paragraph(model.said["summary"])
-        sheet.paragraphs(model.said["description"])
-        sheet.paragraphs(_notes(model, model.said))
+        sheet.paragraph(model.summary)
+        sheet.paragraphs(model.description)
+        sheet.paragraphs(_notes(model, model.notes))
     digits = max((len(hexed(each)) for each in messages), default=0)
     numbers = max((3, *(len(numbered(each)) for each in messages)))
     width = max(len(message.name) for message in messages)
@@ -69,31 +73,30 @@ def numbered(message: Message) -> str:
 
 def hexed(message: Message) -> str:
     """Return the ids that a frame of a message holds, in hex."""
-    ids = zip(message.frame.ids, message.seen_ids, strict=True)
+    ids = zip(message.envelope.ids, message.seen_ids, strict=True)
     return " ".join(f"0x{number:0{2 * part.size}X}" for part, number in ids)
 
 
 def _reserved(sheet: Sheet, model: Protocol) -> None:
     """Print which ids and names must not be used."""
-    if model.said["reserved"]:
+    if model.reserved:
         sheet.heading("Reserved")
-    for reserved in model.said["reserved"]:
-        what = [str(reserved[key]) for key in ("id", "name", "direction") if key in reserved]
-        sheet.paragraph(f"{', '.join(what)}: {reserved['why']}", 2)
+    for each in model.reserved:
+        number = "" if each.id is None else str(each.id)
+        what = filter(None, (number, each.name, each.direction))
+        sheet.paragraph(f"{', '.join(what)}: {each.why}", 2)
 
 
 def _summary(message: Message) -> str:
-    deprecated = "Deprecated. " if "deprecated" in message.said else ""
-    return f"{deprecated}{message.said['summary']}"
+    return f"{'Deprecated. ' if message.deprecated else ''}{message.summary}"
 
 
 def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
     """Print all that is known of a message."""
-    said = message.said
     sheet.heading(message.name)
-    sheet.paragraph(said["summary"])
-    if "deprecated" in said:
-        sheet.paragraph(f"Deprecated: {said['deprecated']}", colour="yellow")
+    sheet.paragraph(message.summary)
+    if message.deprecated:
+        sheet.paragraph(f"Deprecated: {message.deprecated}", colour="yellow")
     sheet.heading("Bytes")
     sheet.columns([("byte", "hex", "part", "value"), *_pattern(message)])
     sheet.heading("Fields")
@@ -101,80 +104,65 @@ def message_page(sheet: Sheet, model: Protocol, message: Message) -> None:
     sheet.heading("About it")
     _about(sheet, model, message)
     sheet.heading("Examples")
-    for number, example in enumerate(said["examples"]):
+    for number, example in enumerate(message.examples):
         if number:
             sheet.line()
         _example(sheet, model, message, example)
     _slips(sheet, model, message)
     sheet.heading("In Python")
     # What a program calls, where a client has it; the codec behind.
-    for line in [*said.get("client", ()), *([""] if "client" in said else []), *said["python"]]:
+    for line in [*message.client, *[""] * bool(message.client), *message.python]:
         sheet.line(f"  {line}".rstrip())
     sheet.heading("On the command line")
-    for line in said["shell"]:
+    for line in message.shell:
         sheet.line(f"  {line}")
 
 
 def _about(sheet: Sheet, model: Protocol, message: Message) -> None:
     """Print what is known of a message as a whole, and of who receives it."""
     sheet.columns([*_facts(model, message)])
-    sheet.paragraphs(message.said.get("description", ""))
-    sheet.paragraphs(_notes(model, message.said))
+    sheet.paragraphs(message.description)
+    sheet.paragraphs(_notes(model, message.notes))
     receiver = message.direction.partition(" -> ")[2]
-    sheet.paragraphs(_notes(model, model.said["endpoints"][receiver]))
+    sheet.paragraphs(_notes(model, model.endpoints[receiver].notes))
 
 
-def _notes(model: Protocol, said: Any) -> str:
+def _notes(model: Protocol, notes: Iterable[Note]) -> str:
     """Return what else is known, a paragraph each."""
-    notes = (f"{note['text']} ({_cited(model, note['cite'])})" for note in said.get("notes", ()))
-    return "\n\n".join(notes)
+    return "\n\n".join(f"{note.text} ({_cited(model, note.cite)})" for note in notes)
 
 
 def _facts(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
     """Yield what there is to say of a message as a whole."""
-    said = message.said
-    yield "direction:", f"{message.direction} ({said['kind']})"
+    due = message.kind in ("command", "query")
+    link, size = model.link, message.largest
+    time = f"{1000 * size * link.bits_per_byte / link.baud:.1f} ms at {link.baud} baud"
+    yield "direction:", f"{message.direction} ({message.kind})"
     yield from _identity(model, message)
-    for label, key in (
-        ("vendor's name:", "vendor_name"),
-        ("goes on for:", "lasts"),
-        ("asks for as many as:", "asks_for"),
-    ):
-        if key in said:
-            yield label, said[key]
-    if said["kind"] in ("command", "query"):
-        yield "reply:", said.get("reply", "none is due")
-    failed = f"has failed, unless {said.get('good', 0)}:"
-    yield from (
-        (label, said[key])
-        for label, key in (("refused by:", "refusal"), (failed, "failure"))
-        if key in said
-    )
-    for label, key in (
-        ("may lead to:", "reports"),
-        ("answers:", "answers"),
-        ("may follow:", "reports_on"),
-    ):
-        if key in said:
-            yield label, ", ".join(said[key])
-    if "acknowledged" in said:
-        yield "acknowledged by:", said["acknowledged"]
-    if "class" in said:
-        yield "class:", said["class"]
-    if "method" in said:
-        yield "sent by:", said["method"]
-    yield "length rule:", _length_rule(message)
-    link, size = model.said["link"], message.largest
-    time = f"{1000 * size * link['bits_per_byte'] / link['baud']:.1f} ms at {link['baud']} baud"
-    yield "largest frame:", f"{pluralize(size, 'byte')}, {time}"
-    if "since" in said:
-        yield "since:", f"version {said['since']} of the spec"
-    yield "source:", _cited(model, said["cite"])
+    facts = {
+        "vendor's name:": message.vendor_name,
+        "goes on for:": message.lasts,
+        "asks for as many as:": message.asks_for,
+        "reply:": (message.reply or "none is due") if due else "",
+        "refused by:": message.refusal,
+        f"has failed, unless {message.good}:": message.failure,
+        "may lead to:": ", ".join(message.reports),
+        "answers:": ", ".join(message.answers),
+        "may follow:": ", ".join(message.reports_on),
+        "acknowledged by:": message.acknowledged,
+        "class:": message.class_name,
+        "sent by:": message.method,
+        "length rule:": _length_rule(message),
+        "largest frame:": f"{pluralize(size, 'byte')}, {time}",
+        "since:": message.since and f"version {message.since} of the spec",
+        "source:": _cited(model, message.cite),
+    }
+    yield from ((label, text) for label, text in facts.items() if text)
 
 
 def _identity(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
     """Yield the ids of a message, and the name of its frame where there are several."""
-    frame = message.frame
+    frame = message.envelope
     for part, number in zip((*frame.ids, *frame.unsent), message.ids, strict=True):
         unsent = ", not sent" if part in frame.unsent else ""
         yield f"{part.name}:", f"0x{number:0{2 * part.size}X}, {number} in decimal{unsent}"
@@ -183,7 +171,7 @@ def _identity(model: Protocol, message: Message) -> Iterator[tuple[str, str]]:
 
 
 def _length_rule(message: Message) -> str:
-    length = message.frame.length
+    length = message.envelope.length
     name = "size of the frame" if length is None else length.name
     if message.items is None:
         return f"{name} = {describe_range(message.lengths)}"
@@ -215,80 +203,88 @@ def _dots(size: int) -> str:
 
 def _fields(sheet: Sheet, model: Protocol, message: Message) -> None:
     if not message.fields:
-        names = [slot.name for slot in message.frame.slots if slot.role in ("address", "counter")]
+        slots = message.envelope.slots
+        names = [slot.name for slot in slots if slot.role in ("address", "counter")]
         differ = f"frames differ in their {listed(names)} alone" if names else ""
         sheet.line(f"  None: {differ or 'the frame is always the same'}.")
     for slot in message.fields:
-        if slot.role != "list":
+        if not isinstance(slot, List):
             _field(sheet, model, slot, slot.name)
             continue
         many = f"{slot.low} of them" if slot.is_fixed else f"{slot.low}..{slot.high} of them"
-        if "counter" in slot.said:
-            many += f", as {slot.said['counter']} says"
-        if "element" in slot.said:
-            sheet.line(f"  {slot.name}  list of {slot.said['element']}, {many}")
-            _said(sheet, model, slot.said)
+        if slot.counter:
+            many += f", as {slot.counter} says"
+        if slot.element:
+            sheet.line(f"  {slot.name}  list of {slot.element}, {many}")
+            _said(sheet, model, slot)
             many = ""
         for field in slot.fields:
             _field(sheet, model, field, slot.path("i", field), many)
 
 
-def _field(sheet: Sheet, model: Protocol, slot: Slot, path: str, many: str = "") -> None:
-    said = slot.said
-    absent = "may be absent" if said.get("optional") else ""
-    words = (slot.kind, slot.order_in_words, absent, _values(slot), said.get("unit", ""), many)
+def _field(
+    sheet: Sheet,
+    model: Protocol,
+    slot: Constant | Number | Text | Packed,
+    path: str,
+    many: str = "",
+) -> None:
+    number = slot if isinstance(slot, Number) else None
+    absent = "may be absent" if number and number.optional else ""
+    unit = slot.unit if isinstance(slot, (Number, Packed)) else ""
+    words = (kind_in_words(slot), order_in_words(slot), absent, _values(slot), unit, many)
     sheet.line(f"  {path}  {_joined(*words)}")
-    if "scale" in said:
-        step, unit, *offset = said["scale"]
-        beginning = "".join(f", and 0 is {each} {unit}".rstrip() for each in offset)
-        sheet.paragraph(f"{f'One step is {step} {unit}'.rstrip()}{beginning}.", 6)
-    for name, (low, high, about) in said.get("bits", {}).items():
+    scale = slot.scale if isinstance(slot, (Number, Packed)) else None
+    if scale is not None:
+        step = f"One step is {scale.step} {scale.unit}".rstrip()
+        zero = f", and 0 is {scale.offset} {scale.unit}".rstrip() if scale.offset else ""
+        sheet.paragraph(f"{step}{zero}.", 6)
+    for name, (low, high, about) in number.bits.items() if number else ():
         at = f"bit {low}" if low == high else f"bits {low}..{high}"
         sheet.paragraph(f"{at}: {name}{', ' if about else ''}{about}", 6)
-    _said(sheet, model, said)
+    _said(sheet, model, slot)
 
 
-def _values(slot: Slot) -> str:
+def _values(slot: Constant | Number | Text | Packed) -> str:
     """Return the values that a field may have."""
-    if slot.role == "constant":
-        return f"always {to_hex(slot.data)}"
-    if slot.role == "reserved":
-        return f"written as {to_hex(slot.data)}, read as anything"
-    if slot.role == "text":
+    if isinstance(slot, Constant):
+        data = to_hex(slot.data)
+        is_free = slot.role == "reserved"
+        return f"written as {data}, read as anything" if is_free else f"always {data}"
+    if isinstance(slot, Text):
         return f"up to {slot.size} characters"
-    if slot.role == "count":
-        return "as many as there are"
-    if slot.role == "size":
-        return "as many bytes as there are"
-    return "any number" if slot.is_float else f"{slot.low}..{slot.high}"
+    if isinstance(slot, Number) and slot.is_counted:
+        return f"as many {'bytes ' if slot.role == 'size' else ''}as there are"
+    is_free = isinstance(slot, Number) and slot.is_float
+    return "any number" if is_free else f"{slot.low}..{slot.high}"
 
 
-def _said(sheet: Sheet, model: Protocol, said: Any) -> None:
+def _said(sheet: Sheet, model: Protocol, slot: Field) -> None:
     """Print what is written of a field: what it is, its values, limits and notes."""
-    sheet.paragraph(said.get("about", ""), 6)
-    for name, value in said.get("values", {}).items():
-        cited = f" ({_cited(model, value['cite'])})" if "cite" in value else ""
-        sheet.paragraph(f"{value['value']} is {name}: {value['about']}{cited}", 6)
-    if "limits" in said:
-        limits = said["limits"]
-        others = [f"{who} take {bounds}" for who, bounds in limits["others"].items()]
-        conditions = "; ".join(["unless told otherwise", *others])
-        sheet.paragraph(f"A client sends {limits['usual']} {conditions}.", 6)
-    if "signed_as" in said:
-        sheet.paragraph(f"It can be read as {said['signed_as']}, too.", 6)
-    for note in said.get("notes", ()):
-        sheet.paragraph(f"{note['text']} ({_cited(model, note['cite'])})", 6)
-    if "cite" in said:
-        sheet.paragraph(f"Source: {_cited(model, said['cite'])}", 6)
+    sheet.paragraph(slot.about, 6)
+    if isinstance(slot, Number):
+        for name, value in slot.values.items():
+            cited = f" ({_cited(model, value.cite)})" if value.cite else ""
+            sheet.paragraph(f"{value.value} is {name}: {value.about}{cited}", 6)
+        if slot.limits is not None:
+            others = [f"{who} take {bounds}" for who, bounds in slot.limits.others.items()]
+            conditions = "; ".join(["unless told otherwise", *others])
+            sheet.paragraph(f"A client sends {slot.limits.usual} {conditions}.", 6)
+        if slot.signed_as:
+            sheet.paragraph(f"It can be read as {slot.signed_as}, too.", 6)
+    for note in slot.notes:
+        sheet.paragraph(_notes(model, [note]), 6)
+    if slot.cite:
+        sheet.paragraph(f"Source: {_cited(model, slot.cite)}", 6)
 
 
-def _example(sheet: Sheet, model: Protocol, message: Message, example: Any) -> None:
-    data = bytes.fromhex(example["hex"])
-    origin = _cited(model, example["cite"]) if "cite" in example else ""
-    made = f"constructed: {example['constructed']}" if "constructed" in example else ""
-    sheet.paragraph(f"{example['title']} ({origin or made})", 2)
-    sheet.paragraph(example["hex"], 4)
-    slots = [*message.lay_out(message.length_of(data) or 0)]
+def _example(sheet: Sheet, model: Protocol, message: Message, example: Example) -> None:
+    data = bytes.fromhex(example.hex)
+    origin = _cited(model, example.cite) if example.cite else ""
+    made = f"constructed: {example.constructed}" if example.constructed else ""
+    sheet.paragraph(f"{example.title} ({origin or made})", 2)
+    sheet.paragraph(example.hex, 4)
+    slots = [*message.lay_out(legal_length(message, data) or 0)]
     rows = rows_of(data, slots[:_MOST_ROWS], message)
     cells = [
         (f"  {row.offset:>4}", to_hex(row.data), row.path, _joined(row.text, row.order))
@@ -301,14 +297,14 @@ def _slips(sheet: Sheet, model: Protocol, message: Message) -> None:
     """Print the errata of a message, and what is not known of it."""
     errata = [
         (number, each)
-        for number, each in enumerate(model.said["errata"], 1)
-        if each["message"] == message.name
+        for number, each in enumerate(model.errata, 1)
+        if each.message == message.name
     ]
     if errata:
         sheet.heading("Errata")
         for number, erratum in errata:
             erratum_lines(sheet, model, number, erratum)
-    unknowns = [each for each in model.said["unknowns"] if each["message"] == message.name]
+    unknowns = [each for each in model.unknowns if each.message == message.name]
     if unknowns:
         sheet.heading("Not known")
         for unknown in unknowns:

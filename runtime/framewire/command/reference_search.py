@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 
+from ..protocol.form import message_data
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any
 
-    from ..explain.protocol import Message, Protocol
+    from ..protocol.message import Message
+    from ..protocol.protocol import Protocol
 
 # So much alike are a word and what was meant by it; of other words, many are half alike.
 _MUCH_ALIKE = 0.75
@@ -34,7 +37,8 @@ def find(model: Protocol, words: str) -> list[Message]:
     in_names, in_texts = [], []
     for each in messages:
         names = " ".join(_names(each))
-        text = "".join(f" {folded(word)}" for text in _texts(each.said) for word in text.split())
+        words_in = (word for text in _written(model, each) for word in text.split())
+        text = "".join(f" {folded(word)}" for word in words_in)
         if all(word in names for word in sought):
             in_names.append(each)
         elif all(word in names or f" {word}" in text for word in sought):
@@ -46,7 +50,7 @@ def near(model: Protocol, words: str) -> list[str]:
     """Return the names of messages that are much like `words`; else words of what is written."""
     messages = model.messages.values()
     names = {name: each.name for each in messages for name in _names(each)}
-    texts = (text for each in messages for text in _texts(each.said))
+    texts = (text for each in messages for text in _written(model, each))
     written = {folded(word) for text in texts for word in text.split() if word.isalpha()}
     found = [names[name] for name in get_close_matches(folded(words), names)]
     return list(dict.fromkeys(found)) or get_close_matches(
@@ -60,8 +64,7 @@ def folded(word: str) -> str:
 
 
 def _names(message: Message) -> list[str]:
-    said = message.said
-    names = [message.name, said.get("class", ""), said.get("vendor_name", "")]
+    names = [message.name, message.class_name, message.vendor_name]
     return [folded(name) for name in names if name]
 
 
@@ -72,6 +75,10 @@ def _numbers(words: str) -> list[int]:
     digits = words.casefold().removeprefix("0x")
     is_hex = digits and all(character in "0123456789abcdef" for character in digits)
     return [int(digits, 16)] if is_hex and len(digits) < 20 else []
+
+
+def _written(model: Protocol, message: Message) -> Iterator[str]:
+    return _texts(message_data(message, model.byte_order))
 
 
 def _texts(said: Any) -> Iterator[str]:

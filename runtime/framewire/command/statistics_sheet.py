@@ -6,6 +6,7 @@ import json
 import sys
 from datetime import datetime, timezone
 
+from ..explain.words import scaled
 from ..frame.free_name import freely_named
 from ..frame.pluralize import pluralize
 from ..recording.file import EITHER
@@ -89,7 +90,7 @@ def as_json(found: Statistics, baud: float, link: Link) -> str:
                     "absent": each.absent,
                     "lowest": each.lowest,
                     "highest": each.highest,
-                    "unit": each.quantity.slot.said.get("unit"),
+                    "unit": each.quantity.slot.unit or None,
                 }
                 for each in found.ranges
             ],
@@ -184,8 +185,8 @@ def _ranges(ranges: Iterable[Extremes]) -> Iterator[tuple[str, str]]:
     for each in ranges:
         by_name.setdefault(each.quantity.name, []).append(each)
     for name, some in by_name.items():
-        key, said = some[0].quantity.key, some[0].quantity.slot.said
-        unit = f" {said['unit']}" if said.get("unit") else ""
+        key, slot = some[0].quantity.key, some[0].quantity.slot
+        unit = f" {slot.unit}" if slot.unit else ""
         if key is None or (len(some) == 1 and some[0].key is None):
             yield name, f"{_range(some)}{unit}{_scaled(some)}{_absent(some)}"
         elif len(some) > _MOST_KEYS:
@@ -202,11 +203,11 @@ def _range(some: Sequence[Extremes]) -> str:
 
 def _scaled(some: Sequence[Extremes]) -> str:
     """Return the range in the larger unit, if there is one."""
-    slot = some[0].quantity.slot
-    if "scale" not in slot.said or not _ends(some):
+    scale = some[0].quantity.slot.scale
+    if scale is None or not _ends(some):
         return ""
-    scaled = "..".join(f"{slot.scaled(end):f}" for end in _ends(some))
-    return f" = {scaled} {slot.said['scale'][1]}".rstrip()
+    ends = "..".join(f"{scaled(scale, end):f}" for end in _ends(some))
+    return f" = {ends} {scale.unit}".rstrip()
 
 
 def _absent(some: Sequence[Extremes]) -> str:

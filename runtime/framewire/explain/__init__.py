@@ -1,4 +1,4 @@
-"""Explanation of frames from the model of a protocol as plain data.
+"""Explanation of frames from the facts of a protocol.
 
 It judges nothing: framegen hands it the verdicts of its reference, and a library those of its own
 decoder.

@@ -1,24 +1,36 @@
-"""Checksums worked out from what the data of a protocol says of their method, slow and plain."""
+"""Checksums worked out from what a protocol says of their method, slow and plain."""
 
 from __future__ import annotations
 
+from ..protocol.places import from_front, lay_out
+from .slot_bytes import piece, write
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Mapping, Sequence
     from typing import Any
 
+    from ..protocol.envelope import Envelope
+    from ..protocol.slots import Number
 
-def in_turn(covered: Mapping[str, Collection[str]]) -> list[str]:
-    """Return the checksums of a frame in turn: one that another covers comes first.
 
-    `covered` are the parts that each is worked out from, by their names.
-    """
-    left, found = [*covered], list[str]()
-    while left:
-        free = (each for each in left if not {*left} & {*covered[each]} - {each})
-        found.append(next(free, left[0]))
-        left.remove(found[-1])
-    return found
+def right(envelope: Envelope, part: Number, frame: bytes, unsent: Sequence[int] = ()) -> bytes:
+    """Return a checksum as a whole frame should have it; `unsent` are the ids not in it."""
+    hidden = zip(envelope.unsent, unsent, strict=False)
+    pieces = {slot.name: write(slot, number) for slot, number in hidden}
+    placed = lay_out(envelope.slots, len(frame))
+    pieces |= {each.path: piece(each, frame) for each in placed}
+    covered = b"".join(pieces.get(name, b"") for name in part.of)
+    return write(part, checksum(part.terms, 8 * part.size, covered))
+
+
+def sealed(envelope: Envelope, frame: bytes, unsent: Sequence[int] = ()) -> bytes:
+    """Return a whole frame with the checksums that it should have."""
+    mended = bytearray(frame)
+    for part in envelope.checksums:
+        at = from_front(part.at, len(frame))
+        mended[at : at + part.size] = right(envelope, part, bytes(mended), unsent)
+    return bytes(mended)
 
 
 def checksum(terms: Mapping[str, Any], width: int, data: bytes) -> int:

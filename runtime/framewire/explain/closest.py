@@ -18,12 +18,16 @@ from .refusals import (
     TRAILING_BYTES,
     UNKNOWN_COMMAND,
 )
+from .slot_bytes import holds, is_in, legal_length, piece, read_in
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
-    from .protocol import Envelope, Message, Placed, Protocol
+    from ..protocol.envelope import Envelope
+    from ..protocol.message import Message
+    from ..protocol.places import Placed
+    from ..protocol.protocol import Protocol
 
 # Which slots bytes are refused by, as far as the reason tells.
 _ROLES = {
@@ -50,9 +54,22 @@ def _attempts(
 ) -> Iterator[Attempt]:
     frames = [*protocol.envelopes.values()]
     for frame in [each for each in frames if protocol.sent(direction, each)] or frames:
-        messages = protocol.begun(direction, frame, data[:offset]) or (None,)
+        messages = _begun(protocol.sent(direction, frame), frame, data[:offset]) or (None,)
         for message in messages:
             yield Attempt(frame, message, data, reason, offset)
+
+
+def _begun(messages: Sequence[Message], frame: Envelope, data: bytes) -> Sequence[Message]:
+    """Return those messages in an envelope that `data` begins: none until its ids tell."""
+    ids = tuple(read_in(part, data) for part in frame.ids if is_in(part, data))
+    found = [each for each in messages if each.seen_ids[: len(ids)] == ids]
+    if len(found) == 1:
+        return found
+    if len(ids) < len(frame.ids):
+        return ()
+    if frame.length is not None and is_in(frame.length, data):
+        return [each for each in found if legal_length(each, data) is not None] or found
+    return found
 
 
 @dataclass(frozen=True)
@@ -74,7 +91,7 @@ class Attempt:
     def nearness(self) -> tuple[bool, bool]:
         """Whether all is right in front of the offset, and wrong there as the reason says."""
         before = all(
-            placed.slot.holds(placed.of(self.data))
+            holds(placed.slot, piece(placed, self.data))
             for placed in self.slots
             if self._precedes(placed)
         )
@@ -85,7 +102,7 @@ class Attempt:
         """The slots of the frame; without a message, those in front of its fields."""
         if self.message is None:
             return self.frame.head
-        length = self.message.length_of(self.data)
+        length = legal_length(self.message, self.data)
         return tuple(self.message.lay_out(self.message.lengths[0] if length is None else length))
 
     def _precedes(self, placed: Placed) -> bool:
@@ -94,7 +111,7 @@ class Attempt:
     @property
     def _is_refused(self) -> bool:
         if self.message is None and all(
-            part.is_in(self.data[: self.offset]) for part in self.frame.ids
+            is_in(part, self.data[: self.offset]) for part in self.frame.ids
         ):
             # There is no message of these ids, and that would have been the reason.
             return False
@@ -108,5 +125,5 @@ class Attempt:
         if placed is None:
             return False
         if self.reason == OUT_OF_RANGE:
-            return not placed.slot.holds(placed.of(self.data))
+            return not holds(placed.slot, piece(placed, self.data))
         return placed.slot.role in _ROLES[self.reason]

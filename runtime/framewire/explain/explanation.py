@@ -7,23 +7,32 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..protocol.places import lay_out
+from ..protocol.slots import Number, Packed, Text
+from .checksum import sealed
 from .closest import closest
 from .lookalikes import recognise
-from .protocol import lay_out, listed
 from .refusals import (
     BAD_CHECKSUM,
     TRAILING_BYTES,
     UNKNOWN_COMMAND,
     Refused,
 )
+from .slot_bytes import frame_length, is_in, legal_length, piece, read_in, value_of, write
+from .words import in_words, listed, order_in_words
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-    from typing import Any, TypeAlias
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from typing import TypeAlias
 
+    from ..protocol.envelope import Envelope
+    from ..protocol.message import Message
+    from ..protocol.places import Placed
+    from ..protocol.protocol import Protocol
+    from ..protocol.words import Example
     from .closest import Attempt
-    from .protocol import Envelope, Message, Placed, Protocol, Value
+    from .slot_bytes import Value
 
     # The verdict on bytes as exactly one frame, sent in a direction.
     Judge: TypeAlias = Callable[[str, bytes], "Judgement"]
@@ -118,55 +127,54 @@ def rows_of(data: bytes, slots: Iterable[Placed], message: Message | None) -> tu
 
 
 def _row(placed: Placed, data: bytes, message: Message | None) -> Row:
-    slot, piece = placed.slot, placed.of(data)
-    where = (placed.at, piece, placed.path, slot.role)
-    if not slot.is_number and slot.role not in ("packed", "text"):
-        return Row(*where, None, "", slot.about, slot.order_in_words)
-    value = slot.value(piece)
-    if slot.is_field or slot.role in ("address", "packed", "text"):
-        return Row(*where, value, *slot.in_words(value), slot.order_in_words)
+    slot, found = placed.slot, piece(placed, data)
+    where, order = (placed.at, found, placed.path, slot.role), order_in_words(slot)
+    if not isinstance(slot, (Number, Packed, Text)):
+        return Row(*where, None, "", slot.about, order)
+    value = value_of(slot, found)
+    if not isinstance(slot, Number) or slot.is_field or slot.role == "address":
+        return Row(*where, value, *in_words(slot, value), order)
     meaning = slot.about
     if slot.role == "length" and message is not None:
         meaning = message.formula if message.varies else f"always {message.formula}"
     elif slot.role == "checksum":
-        meaning = f"{slot.said['method']} of {listed(slot.of)}"
+        meaning = f"{slot.method} of {listed(slot.of)}"
     elif slot.role == "id":
-        is_last = message is not None and slot is message.frame.id
+        is_last = message is not None and slot is message.envelope.id
         meaning = named(message) if message is not None and is_last else ""
-    return Row(*where, value, str(value), meaning, slot.order_in_words)
+    return Row(*where, value, str(value), meaning, order)
 
 
 def named(message: Message) -> str:
     """Name a message, as the vendor does, too."""
-    vendor_name = message.said.get("vendor_name")
+    vendor_name = message.vendor_name
     return f"{message.name}, {vendor_name} to the vendor" if vendor_name else message.name
 
 
 def facts(protocol: Protocol, message: Message, data: bytes) -> Iterator[tuple[str, str]]:
     """Yield what else is to be said of a message with such a frame: a label and a text each."""
-    said = message.said
-    if "deprecated" in said:
-        yield "deprecated", said["deprecated"]
-    if said["kind"] in ("command", "query"):
-        yield "reply", said.get("reply", "none is due")
-    for fact, key in (
-        ("reported by", "reports"),
-        ("answers", "answers"),
-        ("reports on", "reports_on"),
+    if message.deprecated:
+        yield "deprecated", message.deprecated
+    if message.kind in ("command", "query"):
+        yield "reply", message.reply or "none is due"
+    for fact, names in (
+        ("reported by", message.reports),
+        ("answers", message.answers),
+        ("reports on", message.reports_on),
     ):
-        if key in said:
-            yield fact, ", ".join(said[key])
-    for example in said.get("examples", ()):
-        if bytes.fromhex(example["hex"]) == data:
+        if names:
+            yield fact, ", ".join(names)
+    for example in message.examples:
+        if bytes.fromhex(example.hex) == data:
             yield "example", example_in_words(example)
-    cite = said["cite"]
-    source = protocol.said["sources"].get(cite.partition(",")[0])
-    yield "source", cite if source is None else f"{cite} ({source['title']})"
+    cite = message.cite
+    source = protocol.sources.get(cite.partition(",")[0])
+    yield "source", cite if source is None else f"{cite} ({source.title})"
 
 
-def example_in_words(example: Mapping[str, Any]) -> str:
+def example_in_words(example: Example) -> str:
     """Name a documented frame, with where it is documented."""
-    return f"{example['title']} ({example['cite']})" if "cite" in example else example["title"]
+    return f"{example.title} ({example.cite})" if example.cite else example.title
 
 
 def _distance(refusal: Refusal) -> tuple[bool, int]:
@@ -196,10 +204,10 @@ class _Explainer:
         return Explanation(self.protocol.title, self.data, tuple(readings), tuple(refusals), hints)
 
     def _reading(self, message: Message) -> Reading:
-        slots = self._slots(message.frame, message, len(self.data))
+        slots = self._slots(message.envelope, message, len(self.data))
         rows = rows_of(self.data, slots, message)
         said = tuple(facts(self.protocol, message, self.data))
-        return Reading(message.name, message.direction, message.said["summary"], rows, said)
+        return Reading(message.name, message.direction, message.summary, rows, said)
 
     def _refusal(self, direction: str, judgement: Judgement) -> Refusal:
         reason, offset = judgement.reason, judgement.offset
@@ -232,7 +240,7 @@ class _Explainer:
     def _slots(self, frame: Envelope, message: Message | None, end: int) -> list[Placed]:
         """Return the slots up to an offset, in frames of a message if it is known."""
         head = frame.head
-        length = None if message is None else message.length_of(self.data)
+        length = None if message is None else legal_length(message, self.data)
         if message is None or length is None or (head and end < head[-1].end):
             return [placed for placed in head if placed.end <= end]
         return [placed for placed in message.lay_out(length) if placed.end <= end]
@@ -244,8 +252,8 @@ class _Explainer:
             yield Hint(f"sent the other way, they are {otherwise}")
             return
         found = recognise(self.protocol, self.data)
-        if found is not None and "frame" in found.lookalike.said:
-            title, about = found.lookalike.title, " ".join(found.lookalike.said["about"].split())
+        if found is not None and found.lookalike.envelope is not None:
+            title, about = found.lookalike.title, " ".join(found.lookalike.about.split())
             yield Hint(f"this looks like a frame of {_the(title)}. {about}")
         within = list(self._frames_within())
         if not within:
@@ -258,17 +266,17 @@ class _Explainer:
     def _envelopes_of(self, refusals: Sequence[Refusal]) -> list[Envelope]:
         """Return the envelopes that frames of these directions have."""
         ways = {refusal.direction for refusal in refusals}
-        found = (each.frame for each in self.protocol.messages.values() if each.direction in ways)
-        return list({frame.name: frame for frame in found}.values())
+        messages = (each for each in self.protocol.messages.values() if each.direction in ways)
+        return list({each.envelope.name: each.envelope for each in messages}.values())
 
     def _command_hints(self, refusals: Sequence[Refusal]) -> Iterator[Hint]:
         """Say what an unknown command means elsewhere, or why it is reserved."""
         unknown = [each.direction for each in refusals if each.reason == UNKNOWN_COMMAND]
         for frame in self._envelopes_of(refusals) if unknown else ():
             part = frame.id
-            if part is None or not part.is_in(self.data):
+            if part is None or not is_in(part, self.data):
                 continue
-            hints = [*self._meanings(part.read_in(self.data), unknown)]
+            hints = [*self._meanings(read_in(part, self.data), unknown)]
             if frame.checksums and self._is_proven(frame):
                 hints.append(Hint("the checksum is right: a frame that this spec does not have"))
             if hints:
@@ -277,31 +285,31 @@ class _Explainer:
 
     def _meanings(self, number: int, directions: Sequence[str]) -> Iterator[Hint]:
         for lookalike in self.protocol.lookalikes.values():
-            if "frame" not in lookalike.said and number in lookalike.commands:
+            if lookalike.envelope is None and number in lookalike.commands:
                 yield Hint(f"in {_the(lookalike.title)}, {number} {lookalike.commands[number]}")
                 return
-        for reserved in self.protocol.said["reserved"]:
-            way = reserved.get("direction", directions[0])
-            if reserved.get("id") == number and way in directions:
-                yield Hint(f"{number} is reserved: {reserved['why']}")
+        for reserved in self.protocol.reserved:
+            way = reserved.direction or directions[0]
+            if reserved.id == number and way in directions:
+                yield Hint(f"{number} is reserved: {reserved.why}")
 
     def _is_proven(self, frame: Envelope) -> bool:
         """Tell whether the bytes are as long as they say, with the right checksums."""
         if frame.length is None or frame.unsent or len(self.data) < frame.least:
             return False
-        size = frame.length.read_in(self.data) + frame.uncounted
-        return size == len(self.data) and frame.sealed(self.data) == self.data
+        size = frame_length(frame, self.data) + frame.uncounted
+        return size == len(self.data) and sealed(frame, self.data) == self.data
 
     def _length_hints(self, frame: Envelope, refusals: Sequence[Refusal]) -> Iterator[Hint]:
         """Try the length that so many bytes should have, also with the checksum made to fit."""
         size = len(self.data)
         length = size - frame.uncounted
-        if frame.length is None or length not in range(frame.length.high + 1):
+        if frame.length is None or not 0 <= length <= frame.length.high:
             return
         if size < frame.body_at:
             return
         at, end = frame.length.at, frame.length.at + frame.length.size
-        mended = self.data[:at] + frame.length.write(length) + self.data[end:]
+        mended = self.data[:at] + write(frame.length, length) + self.data[end:]
         if mended == self.data:
             return
         has = f"{size} bytes have a {frame.length.name} of {length}"
@@ -309,16 +317,16 @@ class _Explainer:
         if names:
             yield Hint(f"{has}; with that they are {names}", mended)
             return
-        for sealed, names in self._sealed(frame, mended, refusals):
+        for whole, names in self._sealed(frame, mended, refusals):
             yield Hint(
-                f"{has}; with that and {_its(frame, mended, sealed)} they would be {names}", sealed
+                f"{has}; with that and {_its(frame, mended, whole)} they would be {names}", whole
             )
 
     def _checksum_hints(self, frame: Envelope, refusals: Sequence[Refusal]) -> Iterator[Hint]:
         """Make the checksum fit, where that alone is wrong."""
         if any(each.reason == BAD_CHECKSUM for each in refusals):
-            for sealed, names in self._sealed(frame, self.data, refusals):
-                yield Hint(f"with {_its(frame, self.data, sealed)} they would be {names}", sealed)
+            for whole, names in self._sealed(frame, self.data, refusals):
+                yield Hint(f"with {_its(frame, self.data, whole)} they would be {names}", whole)
 
     def _sealed(
         self, frame: Envelope, data: bytes, refusals: Sequence[Refusal]
@@ -327,13 +335,13 @@ class _Explainer:
         if not frame.checksums or len(data) < frame.least:
             return
         unsent = (
-            each.unsent_ids for each in self.protocol.messages.values() if each.frame is frame
+            each.unsent_ids for each in self.protocol.messages.values() if each.envelope is frame
         )
         for hidden in dict.fromkeys(unsent):
-            sealed = frame.sealed(data, hidden)
-            names = self._names([refusal.direction for refusal in refusals], sealed)
-            if names and sealed != data:
-                yield sealed, names
+            whole = sealed(frame, data, hidden)
+            names = self._names([refusal.direction for refusal in refusals], whole)
+            if names and whole != data:
+                yield whole, names
 
     def _frames_within(self) -> Iterator[Hint]:
         """Find whole frames among the bytes, from the first byte on."""
@@ -373,8 +381,8 @@ def _the(title: str) -> str:
     return f"the {title.removeprefix('The ')}"
 
 
-def _its(frame: Envelope, data: bytes, sealed: bytes) -> str:
+def _its(frame: Envelope, data: bytes, whole: bytes) -> str:
     """Name the checksums of a frame that are right only where it is sealed."""
-    parts = zip(lay_out(frame.slots, len(data)), lay_out(frame.slots, len(sealed)), strict=True)
-    wrong = [there.path for here, there in parts if here.of(data) != there.of(sealed)]
+    parts = lay_out(frame.slots, len(whole))
+    wrong = [each.path for each in parts if piece(each, data) != piece(each, whole)]
     return f"the right {listed(wrong)}"

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .protocol import lay_out
+from ..protocol.places import lay_out
+from ..protocol.slots import Constant, Number
+from .checksum import sealed
+from .slot_bytes import holds, piece, read, read_in
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .protocol import Envelope, Lookalike, Placed, Protocol
+    from ..protocol.envelope import Envelope
+    from ..protocol.places import Placed
+    from ..protocol.protocol import Lookalike, Protocol
 
 
 @dataclass(frozen=True)
@@ -29,14 +34,14 @@ class Recognised:
 def recognise(protocol: Protocol, data: bytes) -> Recognised | None:
     """Find the look-alike of which `data` is exactly one frame."""
     for name, lookalike in protocol.lookalikes.items():
-        parts = _parts(lookalike.frame, data)
+        frame = protocol.frame_of(lookalike)
+        parts = _parts(frame, data)
         # With neither a frame nor ids of its own, there is nothing to tell it by.
-        if parts is None or not ("frame" in lookalike.said or lookalike.commands):
+        if parts is None or not (lookalike.envelope or lookalike.commands):
             continue
-        if lookalike.frame.id is None:
+        if frame.id is None:
             continue
-        placed = parts[lookalike.frame.id.name]
-        command = placed.slot.read(placed.of(data))
+        command = read_in(frame.id, data)
         if command in lookalike.commands or not lookalike.commands:
             return Recognised(name, lookalike, tuple(parts.values()), command)
     return None
@@ -48,7 +53,7 @@ def _parts(frame: Envelope, data: bytes) -> dict[str, Placed] | None:
         return None
     parts = {placed.path: placed for placed in lay_out(frame.slots, len(data))}
     # Of ids that are not sent, nothing is known: a checksum that covers them tells nothing.
-    is_proven = frame.unsent or frame.sealed(data) == data
+    is_proven = frame.unsent or sealed(frame, data) == data
     return (
         parts
         if is_proven and all(_fits(placed, parts, data) for placed in parts.values())
@@ -57,12 +62,11 @@ def _parts(frame: Envelope, data: bytes) -> dict[str, Placed] | None:
 
 
 def _fits(placed: Placed, parts: dict[str, Placed], data: bytes) -> bool:
-    slot, found = placed.slot, placed.of(data)
-    if slot.role == "constant":
-        return found == slot.data
+    slot, found = placed.slot, piece(placed, data)
+    if isinstance(slot, Constant):
+        return slot.role == "reserved" or found == slot.data
+    if not isinstance(slot, Number):
+        return True
     if slot.role == "length":
-        return slot.read(found) == sum(parts[name].size for name in slot.of)
-    if slot.role == "address":
-        named = [value["value"] for value in slot.said.get("values", {}).values()]
-        return slot.low <= slot.read(found) <= slot.high or slot.read(found) in named
-    return True
+        return read(slot, found) == sum(parts[name].size for name in slot.of)
+    return slot.role != "address" or holds(slot, found)

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..protocol.slots import Constant, List, Number
+from .slot_bytes import write
+from .words import kind_in_words, order_in_words
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .protocol import Message, Slot
+    from ..protocol.message import Message
+    from ..protocol.slots import Slot
 
 
 @dataclass(frozen=True)
@@ -32,20 +37,20 @@ class Part:
 def pattern(message: Message) -> Iterator[Part]:
     """Yield the parts of any frame of a message."""
     for slot in message.slots:
-        if slot.role != "list":
+        if not isinstance(slot, List):
             place = str(slot.at) if slot.at >= 0 else "end"
             data, text = _said(message, slot)
-            yield Part(place, data, slot.size, slot.name, text, slot.order_in_words, slot.role)
+            yield Part(place, data, slot.size, slot.name, text, order_in_words(slot), slot.role)
             continue
         for field in slot.fields:
             place, path = place_in_each(slot, field.at), slot.path("i", field)
             data, text = _said(message, field)
-            if "text" in slot.said:
+            if slot.text:
                 path, text = slot.name, "text"
-            yield Part(place, data, field.size, path, text, field.order_in_words, "repeated")
+            yield Part(place, data, field.size, path, text, order_in_words(field), "repeated")
 
 
-def place_in_each(items: Slot, at: int = 0) -> str:
+def place_in_each(items: List, at: int = 0) -> str:
     """Return the offset of a number in each element of a list: `7 + 3i`."""
     step = "i" if items.size == 1 else f"{items.size}i"
     return f"{items.at + at} + {step}"
@@ -53,13 +58,14 @@ def place_in_each(items: Slot, at: int = 0) -> str:
 
 def _said(message: Message, slot: Slot) -> tuple[bytes | None, str]:
     """Return the bytes of a slot as far as they are known, and its value or its type."""
-    if slot.role in ("constant", "reserved"):
+    if isinstance(slot, Constant):
         reserved = "reserved" if slot.role == "reserved" else ""
-        return slot.data, ", ".join(filter(None, (reserved, slot.kind)))
+        return slot.data, ", ".join(filter(None, (reserved, kind_in_words(slot))))
+    if not isinstance(slot, Number):
+        return None, kind_in_words(slot)
     if slot.role == "id":
-        number = message.ids[message.frame.ids.index(slot)]
-        return slot.write(number), str(number)
+        number = message.ids[message.envelope.ids.index(slot)]
+        return write(slot, number), str(number)
     if slot.role == "length":
-        return None if message.varies else slot.write(message.lengths[0]), message.formula
-    absent = ", may be absent" if slot.said.get("optional") else ""
-    return None, f"{slot.kind}{absent}"
+        return None if message.varies else write(slot, message.lengths[0]), message.formula
+    return None, f"{kind_in_words(slot)}{', may be absent' if slot.optional else ''}"

@@ -5,13 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..frame.pluralize import describe_range, pluralize
-from .protocol import lay_out, listed
+from ..protocol.places import lay_out
+from ..protocol.slots import Constant, Number, Packed
+from .checksum import right
+from .slot_bytes import frame_length, is_in, legal_length, piece, read, read_in, value_of
+from .words import listed, opening
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from typing import TypeVar
 
-    from .protocol import Envelope, Message, Placed, Protocol
+    from ..protocol.envelope import Envelope
+    from ..protocol.message import Message
+    from ..protocol.places import Placed
+    from ..protocol.protocol import Protocol
+
+    _Kind = TypeVar("_Kind", Constant, Number)
 
 # The reasons for which bytes are no frame. Every target and the test vectors use these words.
 TOO_SHORT = "too short"
@@ -58,7 +68,9 @@ class Refused:
     def _more(self) -> str:
         """Say how much more there should be."""
         placed = self._placed()
-        if placed.slot.role == "constant" and placed.slot.at >= 0 and not placed.slot.is_field:
+        slot = placed.slot
+        is_part = isinstance(slot, Constant) and slot.role == "constant" and not slot.is_field
+        if is_part and slot.at >= 0:
             return self._opening()
         if placed.at < self.frame.body_at or self._length() is None:
             return f"the shortest frame has {pluralize(self._least(), 'byte')}"
@@ -83,35 +95,33 @@ class Refused:
         return "a message" if self.likely is None else self.likely.name
 
     def _opening(self) -> str:
-        return self.protocol.opening(map(str, self.directions))
+        return opening(self.protocol, map(str, self.directions))
 
     def _count(self) -> str:
         placed, length = self._placed(), self._length()
-        found = placed.of(self.data)
+        slot, found = self._at_offset(Number), piece(placed, self.data)
         if length is None or self.frame.length is None:
             lists = None if self.likely is None else self.likely.items
             bounds = "" if lists is None else f", of {lists.low}..{lists.high} elements"
-            return (
-                f"no {self._likely_name} has a {placed.path} of {placed.slot.read(found)}{bounds}"
-            )
-        count = 0 if self.likely is None else self.likely.counted_at(placed.slot, length)
+            return f"no {self._likely_name} has a {placed.path} of {read(slot, found)}{bounds}"
+        count = 0 if self.likely is None else self.likely.counted_at(slot, length)
         has = f"a {self.frame.length.name} of {length} makes {placed.path} {count}"
-        return has if len(found) < placed.size else f"{has}, not {placed.slot.read(found)}"
+        return has if len(found) < placed.size else f"{has}, not {read(slot, found)}"
 
     def _command(self) -> str:
         ways = " or ".join(map(str, self.directions))
         there = (part for part in self.frame.ids if part.at <= self.offset)
-        ids = " and ".join(f"{part.name} {part.read_in(self.data)}" for part in there)
+        ids = " and ".join(f"{part.name} {read_in(part, self.data)}" for part in there)
         return f"no message {ways} has the {ids}"
 
     def _range(self) -> str:
         placed = self._placed()
-        slot = placed.slot
-        if slot.role == "constant":
-            return f"{placed.path} is always {slot.data.hex(' ').upper()}"
-        if slot.role == "text":
-            return f"{placed.path} has the byte {self.data[self.offset]:02X}, which is not ASCII"
-        path, value = placed.path, slot.value(placed.of(self.data))
+        slot, path = placed.slot, placed.path
+        if isinstance(slot, Constant):
+            return f"{path} is always {slot.data.hex(' ').upper()}"
+        if not isinstance(slot, (Number, Packed)):
+            return f"{path} has the byte {self.data[self.offset]:02X}, which is not ASCII"
+        value = value_of(slot, piece(placed, self.data))
         if isinstance(value, list):
             outside = [each for each in enumerate(value) if not slot.low <= each[1] <= slot.high]
             (index, value), *_ = outside
@@ -119,24 +129,29 @@ class Refused:
         return f"{path} is {value}, outside {slot.low}..{slot.high}"
 
     def _checksum(self) -> str:
-        placed = self._placed()
-        slot, unsent = placed.slot, () if self.likely is None else self.likely.unsent_ids
+        slot = self._at_offset(Number)
+        unsent = () if self.likely is None else self.likely.unsent_ids
         whole = self.data[: (self._length() or 0) + self.frame.uncounted]
-        right = self.frame.right(slot, whole, unsent).hex(" ").upper()
-        found = placed.of(self.data).hex(" ").upper()
-        return (
-            f"{placed.path} is {found}; the {slot.said['method']} of {listed(slot.of)} is {right}"
-        )
+        due = right(self.frame, slot, whole, unsent).hex(" ").upper()
+        found = piece(self._placed(), self.data).hex(" ").upper()
+        return f"{slot.name} is {found}; the {slot.method} of {listed(slot.of)} is {due}"
 
     def _trailer(self) -> str:
-        slot = self._placed().slot
+        slot = self._at_offset(Constant)
         return f"{slot.name} is always {slot.data.hex(' ').upper()}"
 
     def _length(self) -> int | None:
         """Return the length that the bytes claim, or that a message has with them."""
         if self.frame.length is not None:
-            return self.frame.length.read_in(self.data)
-        return None if self.likely is None else self.likely.length_of(self.data)
+            return frame_length(self.frame, self.data)
+        return None if self.likely is None else legal_length(self.likely, self.data)
+
+    def _at_offset(self, kind: type[_Kind]) -> _Kind:
+        """Return the slot at the offset, of the kind that is refused for the reason."""
+        slot = self._placed().slot
+        if not isinstance(slot, kind):
+            raise TypeError(f"{self.reason} at {slot.name}, which is no {kind.__name__}")
+        return slot
 
     def _placed(self) -> Placed:
         """Return the slot at the offset."""
@@ -164,9 +179,9 @@ class Refused:
 
     def _named(self) -> list[Message]:
         """Return the messages that have the ids of these bytes, whatever precedes them."""
-        if not all(part.is_in(self.data) for part in self.frame.ids):
+        if not all(is_in(part, self.data) for part in self.frame.ids):
             return []
-        ids = tuple(part.read_in(self.data) for part in self.frame.ids)
+        ids = tuple(read_in(part, self.data) for part in self.frame.ids)
         return [
             message
             for way in self.directions

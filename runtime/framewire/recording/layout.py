@@ -6,18 +6,19 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
-from ..explain.carried_model import classes
 from ..frame.errors import Reason
 from ..frame.free_name import free_name
+from ..protocol.slots import Constant, List, Packed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..codec.protocol_codec import ProtocolCodec
-    from ..explain.protocol import Message as Described
-    from ..explain.protocol import Protocol, Slot
     from ..frame.direction import Direction
     from ..frame.message import Message
+    from ..protocol.message import Message as Described
+    from ..protocol.protocol import Protocol
+    from ..protocol.slots import Number, Slot, Text
 
 # Arrays hold reasons as indices into these.
 REASONS = tuple(Reason)
@@ -84,12 +85,13 @@ class Column:
     def is_list(self) -> bool:
         """Whether it holds several values; characters are one text."""
         slot = self.slot
-        return slot.role == "packed" or (slot.role == "list" and "text" not in slot.said)
+        return isinstance(slot, Packed) or (isinstance(slot, List) and not slot.text)
 
     @property
-    def fields(self) -> list[Slot]:
+    def fields(self) -> list[Number | Text]:
         """What an element of a list holds, without what never changes."""
-        return [slot for slot in self.slot.fields if slot.role in ("field", "text")]
+        slots = self.slot.fields if isinstance(self.slot, List) else ()
+        return [slot for slot in slots if not isinstance(slot, Constant)]
 
 
 def _attribute(name: str, given: Sequence[str]) -> str:
@@ -116,7 +118,7 @@ class Layouts:
     def every(self) -> tuple[Layout, ...]:
         """All messages, in the order in which they are declared."""
         model = self.described
-        names = {there: name for name, there in classes(model).items()}
+        names = {there: name for name, there in model.classes.items()}
         ways = {way: at for at, way in enumerate(self.directions)}
         return tuple(
             Layout(number, kind, ways[kind.DIRECTION], model.messages[names[kind.__name__]])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 
+from ..protocol.slots import List, Number, Packed, Text
 from .events import UNKNOWN_SENDER
 from .places import read_blocks, read_numbers, steps
 from .schema import CLOCK, arrow_type
@@ -15,7 +16,7 @@ from .schema import CLOCK, arrow_type
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..explain.protocol import Slot
+    from ..protocol.slots import Slot
     from ..recording.layout import Column, Layout
     from .events import Frames, NoiseRuns, Numbers, Seconds
     from .schema import Schemas
@@ -90,51 +91,50 @@ class _Column:
     def array(self) -> pa.Array:
         """Its values."""
         slot = self.slot
-        if slot.role == "list":
-            return self._text() if "text" in slot.said else self._list()
-        if slot.role == "text":
-            return _texts(read_blocks(self.frames.data, self._at(slot.at), slot.size))
-        if slot.role == "packed":
-            return self._packed()
-        if slot.said.get("optional"):
-            return self._optional()
-        return pa.array(read_numbers(self.frames.data, self._at(slot.at), slot))
+        match slot:
+            case List():
+                return self._text(slot) if slot.text else self._list(slot)
+            case Packed():
+                return self._packed(slot)
+            case Number(optional=True):
+                return self._optional(slot)
+            case Number() | Text():
+                return _values(self.frames.data, self._at(slot.at), slot)
+        raise AssertionError(f"{slot.name} is given by nobody")
 
     def _at(self, at: int) -> Numbers:
         """Return where a slot begins in `data`, of each frame."""
         start = self.frames.start
         return start + at if at >= 0 else start + self.frames.size.astype(np.int64) + at
 
-    def _optional(self) -> pa.Array:
+    def _optional(self, slot: Number) -> pa.Array:
         end = self.frames.size.astype(np.int64) - self.layout.tail_size
-        there = self.slot.at + self.slot.size <= end
+        there = slot.at + slot.size <= end
         # What is absent is read from the beginning of its frame, and not shown.
-        places = self._at(0) + np.where(there, self.slot.at, 0)
-        places = np.minimum(places, len(self.frames.data) - self.slot.size)
-        return pa.array(read_numbers(self.frames.data, places, self.slot), mask=~there)
+        places = self._at(0) + np.where(there, slot.at, 0)
+        places = np.minimum(places, len(self.frames.data) - slot.size)
+        return pa.array(read_numbers(self.frames.data, places, slot), mask=~there)
 
-    @property
-    def _counts(self) -> Numbers:
-        """How many elements the list has, in each frame."""
-        slot, described = self.slot, self.layout.described
-        if slot.is_fixed:
-            return np.full(len(self.frames.start), slot.low)
-        least = described.lengths[0] + described.frame.uncounted
+    def _counts(self, items: List) -> Numbers:
+        """Return how many elements a list has, in each frame."""
+        if items.is_fixed:
+            return np.full(len(self.frames.start), items.low)
+        described = self.layout.described
+        least = described.lengths[0] + described.envelope.uncounted
         sizes = self.frames.size.astype(np.int64)
-        return slot.low + (sizes - least) // slot.size
+        return items.low + (sizes - least) // items.size
 
-    def _elements(self) -> tuple[Numbers, Numbers]:
+    def _elements(self, items: List) -> tuple[Numbers, Numbers]:
         """Return where the elements of each frame begin among all, and where each is in `data`."""
-        counts = self._counts
+        counts = self._counts(items)
         ends = np.concatenate(([0], np.cumsum(counts)))
-        size = self.slot.size
-        before = self._at(self.slot.at) - size * ends[:-1]
+        before = self._at(items.at) - items.size * ends[:-1]
         places = np.repeat(before, counts)
-        places += steps(size, len(places))
+        places += steps(items.size, len(places))
         return ends, places
 
-    def _list(self) -> pa.Array:
-        ends, places = self._elements()
+    def _list(self, items: List) -> pa.Array:
+        ends, places = self._elements(items)
         fields = self.column.fields
         values = [_values(self.frames.data, places + field.at, field) for field in fields]
         kind = arrow_type(self.layout, self.column)
@@ -144,27 +144,26 @@ class _Column:
             (listed,) = values
         return pa.ListArray.from_arrays(pa.array(ends.astype(np.int32)), listed, type=kind)
 
-    def _text(self) -> pa.Array:
-        ends, places = self._elements()
+    def _text(self, items: List) -> pa.Array:
+        ends, places = self._elements(items)
         return _strings(ends, self.frames.data[places])
 
-    def _packed(self) -> pa.Array:
-        slot = self.slot
-        bits, count = int(slot.said["packed"][1:]), int(slot.said["count"])
+    def _packed(self, slot: Packed) -> pa.Array:
         rows = read_blocks(self.frames.data, self._at(slot.at), slot.size)
         little = slot.order == "little"
         unpacked = np.unpackbits(rows, axis=1, bitorder="little" if little else "big")
-        weights = 1 << np.arange(bits, dtype=np.int64)
-        numbers = unpacked.reshape(len(rows), count, bits) @ (weights if little else weights[::-1])
+        weights = 1 << np.arange(slot.bits, dtype=np.int64)
+        numbers = unpacked.reshape(len(rows), slot.count, slot.bits)
+        numbers = numbers @ (weights if little else weights[::-1])
         kind = arrow_type(self.layout, self.column)
         values = pa.array(numbers.reshape(-1)).cast(kind.value_type)
-        ends = pa.array(np.arange(len(rows) + 1, dtype=np.int32) * count)
+        ends = pa.array(np.arange(len(rows) + 1, dtype=np.int32) * slot.count)
         return pa.ListArray.from_arrays(ends, values, type=kind)
 
 
-def _values(data: NDArray[np.uint8], places: Numbers, slot: Slot) -> pa.Array:
+def _values(data: NDArray[np.uint8], places: Numbers, slot: Number | Text) -> pa.Array:
     """Return the values that begin at some places of `data`."""
-    if slot.role == "text":
+    if isinstance(slot, Text):
         return _texts(read_blocks(data, places, slot.size))
     return pa.array(read_numbers(data, places, slot))
 

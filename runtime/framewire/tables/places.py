@@ -9,21 +9,19 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..explain.protocol import Slot
+    from ..protocol.slots import Number
     from .events import Bytes, Numbers
 
 
-def dtype_of(slot: Slot) -> np.dtype[Any]:
+def dtype_of(slot: Number) -> np.dtype[Any]:
     """Return the type of a number's values, of the machine's byte order."""
     if slot.is_float:
         return np.dtype(f"f{slot.size}")
     # A number of three bytes has room in four.
-    return np.dtype(
-        f"{'i' if slot.said.get('signed') else 'u'}{4 if slot.size == 3 else slot.size}"
-    )
+    return np.dtype(f"{'i' if slot.signed else 'u'}{4 if slot.size == 3 else slot.size}")
 
 
-def read_numbers(data: Bytes, places: Numbers, slot: Slot) -> NDArray[Any]:
+def read_numbers(data: Bytes, places: Numbers, slot: Number) -> NDArray[Any]:
     """Return the numbers that begin at some places of `data`."""
     kind = dtype_of(slot)
     if slot.size == 1:
@@ -36,7 +34,7 @@ def read_numbers(data: Bytes, places: Numbers, slot: Slot) -> NDArray[Any]:
         byte = data.take(places + (lowest + further * number)).astype(numbers.dtype)
         byte <<= numbers.dtype.type(8 * number)
         numbers |= byte
-    if slot.size == 3 and slot.said.get("signed"):
+    if slot.size == 3 and slot.signed:
         return (numbers << np.uint32(8)).view(kind) >> np.int32(8)
     return numbers.view(kind)
 

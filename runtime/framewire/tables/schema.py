@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
 
+from ..protocol.slots import List, Number, Packed
 from ..recording.layout import (
     NOISE,
     PARAMETERS,
@@ -20,7 +21,7 @@ from .places import dtype_of
 
 if TYPE_CHECKING:
     from ..codec.protocol_codec import ProtocolCodec
-    from ..explain.protocol import Slot
+    from ..protocol.slots import Slot
     from ..recording.layout import Column, Layout, Layouts
 
 
@@ -70,7 +71,7 @@ class Schemas:
         ]
         about = {
             "message": layout.name,
-            "summary": str(layout.described.said["summary"]),
+            "summary": layout.described.summary,
             "direction": layout.kind.DIRECTION.value,
             "protocol": self.layouts.described.title,
         }
@@ -117,9 +118,9 @@ def schemas_of(codec: ProtocolCodec) -> Schemas:
 def arrow_type(layout: Layout, column: Column) -> Any:
     """Return the type of the values of a field."""
     slot = column.slot
-    if slot.role == "packed":
-        return pa.list_(pa.uint16() if int(slot.said["packed"][1:]) <= 16 else pa.uint32())
-    if slot.role != "list" or "text" in slot.said:
+    if isinstance(slot, Packed):
+        return pa.list_(pa.uint16() if slot.bits <= 16 else pa.uint32())
+    if not isinstance(slot, List) or slot.text:
         return _plain_type(slot)
     names = layout.element_names(column)
     if not names:
@@ -133,8 +134,7 @@ def arrow_type(layout: Layout, column: Column) -> Any:
 
 def _plain_type(slot: Slot) -> pa.DataType:
     """Return the type of a number or a text."""
-    is_text = slot.role == "text" or "text" in slot.said
-    return pa.string() if is_text else pa.from_numpy_dtype(dtype_of(slot))
+    return pa.from_numpy_dtype(dtype_of(slot)) if isinstance(slot, Number) else pa.string()
 
 
 def _event_fields() -> list[pa.Field]:
@@ -148,21 +148,22 @@ def _field(name: str, kind: pa.DataType, said: dict[str, str]) -> pa.Field:
 def _said_of(column: Column) -> dict[str, str]:
     """Return what is known of a column; of bare numbers and characters, what each of them is."""
     slot = column.slot
-    is_bare = slot.role == "list" and not slot.said.get("element")
+    is_bare = isinstance(slot, List) and not slot.element
     return _said(column.fields[0]) | _said(slot) if is_bare else _said(slot)
 
 
 def _said(slot: Slot) -> dict[str, str]:
     """Return what is known of a field, as metadata: text, or JSON."""
-    said = slot.said
-    found = {key: str(said[key]) for key in ("about", "unit", "signed_as") if said.get(key)}
-    if "scale" in said:
-        step, unit, *offset = said["scale"]
-        found["scale"] = json.dumps({"step": step, "unit": unit, "offset": (*offset, "0")[0]})
-    if "values" in said:
-        values = {name: each["value"] for name, each in said["values"].items()}
+    texts = {key: getattr(slot, key, "") for key in ("about", "unit", "signed_as")}
+    found = {key: text for key, text in texts.items() if text}
+    scale = slot.scale if isinstance(slot, (Number, Packed)) else None
+    if scale is not None:
+        offset = scale.offset or "0"
+        found["scale"] = json.dumps({"step": scale.step, "unit": scale.unit, "offset": offset})
+    if isinstance(slot, Number) and slot.values:
+        values = {name: each.value for name, each in slot.values.items()}
         found["values"] = json.dumps(values)
-    if "bits" in said:
-        bits = {name: [low, high] for name, (low, high, _) in said["bits"].items()}
+    if isinstance(slot, Number) and slot.bits:
+        bits = {name: [each.low, each.high] for name, each in slot.bits.items()}
         found["bits"] = json.dumps(bits)
     return found

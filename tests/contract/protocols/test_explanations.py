@@ -9,7 +9,7 @@ import pytest
 from framegen.explain import explain
 from framegen.model.checksums import CHECK_DATA, CHECKSUMS
 from framegen.model.codec import decode
-from framegen.model.data import method_terms
+from framegen.model.protocol import method_terms
 from framewire.explain.checksum import checksum
 from framewire.explain.text import as_json, as_text
 

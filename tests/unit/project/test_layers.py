@@ -125,7 +125,7 @@ def test_a_module_with_one_user_is_imported_there_alone(name: str) -> None:
 COMMON = Path(__file__).parents[3] / "runtime" / "framewire"
 # From the bottom up.
 COMMON_LAYERS = [
-    {"edition", "part", "frame"},
+    {"edition", "part", "frame", "protocol"},
     {"explain"},
     {"codec"},
     {"recording", "line"},

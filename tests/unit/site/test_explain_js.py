@@ -100,14 +100,9 @@ def _lists(pairs: tuple[tuple[str, str], ...]) -> list[list[str]]:
 def frames_for(model: Model, name: str) -> list[bytes]:
     """Return documented frames, changed ones, frames of look-alikes, and noise."""
     chance = random.Random(name)  # noqa: S311 - the same frames in every run
-    documented = [
-        bytes.fromhex(example["hex"])
-        for said in (
-            *model.plain.said["messages"].values(),
-            *model.plain.said["lookalikes"].values(),
-        )
-        for example in said["examples"]
-    ]
+    examples = [each.examples for each in model.protocol.messages.values()]
+    examples += [each.examples for each in model.protocol.lookalikes.values()]
+    documented = [bytes.fromhex(each.hex) for some in examples for each in some]
     # Legal both ways; and of a length that no such message has.
     by_hand = ["55 55 05 06 08 01 00", "55 55 09 03 01 E8 03 01 20 03"] * (name == "busservo")
     found = [b"", *map(bytes.fromhex, by_hand), *documented]

@@ -161,7 +161,7 @@ def test_an_explanation_and_a_drawing_show_the_same_parts(turn: int) -> None:
         )
         assert [row.path for row in rows] == pair.renamed([row.path for row in before])
         assert [(row.data, row.text) for row in rows] == [(row.data, row.text) for row in before]
-        plain, was = turned(turn)[0].model.plain.messages, _plain().model.plain.messages
+        plain, was = turned(turn)[0].model.protocol.messages, _plain().model.protocol.messages
         cells = pattern_strip(plain[pair.message.name])
         drawn = pattern_strip(was[pair.before.name])
         assert [cell.name for cell in cells] == pair.renamed([cell.name for cell in drawn])

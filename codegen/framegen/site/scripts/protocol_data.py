@@ -65,7 +65,7 @@ def _direction(model: Model, way: Direction) -> dict[str, Any]:
         "receiver": way.receiver,
         "text": f"{way.sender} to {way.receiver}",
         "arrow": str(way),
-        "opening": model.plain.opening([str(way)]),
+        "opening": model.opening([way]),
     }
 
 
@@ -94,15 +94,14 @@ def explained_elsewhere(model: Model) -> dict[str, Any]:
 
 def _said(model: Model, name: str) -> dict[str, Any]:
     """Return what explanations say of a message."""
-    plain = model.plain.messages[name]
+    plain = model.protocol.messages[name]
     formula = plain.formula if plain.varies else f"always {plain.formula}"
     return {
         "means": {"length": formula, "id": named(plain)},
         "lengths": describe_range(plain.lengths),
-        "facts": [*facts(model.plain, plain, b"")],
+        "facts": [*facts(model.protocol, plain, b"")],
         "documented": [
-            {"hex": example["hex"], "text": example_in_words(example)}
-            for example in plain.said["examples"]
+            {"hex": example.hex, "text": example_in_words(example)} for example in plain.examples
         ],
     }
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from framewire.explain.protocol import listed
+from framewire.explain.words import listed
 
-from framegen.model.data import method_terms
+from framegen.model.protocol import method_terms
 from framegen.model.slots import Body, Constant, Items, Number, Packed, Text
 
 if TYPE_CHECKING:

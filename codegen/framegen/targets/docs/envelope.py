@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framewire.explain.protocol import listed
+from framewire.explain.words import listed
 
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.slots import Number
@@ -67,7 +67,7 @@ class EnvelopeView:
     @property
     def cells(self) -> list[Cell]:
         """The parts as a byte strip."""
-        return parts_strip(self.model.plain.envelopes[self.name])
+        return parts_strip(self.model.protocol.envelopes[self.name])
 
     @property
     def messages(self) -> list[str]:

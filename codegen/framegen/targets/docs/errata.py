@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framegen.model.data import claim_in_words, concern_in_words
+from framegen.model.protocol import claim_in_words, concern_in_words
 from framegen.targets.docs.cite import CiteView, Place, cite_view
 
 if TYPE_CHECKING:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framewire.explain.pattern import place_in_each
+from framewire.explain.words import kind_in_words, order_in_words
+from framewire.protocol.slots import List
 
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.language.spec import ListField, NumberField
@@ -16,7 +18,7 @@ from framegen.targets.docs.notes import NoteView, note_views
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from framewire.explain.protocol import Slot
+    from framewire.protocol.slots import Slot
 
     from framegen.language.number_types import NumberType
     from framegen.language.spec import NamedValue, Spec
@@ -87,16 +89,16 @@ def field_views(model: Model, message: MessageLayout) -> list[FieldView]:
     """Return every field in the order of the frame; those of an element follow their list."""
     maker = _Maker(model, message)
     views: list[FieldView] = []
-    for slot, said in zip(message.body, model.plain.messages[message.name].fields, strict=True):
-        if isinstance(slot, Items):
+    for slot, said in zip(message.body, model.protocol.messages[message.name].fields, strict=True):
+        if isinstance(slot, Items) and isinstance(said, List):
             views.extend(_list_views(maker, slot, said))
-        else:
+        elif not isinstance(slot, Items):
             path = ("fields", slot.name)
             views.append(maker.single(slot, said, slot.name, str(slot.at), path))
     return views
 
 
-def _list_views(maker: _Maker, items: Items, said: Slot) -> Iterator[FieldView]:
+def _list_views(maker: _Maker, items: Items, said: List) -> Iterator[FieldView]:
     what = "characters" if items.text else "of them"
     count = f"{items.low if items.is_fixed else f'{items.low}..{items.high}'} {what}"
     path: KeyPath = ("fields", items.name)
@@ -161,7 +163,8 @@ class _Maker:
         derived = isinstance(slot, Number) and slot.counts
         bounds = _counted(self.message, slot) or _range(slot, count)
         is_text = isinstance(slot, Number) and slot.field.text
-        type_ = "text" if is_text else ", ".join(filter(None, (said.kind, said.order_in_words)))
+        words = ("text",) if is_text else (kind_in_words(said), order_in_words(said))
+        type_ = ", ".join(filter(None, words))
         return self.view(slot.field, path, offset, key, type_, bounds, derived=derived)
 
     def view(

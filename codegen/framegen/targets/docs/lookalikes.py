@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framewire.explain.lookalikes import recognise
-from framewire.explain.protocol import listed
+from framewire.explain.words import listed
 
 from framegen.language.values import to_hex
 from framegen.model.checksums import CHECKSUMS
@@ -79,12 +79,13 @@ def lookalike_views(model: Model) -> list[LookalikeEntry]:
             other.title,
             paragraphs(other.about),
             cite_view(model.spec, other.cite),
-            parts_strip(model.plain.lookalikes[key].frame) if other.frame else [],
+            [] if facts.envelope is None else parts_strip(facts.envelope),
             _checksums(model.lookalikes[key]) if other.frame else [],
             [_frame(model, model.lookalikes[key], each.title, each.hex) for each in other.examples],
             _commands(model, other),
         )
         for key, other in model.spec.lookalikes.items()
+        for facts in (model.protocol.lookalikes[key],)
     ]
 
 
@@ -108,7 +109,7 @@ def _proofs(frame: Envelope, data: bytes) -> list[str]:
 
 
 def _frame(model: Model, frame: Envelope, title: str, data: bytes) -> LookalikeFrame:
-    recognised = recognise(model.plain, data)
+    recognised = recognise(model.protocol, data)
     cells = [] if recognised is None else given_strip(recognised.parts, data)
     query = f"hex={data.hex()}&direction={model.directions[0].key}"
     verdicts = [_verdict(model, way, data) for way in model.directions]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from framewire.explain.protocol import listed
+from framewire.explain.words import listed
 from framewire.frame.pluralize import describe_range, pluralize
 
 from framegen.model.exchanges import method_of
@@ -260,7 +260,7 @@ class MessagePage:
     @cached_property
     def cells(self) -> list[Cell]:
         """The byte strip of any frame of the message."""
-        return pattern_strip(self.model.plain.messages[self.name])
+        return pattern_strip(self.model.protocol.messages[self.name])
 
     @property
     def parameters(self) -> list[Cell]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from framewire.explain.protocol import listed
+from framewire.explain.words import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

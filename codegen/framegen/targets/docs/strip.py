@@ -6,7 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framewire.explain.pattern import pattern
+from framewire.explain.slot_bytes import piece
+from framewire.explain.words import order_in_words
 from framewire.frame.pluralize import pluralize
+from framewire.protocol.slots import Constant
 
 from framegen.explain import explain
 from framegen.language.values import to_hex
@@ -15,7 +18,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from framewire.explain.explanation import Row
-    from framewire.explain.protocol import Envelope, Message, Placed, Slot
+    from framewire.protocol.envelope import Envelope
+    from framewire.protocol.message import Message
+    from framewire.protocol.places import Placed
+    from framewire.protocol.slots import Slot
 
     from framegen.model.layout import MessageLayout
     from framegen.model.model import Model
@@ -79,7 +85,7 @@ def parts_strip(envelope: Envelope) -> list[Cell]:
             _shown(slot),
             slot.name,
             slot.role,
-            slot.order_in_words,
+            order_in_words(slot),
             slot.role,
         )
         for slot in envelope.slots
@@ -87,7 +93,7 @@ def parts_strip(envelope: Envelope) -> list[Cell]:
 
 
 def _shown(slot: Slot) -> str:
-    if slot.role in ("constant", "reserved"):
+    if isinstance(slot, Constant):
         return to_hex(slot.data)
     return "…" if slot.role == "body" else _dots(slot.size)
 
@@ -97,10 +103,10 @@ def given_strip(parts: Iterable[Placed], data: bytes) -> list[Cell]:
     return [
         Cell(
             str(placed.at),
-            to_hex(placed.of(data)),
+            to_hex(piece(placed, data)),
             placed.path,
             "",
-            placed.slot.order_in_words,
+            order_in_words(placed.slot),
             placed.slot.role,
         )
         for placed in parts

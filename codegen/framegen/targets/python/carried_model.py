@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from framewire.explain.protocol import FORM
+from framewire.protocol.form import FORM, data_of
 
-from framegen.model.data import model_data
 from framegen.output import banner
 from framegen.targets.python.client_snippet import client_snippet
 from framegen.targets.python.message_view import MessageView
@@ -27,13 +27,17 @@ _DEPTH = 4
 def carried_model(compiled: Compiled) -> str:
     """Return the model as JSON in which a change to one message changes only its lines."""
     model = compiled.model
-    data: dict[str, Any] = {"comment": banner(compiled.source.path), "form": FORM}
-    data |= model_data(model)
-    ways = zip(model.ways, names_of(model).library.ways, strict=True)
-    data["members"] = {str(way): there.key for way, there in ways}
-    methods = {each.request.name: each.method for each in names_of(model).library.exchanges}
-    for layout in model.messages.values():
-        data["messages"][layout.name] |= _usage(model, layout, methods)
+    library = names_of(model).library
+    methods = {each.request.name: each.method for each in library.exchanges}
+    protocol = replace(
+        model.protocol,
+        messages={
+            name: replace(facts, **_usage(model, model.messages[name], methods))
+            for name, facts in model.protocol.messages.items()
+        },
+        members={str(way): there.key for way, there in zip(model.ways, library.ways, strict=True)},
+    )
+    data = {"comment": banner(compiled.source.path), "form": FORM, **data_of(protocol)}
     return f"{_formatted(data, 0)}\n"
 
 
@@ -45,18 +49,16 @@ def _usage(model: Model, layout: MessageLayout, methods: dict[str, Method]) -> d
     given = MessageView(message, library).command_words(names.values(layout.name, example.values))
     words = " ".join([message.name, *given])
     client = client_snippet(library, message)
-    usage: dict[str, Any] = {
-        "python": codec_snippet(model, layout, example).rstrip().split("\n"),
-        **({"client": client.rstrip().split("\n")} if client else {}),
-        "shell": [f"{program} encode {words}"],
+    shell, method = [f"{program} encode {words}"], methods.get(message.name)
+    if method is not None:
+        shell.append(f"{program} send --port COM7 {words}")
+    return {
+        "python": tuple(codec_snippet(model, layout, example).rstrip().split("\n")),
+        "client": tuple(client.rstrip().split("\n")) if client else (),
+        "shell": tuple(shell),
+        "class_name": message.name if message.name != layout.name else "",
+        "method": f"{method.name}({', '.join(method.arguments)})" if method else "",
     }
-    if message.name != layout.name:
-        usage["class"] = message.name
-    if message.name in methods:
-        method = methods[message.name]
-        usage["shell"].append(f"{program} send --port COM7 {words}")
-        usage["method"] = f"{method.name}({', '.join(method.arguments)})"
-    return usage
 
 
 def _formatted(value: Any, depth: int) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...explain.carried_model import classes
 from ...explain.explanation import rows_of
+from ...explain.slot_bytes import legal_length
 from .check import Check
 from .rate import EXTRA_TIME
 from .result import failed, passed, unknown
@@ -82,14 +82,10 @@ def _trouble(trip: Trip, longest: float) -> str:
 def _open_questions(reply: Message, library: Library) -> str:
     """Return the values of a reply that no source tells how to judge, and what is not known."""
     model, data = library.protocol(), reply.encode()
-    names = {called: name for name, called in classes(model).items()}
+    names = {called: name for name, called in model.classes.items()}
     message = model.messages[names[type(reply).__name__]]
-    unknown = {
-        each["concerns"]: each["what"]
-        for each in model.said["unknowns"]
-        if each["message"] == message.name
-    }
-    rows = rows_of(data, message.lay_out(message.length_of(data) or 0), message)
+    unknown = {each.concerns: each.what for each in model.unknowns if each.message == message.name}
+    rows = rows_of(data, message.lay_out(legal_length(message, data) or 0), message)
     return "; ".join(
         f"{row.path} is {row.text}. Not known: {unknown[row.path]}"
         for row in rows

@@ -12,20 +12,21 @@ from ..places import read_numbers
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...explain.protocol import Envelope, Slot
+    from ...protocol.envelope import Envelope
+    from ...protocol.slots import Number
     from ..events import Bytes, Numbers
 
 _BYTES = 256
 
 
-def is_summed(envelope: Envelope, part: Slot) -> bool:
+def is_summed(envelope: Envelope, part: Number) -> bool:
     """Tell whether this method can be worked out here, for bytes that stand behind each other."""
-    terms, usual = part.said["terms"], {"word": 1, "carried": False, "left_out": 0, "mixed": False}
+    terms, usual = part.terms, {"word": 1, "carried": False, "left_out": 0, "mixed": False}
     plain = all(terms.get(name, value) == value for name, value in usual.items())
     return plain and terms.get("mask", 0xFF) == 0xFF and _covered(envelope, part) is not None
 
 
-def _covered(envelope: Envelope, part: Slot) -> tuple[int, int] | None:
+def _covered(envelope: Envelope, part: Number) -> tuple[int, int] | None:
     """Return from and to which byte a checksum covers, the end counted from that of the frame.
 
     None if it covers several pieces.
@@ -59,7 +60,7 @@ class Checksums:
         self.data = data
 
     def are_right(
-        self, envelope: Envelope, part: Slot, places: Numbers, sizes: NDArray[np.int32]
+        self, envelope: Envelope, part: Number, places: Numbers, sizes: NDArray[np.int32]
     ) -> NDArray[np.bool_]:
         """Tell which frames have the checksum that they should have."""
         found = read_numbers(self.data, places + sizes + part.at, part)
@@ -67,12 +68,12 @@ class Checksums:
         return right
 
     def _right(
-        self, envelope: Envelope, part: Slot, places: Numbers, sizes: NDArray[np.int32]
+        self, envelope: Envelope, part: Number, places: Numbers, sizes: NDArray[np.int32]
     ) -> Numbers:
         """Return what a checksum should be, in frames at some places."""
         begin, end = _covered(envelope, part) or (0, 0)
         begins, ends = places + begin, places + sizes + end
-        terms, bits = part.said["terms"], 8 * part.size
+        terms, bits = part.terms, 8 * part.size
         found: Numbers
         match terms["kind"]:
             case "sum":
@@ -110,8 +111,8 @@ class Checksums:
         second = self._sums_of_sums[ends] - self._sums_of_sums[begins] + count * (start - before)
         return second % modulus << bits // 2 | first % modulus
 
-    def _crc(self, begins: Numbers, ends: Numbers, part: Slot) -> Numbers:
-        terms, bits = part.said["terms"], 8 * part.size
+    def _crc(self, begins: Numbers, ends: Numbers, part: Number) -> Numbers:
+        terms, bits = part.terms, 8 * part.size
         reflected = bool(terms["reflected"])
         table = _crc_table(int(terms["poly"]), bits, reflected=reflected)
         init = int(terms["init"])

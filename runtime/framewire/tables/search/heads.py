@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...protocol.slots import Constant, Number
 from ...recording.layout import REASON_NUMBERS
 from ..places import read_blocks, read_numbers
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ...explain.protocol import Envelope, Slot
+    from ...protocol.envelope import Envelope
     from ..events import Bytes, Numbers
 
 FINE = -1
@@ -63,8 +64,9 @@ class Heads:
             slot = placed.slot
             if slot.role == "counter" or slot.at < len(self._envelope.header):
                 continue
-            if slot.role == "constant":
+            if isinstance(slot, Constant):
                 refuse(~_has(slot, data, places), "BAD_HEADER")
+            if not isinstance(slot, Number):
                 continue
             numbers = read_numbers(data, places + slot.at, slot)
             if slot.role == "length":
@@ -87,18 +89,18 @@ class Heads:
         """Tell where constants and address are those of a frame, whatever its id is."""
         right = np.ones(len(places), np.bool_)
         for placed in self._envelope.head:
-            if placed.slot.role == "constant":
-                right &= _has(placed.slot, data, places)
-            elif placed.slot.role == "address":
-                numbers = read_numbers(data, places + placed.slot.at, placed.slot)
-                right &= _holds(placed.slot, numbers)
+            slot = placed.slot
+            if isinstance(slot, Constant):
+                right &= _has(slot, data, places)
+            elif isinstance(slot, Number) and slot.role == "address":
+                right &= _holds(slot, read_numbers(data, places + slot.at, slot))
         return right
 
 
 class _Step:
     """One id part: from the number of the ids before it to that of the ids with it."""
 
-    def __init__(self, slot: Slot, after: dict[tuple[int, int], int], before: int) -> None:
+    def __init__(self, slot: Number, after: dict[tuple[int, int], int], before: int) -> None:
         self._values = np.array(sorted({value for _, value in after}), np.int64)
         width = len(self._values) + 1
         # The last row and the last column are for what is not known.
@@ -129,7 +131,7 @@ class _Step:
         return np.where(self._values[at] == numbers, at, len(self._values))
 
 
-def _steps(parts: Sequence[Slot], ids: Sequence[tuple[int, ...]]) -> list[_Step]:
+def _steps(parts: Sequence[Number], ids: Sequence[tuple[int, ...]]) -> list[_Step]:
     """Return a step for each id part; after the last, ids are numbered in their order."""
     before: dict[tuple[int, ...], int] = {(): 0}
     found: list[_Step] = []
@@ -142,16 +144,16 @@ def _steps(parts: Sequence[Slot], ids: Sequence[tuple[int, ...]]) -> list[_Step]
     return found
 
 
-def _has(slot: Slot, data: Bytes, places: Numbers) -> NDArray[np.bool_]:
+def _has(slot: Constant, data: Bytes, places: Numbers) -> NDArray[np.bool_]:
     """Tell where a constant stands."""
     found = read_blocks(data, places + slot.at, slot.size)
     right: NDArray[np.bool_] = (found == np.frombuffer(slot.data, np.uint8)).all(axis=1)
     return right
 
 
-def _holds(slot: Slot, numbers: NDArray[Any]) -> NDArray[np.bool_]:
+def _holds(slot: Number, numbers: NDArray[Any]) -> NDArray[np.bool_]:
     """Tell which addresses the protocol allows; those with a name may lie outside the range."""
     allowed: NDArray[np.bool_] = (numbers >= slot.low) & (numbers <= slot.high)
-    for each in slot.said.get("values", {}).values():
-        allowed |= numbers == each["value"]
+    for each in slot.values.values():
+        allowed |= numbers == each.value
     return allowed

@@ -50,7 +50,7 @@ class LegalFrames:
     """The frames that are legal on a line, of messages that all have one envelope."""
 
     def __init__(self, messages: Sequence[Layout]) -> None:
-        self.envelope = messages[0].described.frame
+        self.envelope = messages[0].described.envelope
         self.largest = max(each.described.largest for each in messages)
         by_ids: dict[tuple[int, ...], list[Shape]] = {}
         for each in messages:

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ...codec.protocol_codec import ProtocolCodec
-    from ...explain.protocol import Envelope
     from ...frame.direction import Direction
+    from ...protocol.envelope import Envelope
     from ...recording.layout import Layout
 
 _IN_FRONT = ("constant", "length", "id", "address", "counter")
@@ -37,7 +37,7 @@ def is_searchable(messages: Sequence[Layout]) -> bool:
     Their frames begin with the same constant, say how long they are and which message they are in
     front of the fields, and have nothing behind them but checksums that are worked out at once.
     """
-    envelopes = {each.described.frame.name: each.described.frame for each in messages}
+    envelopes = {each.described.envelope.name: each.described.envelope for each in messages}
     return (
         len(envelopes) == 1
         and all(map(_is_regular, envelopes.values()))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...protocol.slots import Constant, Text
 from ...recording.layout import REASON_NUMBERS
 from ..places import read_blocks, read_numbers
 from .heads import FINE
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ...explain.protocol import Envelope, Slot
+    from ...protocol.envelope import Envelope
+    from ...protocol.slots import Element, List, Number
     from ..events import Numbers
     from .checksums import Checksums
 
@@ -44,13 +46,13 @@ class Trial:
         """Note which frames are none."""
         self.is_wrong |= wrong
 
-    def count(self, slot: Slot, factor: int) -> None:
+    def count(self, slot: Number, factor: int) -> None:
         """Test the number of elements, or of their bytes."""
         found = read_numbers(self.sums.data, self._begins(slot.at), slot)
         due = self.counts if factor == 1 else self.counts * factor
         self.refuse(found != due, "COUNT_MISMATCH", self._offset(slot.at))
 
-    def listed(self, slot: Slot, tested: Sequence[Slot]) -> None:
+    def listed(self, slot: List, tested: Sequence[Element]) -> None:
         """Test some of what each element of a list holds."""
         most = slot.low if slot.is_fixed else int(self.counts.max(initial=0))
         for number in range(most):
@@ -58,28 +60,28 @@ class Trial:
             for each in tested:
                 self.part(each, slot.at + number * slot.size + each.at, there)
 
-    def optional(self, slot: Slot, tail: int) -> None:
+    def optional(self, slot: Number, tail: int) -> None:
         """Test a number in those frames that do not end before it; `tail` bytes are behind."""
         self.part(slot, slot.at, self.sizes - tail >= slot.at + slot.size)
 
-    def part(self, slot: Slot, at: int, there: NDArray[np.bool_] | bool = True) -> None:
+    def part(self, slot: Element, at: int, there: NDArray[np.bool_] | bool = True) -> None:
         """Test a constant, a number or a text, in those frames that have it."""
         for wrong, offset in self._wrong(slot, at):
             self.refuse(wrong & there, "OUT_OF_RANGE", self._offset(at) + offset)
 
-    def checksum(self, envelope: Envelope, part: Slot) -> None:
+    def checksum(self, envelope: Envelope, part: Number) -> None:
         """Test a checksum at the end."""
         right = self.sums.are_right(envelope, part, self.places, self.sizes)
         self.refuse(~right, "BAD_CHECKSUM", self.sizes + part.at)
 
-    def _wrong(self, slot: Slot, at: int) -> Iterator[tuple[NDArray[np.bool_], int]]:
+    def _wrong(self, slot: Element, at: int) -> Iterator[tuple[NDArray[np.bool_], int]]:
         """Yield which frames have something else there, and at which byte of the part."""
         data, places = self.sums.data, self._begins(at)
-        if slot.role == "constant":
+        if isinstance(slot, Constant):
             rows = read_blocks(data, places, slot.size)
             for number, byte in enumerate(slot.data):
                 yield rows[:, number] != byte, number
-        elif slot.role == "text":
+        elif isinstance(slot, Text):
             rows = read_blocks(data, places, slot.size)
             for number in range(slot.size):
                 yield rows[:, number] > _HIGHEST_CHARACTER, number

@@ -90,7 +90,7 @@ def _drawn(page: Page, has_times: bool, title: str, baud: float) -> Figure:
     for number, (block, top, panels) in enumerate(page.placed()):
         text.show(_heading(block.quantity), panels[0].left, top, fontweight="bold", fontsize=10)
         layout = block.quantity.layout
-        about = f"{layout.name}: {layout.described.said['summary']}"
+        about = f"{layout.name}: {layout.described.summary}"
         text.show(about, page.width - 0.15, top, ha="right", color=_FAINT, fontsize=8)
         beside: Axes | None = None
         for panel in panels:
@@ -155,6 +155,6 @@ def _draw(axes: Axes, block: Block, panel: Panel, divisor: float, colour: str) -
 def _heading(quantity: Quantity) -> str:
     """Return the name of a quantity in words, without the unit that may stand at its end."""
     words = quantity.path.rpartition(".")[2].strip("_").split("_")
-    if len(words) > 1 and words[-1] == str(quantity.slot.said.get("unit", "")).lower():
+    if len(words) > 1 and words[-1] == quantity.slot.unit.lower():
         words.pop()
     return " ".join(words).capitalize()

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow as pa
 
+from ...protocol.slots import List, Number, Packed
 from ..columns import field_array
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from typing import TypeGuard
 
     from numpy.typing import NDArray
 
-    from ...explain.protocol import Slot
+    from ...protocol.slots import Slot
     from ...recording.layout import Column, Layout
     from ..events import Frames, Numbers
 
@@ -31,8 +33,8 @@ class Quantity:
 
     layout: Layout
     column: Column
-    slot: Slot
-    key: Slot | None
+    slot: Number | Packed
+    key: Number | None
     path: str
 
     @property
@@ -53,24 +55,22 @@ class Quantity:
     @property
     def is_measured(self) -> bool:
         """Whether it is a reading, rather than a setting: a reply's, in a unit, or one of many."""
-        said = self.slot.said
-        is_reply = self.layout.described.said.get("kind") == "reply"
-        return is_reply or "unit" in said or "scale" in said or self.column.slot.role != "field"
+        has_unit = bool(self.slot.unit or self.slot.scale)
+        return self.layout.described.kind == "reply" or has_unit or self.column.is_list
 
     @property
     def scale(self) -> tuple[float, float, str]:
         """The factor, the offset and the unit in which people read it."""
-        said = self.slot.said
-        if "scale" in said:
-            step, unit, *offset = said["scale"]
-            return float(step), float((*offset, "0")[0]), str(unit)
-        return 1.0, 0.0, str(said.get("unit", ""))
+        scale = self.slot.scale
+        if scale is None:
+            return 1.0, 0.0, self.slot.unit
+        return float(scale.step), float(scale.offset or 0), scale.unit
 
     @property
     def absent(self) -> list[int]:
         """The values that stand for no value."""
-        named = self.slot.said.get("values", {}).values()
-        return [each["value"] for each in named if each.get("absent")]
+        named = self.slot.values.values() if isinstance(self.slot, Number) else ()
+        return [each.value for each in named if each.absent]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,38 +98,42 @@ def quantities(layout: Layout) -> tuple[Quantity, ...]:
 
 
 def _of(layout: Layout, column: Column) -> Iterator[Quantity]:
-    slot = column.slot
-    address = next((each.slot for each in layout.columns if each.slot.role == "address"), None)
-    if slot.role == "packed" or (slot.role == "field" and _is_quantity(slot)):
-        yield Quantity(layout, column, slot, address, column.name)
-    if slot.role != "list" or "text" in slot.said:
+    slot, address = column.slot, _address(layout)
+    key = address.slot if address is not None and isinstance(address.slot, Number) else None
+    if isinstance(slot, Packed) or _is_quantity(slot):
+        yield Quantity(layout, column, slot, key, column.name)
+    if not isinstance(slot, List) or slot.text:
         return
     names = layout.element_names(column)
-    if not names:
-        yield Quantity(layout, column, column.fields[0], address, column.name)
-        return
-    key, *others = column.fields
-    is_keyed = bool(others) and _is_key(key)
-    for name, each in zip(names, column.fields, strict=True):
-        if each.role == "field" and _is_quantity(each) and not (is_keyed and each is key):
-            of = key if is_keyed else address
-            yield Quantity(layout, column, each, of, f"{column.name}.{name}")
+    first, *others = column.fields
+    if others and _is_key(first):
+        key = first
+    for name, each in zip(names or ("",), column.fields, strict=True):
+        if each is not key and isinstance(each, Number) and (_is_quantity(each) or not names):
+            path = f"{column.name}.{name}" if names else column.name
+            yield Quantity(layout, column, each, key, path)
 
 
-def _is_key(slot: Slot) -> bool:
+def _address(layout: Layout) -> Column | None:
+    """Return the column of the address, of a message that has one."""
+    return next((each for each in layout.columns if each.slot.role == "address"), None)
+
+
+def _is_key(slot: Slot) -> TypeGuard[Number]:
     """Tell whether a number may say what is measured: a whole one, which has no unit."""
-    is_whole = slot.role == "field" and not slot.is_float and slot.size < 8
-    return is_whole and not {"unit", "scale", "bits"} & slot.said.keys()
+    if not _is_quantity(slot) or slot.unit or slot.scale:
+        return False
+    return not slot.is_float and slot.size < 8
 
 
-def _is_quantity(slot: Slot) -> bool:
+def _is_quantity(slot: Slot) -> TypeGuard[Number]:
     """Tell whether it is a number that may be more or less, rather than bits."""
-    return "bits" not in slot.said
+    return isinstance(slot, Number) and slot.role == "field" and not slot.bits
 
 
 def readings(layout: Layout, frames: Frames) -> Iterator[tuple[Quantity, Readings]]:
     """Yield all numbers of one message with their values in some of its frames."""
-    address = next((each for each in layout.columns if each.slot.role == "address"), None)
+    address = _address(layout)
     count = len(frames.start)
     addresses: NDArray[Any] = np.zeros(count, np.int64)
     if address is not None:
@@ -150,7 +154,8 @@ def _readings(quantity: Quantity, array: pa.Array, addresses: NDArray[Any]) -> R
         if pa.types.is_struct(array.type):
             if quantity.key is quantity.column.fields[0]:
                 key = _numbers(array.field(0))
-            array = array.field(quantity.column.fields.index(quantity.slot))
+            fields = enumerate(quantity.column.fields)
+            array = array.field(next(at for at, each in fields if each is quantity.slot))
     else:
         frame = _whole(array)
         key, array = addresses[frame], array.drop_null()
@@ -158,7 +163,7 @@ def _readings(quantity: Quantity, array: pa.Array, addresses: NDArray[Any]) -> R
     absent = np.isin(value, quantity.absent)
     if np.issubdtype(value.dtype, np.floating):
         absent |= ~np.isfinite(value)
-    if "signed_as" in quantity.slot.said:
+    if isinstance(quantity.slot, Number) and quantity.slot.signed_as:
         value = _signed(value, quantity.slot.size)
     return Readings(frame, key, value, absent)
 

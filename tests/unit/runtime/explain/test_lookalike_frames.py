@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from framewire.explain.lookalikes import recognise
+from framewire.explain.slot_bytes import piece
 
 from tests.factories import DEMO, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
@@ -28,7 +29,7 @@ from tests.in_turn import in_turn
 def test_a_lookalike_is_recognised(
     hex_: str, name: str | None, command: int | None, meaning: str | None
 ) -> None:
-    found = recognise(compiled_file(DEMO).model.plain, bytes.fromhex(hex_))
+    found = recognise(compiled_file(DEMO).model.protocol, bytes.fromhex(hex_))
     row = (None, None, None) if found is None else (found.name, found.command, found.meaning)
     assert row == (name, command, meaning)
 
@@ -38,9 +39,9 @@ def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: s
     model = compiled_of({**data_of(DEMO), "byte_order": order}).derived
     assert model is not None
     data = bytes.fromhex(f"C3 5A A5 21 {size} FF")
-    found = recognise(model.plain, data)
+    found = recognise(model.protocol, data)
     assert found is not None
-    assert {placed.path: placed.of(data) for placed in found.parts} == {
+    assert {placed.path: piece(placed, data) for placed in found.parts} == {
         "preamble": b"\xc3\x5a\xa5",
         "kind": b"\x21",
         "size": bytes.fromhex(size),

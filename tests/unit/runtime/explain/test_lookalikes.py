@@ -83,7 +83,7 @@ def examples(model: Model) -> list[tuple[bytes, str]]:
 
 @pytest.mark.parametrize(("data", "title"), examples(LAYOUT))
 def test_the_generator_recognises_the_same(data: bytes, title: str) -> None:
-    found = recognise(LAYOUT.plain, data)
+    found = recognise(LAYOUT.protocol, data)
     assert found is not None
     assert found.lookalike.title == CODEC.recognise(data) == title
 
@@ -191,7 +191,7 @@ def test_a_look_alike_is_recognised_by_any_checksum(
 ) -> None:
     frame = proven_frame(header, parameters, spare=spare)
     assert proven.recognise(times * frame) == f"By {header}"
-    found = recognise(proven_model.plain, frame)
+    found = recognise(proven_model.protocol, frame)
     assert found is not None
     assert found.lookalike.title == f"By {header}"
     # Any bit of what it covers, or of the checksum itself.
@@ -200,7 +200,7 @@ def test_a_look_alike_is_recognised_by_any_checksum(
     place = [*covered][at % len(covered)]
     wrong = frame[:place] + bytes([frame[place] ^ 0x10]) + frame[place + 1 :]
     assert proven.recognise(wrong) is None
-    assert recognise(proven_model.plain, wrong) is None
+    assert recognise(proven_model.protocol, wrong) is None
 
 
 def test_what_proves_a_look_alike_is_said_of_its_frame(proven_model: Model) -> None:

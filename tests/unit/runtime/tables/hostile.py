@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from framewire.explain import checksum
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ def sealing(made: ModuleType) -> Callable[[bytes], bytes]:
     def sealed(frame: bytes) -> bytes:
         for envelope in envelopes:
             if frame.startswith(envelope.header) and len(frame) >= envelope.least:
-                return bytes(envelope.sealed(frame))
+                return checksum.sealed(envelope, frame)
         return frame
 
     return sealed

@@ -12,6 +12,7 @@ import pyarrow as pa
 import pytest
 from busservo import strategies, tables
 from framegen.model.slots import Items, Number, Packed, Text
+from framewire.explain import checksum
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -88,7 +89,7 @@ def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:
         frame = bytearray(plain[:begin] + middle + plain[-3:])
         for at, size in ((29, 2), (58, 2)):
             frame[at : at + size] = plain[at : at + size]
-        sealed = envelope.sealed(bytes(frame), [3])
+        sealed = checksum.sealed(envelope, bytes(frame), [3])
         (row,) = rows_in_tables(made, sealed, made.Direction.ASKER_TO_TELLER)
         assert row.fields == fields_of(made.decode(sealed, made.Direction.ASKER_TO_TELLER))
 

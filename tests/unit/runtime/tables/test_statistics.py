@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import busservo
 import pytest
 from framewire.command import statistics_sheet
+from framewire.explain.words import scaled
 from framewire.tables.stats.statistics import statistics
 from framewire.tables.stats.traces import Traces
 from hypothesis import given
@@ -118,7 +119,7 @@ def test_ranges_are_those_of_the_messages(
     for key, some in ends.items():
         there = [each for each in values[key] if math.isfinite(each) and each not in absent[key]]
         assert counts[key] == len(values[key])
-        if "signed_as" in slots[key].said:
+        if getattr(slots[key], "signed_as", ""):
             there = [_signed(int(each), slots[key].size) for each in there]
         assert (min(some, default=None), max(some, default=None)) == (
             min(there, default=None),
@@ -182,7 +183,7 @@ def test_what_is_drawn_is_in_the_larger_unit(libraries: Libraries) -> None:
     # As whole numbers, values are those on the wire.
     (altitude,) = (each for each in found.ranges if each.quantity.path == "altitude")
     assert (altitude.lowest, altitude.highest) == (1234, 1234)
-    assert altitude.quantity.slot.scaled(1234) == 234
+    assert scaled(altitude.quantity.slot.scale, 1234) == 234
 
 
 def test_where_nothing_is_measured_other_numbers_are_drawn_first_those_of_the_device() -> None:

@@ -1,0 +1,4 @@
+"""Facts of a protocol: what its specification says, and what follows from it; nothing with bytes.
+
+A library carries them as `protocol.json`. They are read where something is to be explained.
+"""
