@@ -4,10 +4,10 @@
     python -m tests.characterise --write            write it down anew
     python -m tests.characterise --texts build/new  write what the rows are digests of
 
-tests/characterised has a file for each protocol, and in it a line for each row: its name, and the
-digest of a text. Where one differs, write the texts here and in a checkout of the commit that last
-wrote the file, and compare the two folders. All is asked for as users ask for it, so that where a
-module lies makes no difference.
+tests/characterised/digests.txt has a line for each protocol and each part of what its library does:
+how many rows it has, and the digest of their texts. Where one differs, write the texts here and in
+a checkout of the commit that last wrote the file, and compare the two folders. All is asked for as
+users ask for it, so that where a module lies makes no difference.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import hashlib
 import logging
 import sys
 import warnings
-from itertools import chain
+from itertools import chain, groupby
 from logging.handlers import BufferingHandler
 from pathlib import Path
 
@@ -31,7 +31,7 @@ from tests.characterised.values import error_rows, event_rows, message_rows
 from tests.factories import BUSSERVO, compiled_file, library, library_of, vectors_of
 from tests.protocols.specs import FILES
 
-FOLDER = Path(__file__).parent / "characterised"
+DIGESTS = Path(__file__).parent / "characterised" / "digests.txt"
 # What somebody speaks, and what has names and features that nobody has.
 SPECS = {
     "busservo": BUSSERVO,
@@ -81,18 +81,28 @@ def _aside(warned: list[warnings.WarningMessage]) -> list[str]:
     return said
 
 
-def digest(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8", "backslashreplace")).hexdigest()[:10]
+def digests_of(name: str) -> dict[str, str]:
+    """Return the number of rows and the digest of each part of what a library does."""
+    found = {}
+    for part, rows in groupby(sorted(texts_of(name).items()), lambda row: row[0].partition("/")[0]):
+        texts = [f"{row}\n{text}" for row, text in rows]
+        data = "\n\n".join(texts).encode("utf-8", "backslashreplace")
+        found[f"{name} {part}"] = f"{len(texts)} {hashlib.sha256(data).hexdigest()[:10]}"
+    return found
+
+
+def written() -> dict[str, str]:
+    """Return what is written down, by protocol and part."""
+    lines_of = (line.split(" ", 2) for line in DIGESTS.read_text("utf-8").splitlines())
+    return {f"{name} {part}": digest for name, part, digest in lines_of}
 
 
 def differing(name: str) -> list[str]:
-    """Return the rows of a protocol that are not as they are written down."""
-    found = {row: digest(text) for row, text in texts_of(name).items()}
-    written = (FOLDER / f"{name}.txt").read_text("utf-8").splitlines()
-    expected = dict(each.split() for each in written)
+    """Return the parts of a protocol that are not as they are written down."""
+    expected = {part for part in written().items() if part[0].startswith(f"{name} ")}
     if not HAS_TABLES:
-        expected = {row: it for row, it in expected.items() if not row.startswith("tables/")}
-    return sorted({row for row, _ in found.items() ^ expected.items()})
+        expected = {part for part in expected if not part[0].endswith(" tables")}
+    return sorted({part for part, _ in digests_of(name).items() ^ expected})
 
 
 def main(words: list[str] | None = None) -> int:
@@ -109,11 +119,13 @@ def main(words: list[str] | None = None) -> int:
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text(f"{text}\n", "utf-8", errors="backslashreplace", newline="\n")
         elif given.write:
-            rows = sorted(f"{row} {digest(text)}\n" for row, text in texts_of(name).items())
-            (FOLDER / f"{name}.txt").write_text("".join(rows), "utf-8", newline="\n")
+            kept = {part: it for part, it in written().items() if not part.startswith(f"{name} ")}
+            parts = sorted({**kept, **digests_of(name)}.items())
+            text = "".join(f"{part} {digest}\n" for part, digest in parts)
+            DIGESTS.write_text(text, "utf-8", newline="\n")
         else:
-            for row in differing(name):
-                print(f"{name}: {row} differs")
+            for part in differing(name):
+                print(f"{part} differs")
                 status = 1
     return status
 
