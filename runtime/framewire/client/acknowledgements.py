@@ -45,7 +45,6 @@ class Acknowledgements:
 
     def __init__(self, library: Library, wire_time: WireTime, reply_timeout: float) -> None:
         self._kinds = library.acknowledging
-        self._size_of = library.codec.size_of
         self._wire_time = wire_time
         self._reply_timeout = reply_timeout
         self._seen: set[type[Message]] = set()
@@ -71,7 +70,7 @@ class Acknowledgements:
         for each in self._pending:
             if each.until is None:
                 left_at = max(self._wire_time.free_at, now + each.run.duration)
-                size = self._size_of(each.kind, each.kind.LENGTHS[-1])
+                size = each.kind.FRAME.size(each.kind.LENGTHS[-1])
                 each.until = left_at + self._wire_time.seconds(size) + self._reply_timeout
             if each.run is last:
                 return

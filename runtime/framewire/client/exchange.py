@@ -9,7 +9,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ..codec.protocol_codec import ProtocolCodec
     from ..frame.message import Message
 
 
@@ -197,28 +196,26 @@ class Exchange:
         steps: int = getattr(request, name)
         return steps / steps_per_second
 
-    def reply_sizes(self, request: Message, codec: ProtocolCodec) -> tuple[int, int]:
+    def reply_sizes(self, request: Message) -> tuple[int, int]:
         """Return the size in bytes of the smallest and the largest frame that answers `request`.
 
         The smallest is that of an answer in full, where the reply repeats a list.
         """
         if self._sizes is None or self.echoed or self.counted is not UNCOUNTED:
-            sizes = [size for kind in self.kinds for size in self._sizes_of(kind, request, codec)]
+            sizes = [size for kind in self.kinds for size in self._sizes_of(kind, request)]
             self._sizes = min(sizes, default=0), max(sizes, default=0)
         return self._sizes
 
-    def _sizes_of(
-        self, kind: type[Message], request: Message, codec: ProtocolCodec
-    ) -> tuple[int, int]:
+    def _sizes_of(self, kind: type[Message], request: Message) -> tuple[int, int]:
         """Return the least and the largest size of an answer of a class."""
-        items, lengths, size_of = kind.SHAPE.items, kind.LENGTHS, codec.size_of
-        least, largest = size_of(kind, lengths[0]), size_of(kind, lengths[-1])
+        items, lengths, size_of = kind.SHAPE.items, kind.LENGTHS, kind.FRAME.size
+        least, largest = size_of(lengths[0]), size_of(lengths[-1])
         if items is None or kind is not self.reply:
             return least, largest
         count = self._count(request, items.name)
         if count is None or count not in items.counts:
             return least, largest
-        size = size_of(kind, lengths[items.counts.index(count)])
+        size = size_of(lengths[items.counts.index(count)])
         # One that says that the request has failed may hold fewer.
         fewer = self.counted is not UNCOUNTED and self.failures.field
         return (least if fewer else size), size
@@ -230,9 +227,9 @@ class Exchange:
                 return len(column(request, requested))
         return self.counted.asked(request)
 
-    def reply_size(self, request: Message, codec: ProtocolCodec) -> int:
+    def reply_size(self, request: Message) -> int:
         """Return the size in bytes of the largest frame that can answer `request`."""
-        return self.reply_sizes(request, codec)[1]
+        return self.reply_sizes(request)[1]
 
 
 def column(message: Message, path: str) -> list[int]:

@@ -12,7 +12,6 @@ from .late_replies import Origin
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from ..codec.protocol_codec import ProtocolCodec
     from .exchange import Exchange
 
 
@@ -137,7 +136,6 @@ class Request:
         self,
         message: Message,
         exchange: Exchange,
-        codec: ProtocolCodec,
         *,
         retries: int = 0,
         latest: bool = False,
@@ -158,7 +156,7 @@ class Request:
             self.answered_by = Origin(exchange.kinds, self.address)
         # How many bytes its reply can have at most and at the least; 0 if there is none. One that
         # could be longer still gets its time once it has begun to come.
-        least, largest = exchange.reply_sizes(message, codec) if self.question else (0, 0)
+        least, largest = exchange.reply_sizes(message) if self.question else (0, 0)
         self.reply_least, self.reply_room = least, largest
         self.reply_size = min(largest, _USUAL_SIZE)
         self.retries = retries
@@ -225,7 +223,7 @@ class Request:
             self.notify()
 
 
-def check_room(message: Message, largest_frame: int | None, codec: ProtocolCodec) -> None:
+def check_room(message: Message, largest_frame: int | None) -> None:
     """Raise EncodeError for a frame of more bytes than `largest_frame`; None allows any."""
     size = len(message.encode())
     if largest_frame is None or size <= largest_frame:
@@ -235,7 +233,7 @@ def check_room(message: Message, largest_frame: int | None, codec: ProtocolCodec
     if items is None:
         raise EncodeError(type(message).__name__, message, why)
     lengths = zip(items.counts, message.LENGTHS, strict=True)
-    sizes = ((n, codec.size_of(type(message), length)) for n, length in lengths)
+    sizes = ((n, message.FRAME.size(length)) for n, length in lengths)
     most = max((n for n, needed in sizes if needed <= largest_frame), default=0)
     given = getattr(message, items.name)
     raise EncodeError(items.name, given, f"{why}: room for {most} of {len(given)}")

@@ -145,10 +145,8 @@ class Session:
             raise _nobody_answers(exchange.address, message)
         exchange.check(message)
         self._usual_limits.check(message, self._limits, exchange.address)
-        check_room(message, self.largest_frame, self._codec)
-        request = Request(
-            message, exchange, self._codec, retries=retries, latest=latest, within=within
-        )
+        check_room(message, self.largest_frame)
+        request = Request(message, exchange, retries=retries, latest=latest, within=within)
         self._settling.submitted(question=request.question)
         for replaced in self._queue.add(request):
             self.counters.replaced += 1

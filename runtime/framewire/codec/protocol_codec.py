@@ -121,15 +121,6 @@ class ProtocolCodec:
         kinds = [kind for way in chosen for kind in self.messages if kind.DIRECTION is way]
         return Table(kinds, largest_of(kinds), self.heads)
 
-    def claimed(self, data: bytes) -> int:
-        """Return how large the frame would be that bytes begin; 0 for none."""
-        return self.heads.claimed(data)
-
-    @staticmethod
-    def size_of(kind: type[Message], length: int) -> int:
-        """Return the size of the frames of a message that have this length."""
-        return kind.FRAME.size(length)
-
     def careful_decoder(self, direction: Direction | None) -> CarefulDecoder:
         """Return what decodes a stream of bytes for those who can wait for what decides."""
         from .careful_decoder import CarefulDecoder

@@ -158,7 +158,7 @@ class HidPort:
         if not end:
             verdict = self._codec.table_for(self._codec.received).weigh(report)
             begun = verdict.kind is not None or verdict.reason is Reason.TOO_SHORT
-            end = verdict.size if begun else self._codec.claimed(report)
+            end = verdict.size if begun else self._codec.heads.claimed(report)
             if end > len(report) and not begun:
                 end = 0
         if not end:

@@ -61,7 +61,7 @@ class Probe:
         self._log.append((sent_at, question.DIRECTION.sender, frame, repr(question)))
         self._transport.write(frame)
         exchange = self._library.exchanges[type(question)]
-        size = len(frame) + exchange.reply_size(question, self._library.codec)
+        size = len(frame) + exchange.reply_size(question)
         until = sent_at + self.wire_time.seconds(size) + self.reply_timeout + extra
 
         def made_of(pieces: Pieces) -> Trip:

@@ -223,7 +223,7 @@ def test_noise_is_no_echo(message: Message) -> None:
 
 
 def request(message: Message) -> Request:
-    return Request(message, EXCHANGES[type(message)], LIBRARY.codec)
+    return Request(message, EXCHANGES[type(message)])
 
 
 @given(

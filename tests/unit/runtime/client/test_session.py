@@ -414,11 +414,11 @@ def test_the_time_for_a_reply_is_that_of_the_largest_that_can_answer() -> None:
         (Exchange("ask", (), reply=ServoPositions, echoed=(("servo_ids", "other"),)), largest),
         (Exchange("tell", ()), 0),
     ):
-        assert exchange.reply_size(question, LIBRARY.codec) == size
+        assert exchange.reply_size(question) == size
     # More than fits in one reply: there is no such frame, and the largest stands for it.
     assert (
         Exchange("ask", (), reply=ServoPositions, echoed=echoed).reply_size(
-            ServoPositionsRead(range(200)), LIBRARY.codec
+            ServoPositionsRead(range(200))
         )
         == largest
     )
