@@ -130,8 +130,8 @@ class StreamDecoder:
         summed = noise.summed - base
         # Where a search goes on, no frame can begin before it has ended.
         entry = None if at or summed > 0 else look_up(data[:head_size])
+        begun, before = at, 0
         while True:
-            begun, before = at, len(events)
             while entry is not None:
                 length, count_at, count_end, count, kind, holds, other = entry
                 if count and data[at + count_at : at + count_end] != count:
@@ -164,11 +164,12 @@ class StreamDecoder:
                 self._hold(data, at, at, at + entry[0])
                 return events
             noise.summed = base + summed
-            entry = noise.search(events, data, base, at, quiet=quiet)
-            at = noise.at - base
-            if entry is None:
-                self._hold(data, noise.emitted - base, at, noise.wake - base)
+            is_found = noise.search(events, data, base, at, quiet=quiet)
+            begun, before, at = noise.emitted - base, len(events) - 1, noise.at - base
+            if not is_found:
+                self._hold(data, begun, at, noise.wake - base)
                 return events
+            entry = look_up(data[at : at + head_size]) if at >= summed else None
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:
         """Keep the bytes from `start` on, which allow no event before `wake` bytes are here."""

@@ -288,14 +288,8 @@ def largest_of(messages: Sequence[type[Message]]) -> int:
     return max((kind.FRAME.size(kind.LENGTHS[-1]) for kind in messages), default=0)
 
 
-def found_entry(verdict: Verdict) -> Entry | None:
-    """Return the entry of a message that is found."""
-    kind = verdict.kind
-    return None if kind is None else (verdict.size, 0, 0, b"", kind, None, None)
-
-
-def whole(entry: Entry | None, data: bytes, at: int) -> Entry | None:
-    """Return the one of some entries whose message is whole at data[at]; None if none is.
+def whole(entry: Entry | None, data: bytes, at: int) -> tuple[int, type[Message]] | None:
+    """Return size and class of the one of some entries whose message is whole at data[at], if any.
 
     What a checksum proves is left to `weigh`, and so is a frame whose count says its size.
     """
@@ -303,11 +297,9 @@ def whole(entry: Entry | None, data: bytes, at: int) -> Entry | None:
         size, start, end, count, kind, holds, other = entry
         if not size or kind.FRAME.checksums:
             return None
-        if at + size <= len(data) and (not count or data[at + start : at + end] == count):
-            if holds is None:
-                return entry
-            if holds(data[at : at + size]):
-                return size, 0, 0, b"", kind, None, None
+        is_there = at + size <= len(data) and (not count or data[at + start : at + end] == count)
+        if is_there and (holds is None or holds(data[at : at + size])):
+            return size, kind
         entry = other
     return None
 
