@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 else:
     Protocol = object  # it is for type checkers alone
 
+# What the module of a library exports is among it.
+__all__ = ["FORMS", "Entry", "Readable", "RecordingError", "Recordings", "read"]
+
 
 class Recordings:
     """The recordings of a protocol's line."""
@@ -43,6 +46,9 @@ class Recordings:
         direction: Direction | None = None,
     ) -> Iterator[Entry]:
         """Return each message and each piece of noise of a recording, in order.
+
+            for entry in read("line.hex"):
+                print(entry.time, entry.sender, entry.event)
 
         `source` is the name of a file, or a stream of bytes. `form` is one of FORMS. `direction` is
         the sender of bytes for which the recording names none. While it is read, raises

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from framewire.edition import EDITION
+from framewire.frame.free_name import free_name
+from framewire.recording.layout import EVENT_COLUMNS
 
 from framegen.language.spec import Distribution
 from framegen.model.apart import begun
@@ -280,6 +282,16 @@ class LibraryView:
         protocol = self.model.spec.protocol
         text = f"{protocol.title}\n\n{protocol.summary}".replace("`" * 3, "'" * 3)
         return [line for each in text.split("\n") for line in textwrap.wrap(each, 99) or [""]]
+
+    @property
+    def tables(self) -> str:
+        """The tables of captures, each with the columns that are fields of its message."""
+        tables = []
+        for message in self.messages:
+            fields = (free_name(each.name, EVENT_COLUMNS) for each in message.arguments)
+            columns = ", ".join(fields)
+            tables.append(f"{message.name} ({columns})" if columns else message.name)
+        return ", ".join(tables)
 
     @property
     def lookalikes(self) -> str:
