@@ -14,6 +14,7 @@ from __future__ import annotations
 import gc
 import os
 import random
+import sys
 from collections import defaultdict
 from contextlib import suppress
 from datetime import datetime, timezone
@@ -35,6 +36,11 @@ from tests.draws import draw_the_same
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+try:
+    import resource
+except ImportError:  # there is none on Windows
+    resource = None  # type: ignore[assignment]
 
 # How long something takes to draw says more about the machine than about the test.
 TIMELESS = [HealthCheck.too_slow]
@@ -122,15 +128,37 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
     return [] if many is None else [f"--sample {many} --seed {config.option.seed}"]
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """Take down what a worker has held at most."""
+    _held.append(node.workeroutput.get("held", 0))
+
+
+_held: list[int] = []
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Say what this process has held at most, in MB: macOS counts it in bytes."""
+    if resource is not None:
+        held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        held //= 1_000_000 if sys.platform == "darwin" else 1_000
+        getattr(session.config, "workeroutput", {})["held"] = held
+
+
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    """Print the seconds of each folder, as if the workers had run nothing else."""
+    """Print the seconds of each folder, as if the workers had run nothing else.
+
+    A worker holds what it has compiled and rendered once, and the libraries of others that it has
+    imported, for the most part those of tables.
+    """
     workers = max(1, len(getattr(config.option, "tx", None) or [1]))
     taken: defaultdict[str, float] = defaultdict(float)
     for reports in terminalreporter.stats.values():
         for report in reports:
             if isinstance(report, pytest.TestReport):
                 taken["/".join(Path(report.nodeid).parts[:2])] += report.duration / workers
-    told = (f"{folder}: {seconds:.0f} s" for folder, seconds in sorted(taken.items()))
+    told = [f"{folder}: {seconds:.0f} s" for folder, seconds in sorted(taken.items())]
+    told += [f"the largest worker: {max(_held)} MB"] if any(_held) else []
     terminalreporter.write_line(", ".join(told))
 
 
