@@ -6,7 +6,6 @@ from functools import cache, partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from framegen.cases.lengthened import lengthened
-from framegen.model.apart import begun
 from framegen.model.codec import encode
 from hypothesis import strategies as st
 
@@ -76,16 +75,6 @@ def lines(name: str, way: Direction) -> st.SearchStrategy[bytes]:
 def all_ways() -> list[tuple[str, Direction]]:
     """Return the directions of all protocols."""
     return [(name, way) for name in FILES for way in model_of(name).directions if sent(name, way)]
-
-
-def told_apart(name: str, way: Direction) -> bool:
-    """Tell whether no frame of a direction begins as another does, not even by chance."""
-    return not any(short.direction == way for short, _ in begun(model_of(name)))
-
-
-def proven(name: str) -> bool:
-    """Tell whether every frame of a protocol has a checksum."""
-    return all(message.frame.proven for message in messages_of(name).values())
 
 
 def reported(made: Any, event: Any) -> Told:

@@ -53,18 +53,18 @@ from tests.strategies import (
 )
 
 LARGEST = 257
-
 STOP = bytes.fromhex("55 55 02 07")
+HEADER, SHORT, UNKNOWN = Reason.BAD_HEADER, Reason.TOO_SHORT, Reason.UNKNOWN_COMMAND
+LENGTH, COUNT = Reason.LENGTH_MISMATCH, Reason.COUNT_MISMATCH
 
 each_direction = pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
 
 
+def unknown(hex_data: str) -> UnknownFrame:
+    return UnknownFrame(bytes.fromhex(hex_data), UNKNOWN)
+
+
 # --- The table of truth --------------------------------------------------------------------------
-
-
-@each_case
-def test_a_frame_is_read_whole(case: Case) -> None:
-    assert StreamDecoder(case.direction).feed(case.frame) == [case.message]
 
 
 @each_case
@@ -84,7 +84,7 @@ def test_a_frame_is_read_with_trailing_data(case: Case) -> None:
 
     assert decoder.feed(case.frame + b"\x55\x55\x02") == [case.message]
     assert decoder.pending == 3
-    assert joined(decoder.flush()) == [noise("55 55 02", Reason.TOO_SHORT)]
+    assert joined(decoder.flush()) == [noise("55 55 02", SHORT)]
 
 
 @each_case
@@ -124,7 +124,11 @@ def test_a_bad_frame_is_noise(bad: BadFrame) -> None:
         assert not messages_in(events)
 
 
-@pytest.mark.parametrize("convert", [bytes, bytearray, memoryview])
+class OwnBytes(bytes):
+    """Bytes of somebody's own class."""
+
+
+@in_turn("convert", lambda: [bytes, bytearray, memoryview, OwnBytes])
 def test_any_kind_of_bytes_is_taken(convert: Callable[[bytes], Any]) -> None:
     assert read(HOST, [convert(STOP)]) == [ActionGroupStop()]
 
@@ -149,33 +153,32 @@ def test_what_is_no_bytes_is_refused_and_changes_nothing(data: Any) -> None:
     assert decoder.feed(STOP[3:]) == [ActionGroupStop()]
 
 
-def test_a_direction_must_be_one() -> None:
-    wrong: Any = "host"
-    with pytest.raises(TypeError, match="a Direction expected"):
-        StreamDecoder(wrong)
+@in_turn(
+    "given, error, said",
+    lambda: [
+        (("host",), TypeError, "a Direction expected"),
+        ((HOST, 6.5), TypeError, "interpreted as an integer"),
+        *(
+            ((HOST, size), ValueError, f"max_frame is {size}, and the smallest frame has 4 bytes")
+            for size in (3, 0, -1)
+        ),
+    ],
+)
+def test_a_decoder_is_made_of_a_direction_and_a_size_that_a_frame_can_have(
+    given: tuple[Any, ...], error: type[Exception], said: str
+) -> None:
+    with pytest.raises(error, match=re.escape(said)):
+        StreamDecoder(*given)
 
 
-@pytest.mark.parametrize("max_frame", [3, 0, -1])
-def test_no_frame_is_so_small(max_frame: int) -> None:
-    text = f"max_frame is {max_frame}, and the smallest frame has 4 bytes"
-    with pytest.raises(ValueError, match=re.escape(text)):
-        StreamDecoder(HOST, max_frame)
-
-
-def test_the_largest_frame_is_a_whole_number() -> None:
-    wrong: Any = 6.5
-    with pytest.raises(TypeError):
-        StreamDecoder(HOST, wrong)
-
-
-@pytest.mark.parametrize(
-    ("max_frame", "line", "events"),
-    [
+@in_turn(
+    "max_frame, line, events",
+    lambda: [
         (4, "55 55 02 07", [ActionGroupStop()]),
-        (6, "55 55 05 06 08 01 00", [noise("55 55 05 06 08 01 00", Reason.LENGTH_MISMATCH)]),
+        (6, "55 55 05 06 08 01 00", [noise("55 55 05 06 08 01 00", LENGTH)]),
         (7, "55 55 05 06 08 01 00", [ActionGroupRun(group=8, times=1)]),
         # Whether its command is known makes no difference.
-        (6, "55 55 05 63 08 01 00", [noise("55 55 05 63 08 01 00", Reason.LENGTH_MISMATCH)]),
+        (6, "55 55 05 63 08 01 00", [noise("55 55 05 63 08 01 00", LENGTH)]),
         (1000, "55 55 02 07", [ActionGroupStop()]),
     ],
 )
@@ -184,16 +187,6 @@ def test_a_frame_larger_than_the_largest_is_refused_by_its_length(
 ) -> None:
     decoder = StreamDecoder(HOST, max_frame)
     assert joined(decoder.feed(bytes.fromhex(line)) + decoder.flush()) == events
-
-
-@given(lines, directions, st.integers(4, 300))
-def test_nothing_larger_than_the_largest_frame_is_ever_held(
-    line: bytes, direction: Direction | None, max_frame: int
-) -> None:
-    decoder = StreamDecoder(direction, max_frame)
-    for byte in single_bytes(line):
-        decoder.feed(byte)
-        assert decoder.pending < max_frame
 
 
 @given(lines, directions, st.data())
@@ -254,14 +247,14 @@ def test_3_noise_that_holds_no_complete_header_never_costs_a_frame(
     assert messages_in(read(direction, [line], quiet=False)) == expected
 
 
-@given(lines, directions, st.data())
+@given(lines, directions, st.none() | st.integers(4, 300), st.data())
 def test_4_it_holds_at_most_the_largest_legal_frame(
-    line: bytes, direction: Direction | None, data: st.DataObject
+    line: bytes, direction: Direction | None, max_frame: int | None, data: st.DataObject
 ) -> None:
-    decoder = StreamDecoder(direction)
+    decoder = StreamDecoder(direction, max_frame)
     for chunk in data.draw(pieces(line)):
         decoder.feed(chunk)
-        assert decoder.pending < LARGEST
+        assert decoder.pending < min(LARGEST, max_frame or LARGEST)
         assert bytes_held(decoder) == decoder.pending
 
 
@@ -411,110 +404,57 @@ LONG_MOVE = ServoMove(800, [(servo, 500) for servo in range(65)]).encode()[:86].
     "direction, line, events",
     lambda: [
         (HOST, "", []),
-        (HOST, "00", [noise("00", Reason.BAD_HEADER)]),
+        (HOST, "00", [noise("00", HEADER)]),
         # An unknown command's length is not believed.
-        (
-            HOST,
-            "55 55 FF 55 55 02 07",
-            [noise("55 55 FF", Reason.UNKNOWN_COMMAND), ActionGroupStop()],
-        ),
-        (
-            CONTROLLER,
-            "55 55 FF 55 55 02 07",
-            [noise("55 55 FF", Reason.UNKNOWN_COMMAND), ActionGroupStopped()],
-        ),
+        (HOST, "55 55 FF 55 55 02 07", [noise("55 55 FF", UNKNOWN), ActionGroupStop()]),
+        (CONTROLLER, "55 55 FF 55 55 02 07", [noise("55 55 FF", UNKNOWN), ActionGroupStopped()]),
         # An unknown frame is shown when nothing else is in it, and hides nothing behind it.
-        (
-            HOST,
-            "55 55 03 63 2A 55 55 02 07",
-            [
-                UnknownFrame(bytes.fromhex("55 55 03 63 2A"), Reason.UNKNOWN_COMMAND),
-                ActionGroupStop(),
-            ],
-        ),
-        (
-            HOST,
-            "55 55 06 63 55 55 02 07",
-            [noise("55 55 06 63", Reason.UNKNOWN_COMMAND), ActionGroupStop()],
-        ),
+        (HOST, "55 55 03 63 2A 55 55 02 07", [unknown("55 55 03 63 2A"), ActionGroupStop()]),
+        (HOST, "55 55 06 63 55 55 02 07", [noise("55 55 06 63", UNKNOWN), ActionGroupStop()]),
         # Its last byte may begin a frame, which is worth more.
-        (
-            HOST,
-            "55 55 03 63 55 55 02 07",
-            [noise("55 55 03 63", Reason.UNKNOWN_COMMAND), ActionGroupStop()],
-        ),
+        (HOST, "55 55 03 63 55 55 02 07", [noise("55 55 03 63", UNKNOWN), ActionGroupStop()]),
         # What follows a message or an unknown frame is judged anew.
         (
             HOST,
             "55 55 00 55 55 02 07 13",
-            [
-                noise("55 55 00", Reason.LENGTH_MISMATCH),
-                ActionGroupStop(),
-                noise("13", Reason.BAD_HEADER),
-            ],
+            [noise("55 55 00", LENGTH), ActionGroupStop(), noise("13", HEADER)],
         ),
         (
             HOST,
             "55 55 00 55 55 02 63 13",
-            [
-                noise("55 55 00", Reason.LENGTH_MISMATCH),
-                UnknownFrame(bytes.fromhex("55 55 02 63"), Reason.UNKNOWN_COMMAND),
-                noise("13", Reason.BAD_HEADER),
-            ],
+            [noise("55 55 00", LENGTH), unknown("55 55 02 63"), noise("13", HEADER)],
         ),
         # The reports are unknown to a controller, and shown to it.
-        (
-            HOST,
-            "55 55 05 08 08 01 00",
-            [UnknownFrame(bytes.fromhex("55 55 05 08 08 01 00"), Reason.UNKNOWN_COMMAND)],
-        ),
+        (HOST, "55 55 05 08 08 01 00", [unknown("55 55 05 08 08 01 00")]),
         # One unknown frame in another that never ends, seen when the line has gone quiet.
-        (
-            HOST,
-            "55 55 40 63 55 55 02 64",
-            [
-                noise("55 55 40 63", Reason.UNKNOWN_COMMAND),
-                UnknownFrame(bytes.fromhex("55 55 02 64"), Reason.UNKNOWN_COMMAND),
-            ],
-        ),
+        (HOST, "55 55 40 63 55 55 02 64", [noise("55 55 40 63", UNKNOWN), unknown("55 55 02 64")]),
         # Each reason for which a header is refused.
         (
             HOST,
             "55 54 55 55 00 55 55 04 06 00 55 55 08 03 02 55 55 08 03 01",
             [
-                noise("55 54", Reason.BAD_HEADER),
-                noise("55 55 00 55 55 04 06 00", Reason.LENGTH_MISMATCH),
-                noise("55 55 08 03 02", Reason.COUNT_MISMATCH),
-                noise("55 55 08 03 01", Reason.TOO_SHORT),
+                noise("55 54", HEADER),
+                noise("55 55 00 55 55 04 06 00", LENGTH),
+                noise("55 55 08 03 02", COUNT),
+                noise("55 55 08 03 01", SHORT),
             ],
         ),
-        (EITHER, "55 55 06 15 02", [noise("55 55 06 15 02", Reason.COUNT_MISMATCH)]),
+        (EITHER, "55 55 06 15 02", [noise("55 55 06 15 02", COUNT)]),
         # A stray 55 before a move of five reads as an unload, until the count is seen.
         (
             HOST,
             "55 55 55 14 03 05 DC 05 01 F4 01 02 F4 01 03 F4 01 04 F4 01 05 F4 01",
-            [
-                noise("55", Reason.COUNT_MISMATCH),
-                ServoMove(1500, [(1, 500), (2, 500), (3, 500), (4, 500), (5, 500)]),
-            ],
+            [noise("55", COUNT), ServoMove(1500, [(servo, 500) for servo in range(1, 6)])],
         ),
         # A stray 55 before a long move reads as an unknown frame, in which the move has begun.
-        (
-            HOST,
-            f"55 {LONG_MOVE}",
-            [noise("55", Reason.UNKNOWN_COMMAND), noise(LONG_MOVE, Reason.TOO_SHORT)],
-        ),
+        (HOST, f"55 {LONG_MOVE}", [noise("55", UNKNOWN), noise(LONG_MOVE, SHORT)]),
         # There is no checksum: a frame cut short takes its rest from the next.
-        (
-            HOST,
-            "55 55 05 06 08 55 55 02 07",
-            [ActionGroupRun(group=8, times=0x5555), noise("02 07", Reason.BAD_HEADER)],
-        ),
+        (HOST, "55 55 05 06 08 55 55 02 07", [ActionGroupRun(8, 0x5555), noise("02 07", HEADER)]),
         # An LX-16A frame: servo 1 to 500 in 1000 ms.
         (
             HOST,
             "55 55 01 07 01 F4 01 E8 03 16 55 55 02 07",
-            [noise("55 55 01 07 01 F4 01 E8 03 16", Reason.LENGTH_MISMATCH), ActionGroupStop()],
+            [noise("55 55 01 07 01 F4 01 E8 03 16", LENGTH), ActionGroupStop()],
         ),
     ],
 )
@@ -527,23 +467,18 @@ def test_a_stream_reads_as_expected(
     assert joined(read(direction, single_bytes(data))) == events
 
 
-@pytest.mark.parametrize(
-    ("line", "events"),
-    [
+@in_turn(
+    "line, events",
+    lambda: [
         (
             "55 55 0C 63 01 55 55 09 0F 55 55 04 0F 4C 1D",
-            [
-                noise("55 55 0C 63 01", Reason.UNKNOWN_COMMAND),
-                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
-                BatteryVoltage(7500),
-            ],
+            [noise("55 55 0C 63 01", UNKNOWN), noise("55 55 09 0F", LENGTH), BatteryVoltage(7500)],
         ),
         # But one piece for a run of headers, each a byte after the other.
         (
             "55 55 0C 63 55 55 55 55 55 55 55 55 04 0F 4C 1D",
             [
-                noise("55 55 0C 63", Reason.UNKNOWN_COMMAND),
-                noise("55 55 55 55 55 55", Reason.UNKNOWN_COMMAND),
+                *(noise("55 55 0C 63", UNKNOWN), noise("55 55 55 55 55 55", UNKNOWN)),
                 BatteryVoltage(7500),
             ],
         ),
@@ -551,9 +486,8 @@ def test_a_stream_reads_as_expected(
         (
             "55 55 10 63 55 55 09 0F 55 55 09 0F 55 55 04 0F 4C 1D",
             [
-                noise("55 55 10 63", Reason.UNKNOWN_COMMAND),
-                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
-                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
+                noise("55 55 10 63", UNKNOWN),
+                *[noise("55 55 09 0F", LENGTH)] * 2,
                 BatteryVoltage(7500),
             ],
         ),
@@ -561,12 +495,8 @@ def test_a_stream_reads_as_expected(
         (
             "55 55 12 63 55 55 02 63 07 55 55 02 63 55 55 09 0F 55 55 04 0F 4C 1D",
             [
-                noise("55 55 12 63", Reason.UNKNOWN_COMMAND),
-                UnknownFrame(bytes.fromhex("55 55 02 63"), Reason.UNKNOWN_COMMAND),
-                noise("07", Reason.BAD_HEADER),
-                UnknownFrame(bytes.fromhex("55 55 02 63"), Reason.UNKNOWN_COMMAND),
-                noise("55 55 09 0F", Reason.LENGTH_MISMATCH),
-                BatteryVoltage(7500),
+                *(noise("55 55 12 63", UNKNOWN), unknown("55 55 02 63"), noise("07", HEADER)),
+                *(unknown("55 55 02 63"), noise("55 55 09 0F", LENGTH), BatteryVoltage(7500)),
             ],
         ),
     ],
@@ -575,7 +505,7 @@ def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused
     line: str, events: list[Message | Noise]
 ) -> None:
     assert read(CONTROLLER, [bytes.fromhex(line)]) == events
-    before = noise("13", Reason.BAD_HEADER)
+    before = noise("13", HEADER)
     assert read(CONTROLLER, [b"\x13" + bytes.fromhex(line)]) == [before, *events]
 
 
@@ -591,60 +521,50 @@ def test_an_unknown_frame_that_begins_in_a_run_is_seen_however_the_run_was_cut(
     void = max(0, len(run) + 1 - claimed)
     line = run + rest
     assert joined(read(CONTROLLER, [run[:first], run[first:], rest])) == [
-        *([Noise(line[:void], Reason.UNKNOWN_COMMAND)] if void else []),
-        UnknownFrame(line[void : void + claimed], Reason.UNKNOWN_COMMAND),
-        Noise(line[void + claimed :], Reason.BAD_HEADER),
+        *([Noise(line[:void], UNKNOWN)] if void else []),
+        UnknownFrame(line[void : void + claimed], UNKNOWN),
+        Noise(line[void + claimed :], HEADER),
     ]
 
 
-@each_case
-def test_twenty_frames_are_all_read_after_one_stray_55(case: Case) -> None:
-    line = b"\x55" + 20 * case.frame
-
-    for chunks in ([line], single_bytes(line)):
-        first, *rest = read(case.direction, chunks, quiet=False)
-
-        assert bytes_of([first]) == b"\x55"
-        assert rest == 20 * [case.message]
-
-
-def test_a_piece_of_noise_runs_from_a_refused_header_to_the_next() -> None:
-    line = bytes.fromhex("13 55 55 00 01 55 55 01 02 03")
-
-    assert StreamDecoder(HOST).feed(line) == [
-        noise("13", Reason.BAD_HEADER),
-        noise("55 55 00 01", Reason.LENGTH_MISMATCH),
-        noise("55 55 01 02 03", Reason.LENGTH_MISMATCH),
-    ]
-
-
-def test_a_length_that_none_can_have_is_refused_at_the_third_byte() -> None:
-    assert StreamDecoder(HOST).feed(b"\x55\x55\x01") == [noise("55 55 01", Reason.LENGTH_MISMATCH)]
-
-
-def test_a_length_that_this_command_cannot_have_is_refused_at_the_fourth_byte() -> None:
-    decoder = StreamDecoder(HOST)
-
-    assert decoder.feed(b"\x55\x55\x09") == []
-    assert decoder.feed(b"\x03") == [noise("55 55 09 03", Reason.LENGTH_MISMATCH)]
-
-
-@pytest.mark.parametrize(
-    ("direction", "head"),
-    [
-        (HOST, "55 55 FE 03"),
-        (HOST, "55 55 FF 14"),
-        (CONTROLLER, "55 55 FF 15"),
-        (EITHER, "55 55 FF 15"),
+@in_turn(
+    "line, pieces_",
+    lambda: [
+        # A piece of noise runs from a refused header to the next.
+        (
+            "13 55 55 00 01 55 55 01 02 03",
+            [noise("13", HEADER), noise("55 55 00 01", LENGTH), noise("55 55 01 02 03", LENGTH)],
+        ),
+        ("55 55 00 55 55 00", [noise("55 55 00", LENGTH)] * 2),
+        # A run of headers, each a byte after the other, is one piece: if it is for one reason.
+        ("55 55 55 03 03 00", [noise("55 55 55 03 03 00", LENGTH)]),
+        ("55 55 55 0B 03 05 00", [noise("55", LENGTH), noise("55 55 0B 03 05 00", COUNT)]),
     ],
 )
-def test_a_count_that_disagrees_is_refused_at_the_fifth_byte(
-    direction: Direction | None, head: str
+def test_each_refused_header_is_a_piece_of_noise(line: str, pieces_: list[Noise]) -> None:
+    assert read(HOST, [bytes.fromhex(line)]) == pieces_
+
+
+@in_turn(
+    "direction, head, reason",
+    lambda: [
+        # A length that none can have, or that this command cannot have, and a wrong count.
+        (HOST, "55 55 01", LENGTH),
+        (HOST, "55 55 09 03", LENGTH),
+        (HOST, "55 55 FE 03 01", COUNT),
+        (HOST, "55 55 FF 14 01", COUNT),
+        (CONTROLLER, "55 55 FF 15 01", COUNT),
+        (EITHER, "55 55 FF 15 01", COUNT),
+    ],
+)
+def test_a_header_is_refused_at_the_first_byte_that_is_wrong(
+    direction: Direction | None, head: str, reason: Reason
 ) -> None:
     decoder = StreamDecoder(direction)
+    *before, last = single_bytes(bytes.fromhex(head))
 
-    assert decoder.feed(bytes.fromhex(head)) == []
-    assert decoder.feed(b"\x01") == [noise(f"{head} 01", Reason.COUNT_MISMATCH)]
+    assert [decoder.feed(byte) for byte in before] == [[]] * len(before)
+    assert decoder.feed(last) == [noise(head, reason)]
 
 
 @each_direction
@@ -663,7 +583,7 @@ def test_noise_is_judged_anew_after_silence() -> None:
     decoder.feed(b"\x55\x55\x00\x07")
     decoder.flush()
 
-    assert decoder.feed(b"\x13") == [noise("13", Reason.BAD_HEADER)]
+    assert decoder.feed(b"\x13") == [noise("13", HEADER)]
 
 
 def test_silence_without_anything_held_says_nothing() -> None:
@@ -678,7 +598,7 @@ def test_noise_without_a_header_before_it_is_a_bad_header(
     last: Message | Noise | None = None
     for event in read(direction, [line]):
         if type(event) is Noise and type(last) is not Noise:
-            assert (event.reason is Reason.BAD_HEADER) is not line.startswith(b"\x55\x55", at)
+            assert (event.reason is HEADER) is not line.startswith(b"\x55\x55", at)
         at += len(bytes_of([event]))
         last = event
 
@@ -688,48 +608,34 @@ def test_noise_without_a_header_before_it_is_a_bad_header(
 
 def test_noise_is_equal_by_value_and_kind() -> None:
     data = bytes.fromhex("55 55 02 63")
-    plain, unknown = Noise(data, Reason.BAD_HEADER), UnknownFrame(data, Reason.BAD_HEADER)
+    plain, odd = Noise(data, HEADER), UnknownFrame(data, HEADER)
 
-    assert plain == Noise(data, Reason.BAD_HEADER)
-    assert hash(plain) == hash(Noise(data, Reason.BAD_HEADER))
-    assert plain != Noise(data, Reason.TOO_SHORT)
-    assert plain != Noise(data[1:], Reason.BAD_HEADER)
-    assert plain != unknown
-    assert unknown == UnknownFrame(data, Reason.BAD_HEADER)
-    assert plain != data
-    assert len({plain, unknown, Noise(data, Reason.BAD_HEADER)}) == 2
+    assert plain == Noise(data, HEADER) != odd == UnknownFrame(data, HEADER)
+    assert hash(plain) == hash(Noise(data, HEADER))
+    for other in (Noise(data, SHORT), Noise(data[1:], HEADER), odd, data):
+        assert plain != other
+    assert len({plain, odd, Noise(data, HEADER)}) == 2
 
 
 def test_noise_cannot_be_changed() -> None:
-    piece: Any = noise("00", Reason.BAD_HEADER)
+    piece: Any = noise("00", HEADER)
 
     for name in ("data", "reason", "colour"):
         with pytest.raises(AttributeError):
             setattr(piece, name, b"")
 
 
-def test_noise_shows_itself() -> None:
-    piece = noise("55 AA", Reason.BAD_HEADER)
-    unknown = UnknownFrame(b"\x55\x55\x02\x63", Reason.UNKNOWN_COMMAND)
-
-    assert repr(piece) == "Noise(bytes.fromhex('55 AA'), Reason.BAD_HEADER)"
-    assert repr(unknown) == "UnknownFrame(bytes.fromhex('55 55 02 63'), Reason.UNKNOWN_COMMAND)"
-    assert eval(repr(piece)) == piece  # noqa: S307
-    assert eval(repr(unknown)) == unknown  # noqa: S307
-
-
-def test_match_statements_distinguish_events() -> None:
-    shown = []
-    for event in read(CONTROLLER, [bytes.fromhex("00 55 55 02 63 55 55 05 06 08 01 00")]):
-        match event:
-            case ActionGroupStarted(group, times):
-                shown.append(f"group {group} x {times}")
-            case UnknownFrame(data, _):
-                shown.append(f"unknown {data.hex()}")
-            case Noise(data, Reason.BAD_HEADER):
-                shown.append(f"noise {data.hex()}")
-
-    assert shown == ["noise 00", "unknown 55550263", "group 8 x 1"]
+def test_noise_shows_itself_and_can_be_taken_apart() -> None:
+    for event, shown in (
+        (noise("55 AA", HEADER), "Noise(bytes.fromhex('55 AA'), Reason.BAD_HEADER)"),
+        (
+            unknown("55 55 02 63"),
+            "UnknownFrame(bytes.fromhex('55 55 02 63'), Reason.UNKNOWN_COMMAND)",
+        ),
+    ):
+        assert repr(event) == shown
+        assert eval(shown) == event  # noqa: S307
+        assert type(event).__match_args__ == ("data", "reason")
 
 
 # --- Counters ------------------------------------------------------------------------------------
@@ -739,7 +645,8 @@ def test_match_statements_distinguish_events() -> None:
 def test_the_counters_add_up(line: bytes, direction: Direction | None, data: st.DataObject) -> None:
     decoder = StreamDecoder(direction)
     events: list[Message | Noise] = []
-    for chunk in [*data.draw(pieces(line)), None]:
+    # From quiet to quiet, twice.
+    for chunk in [*data.draw(pieces(line)), None, *data.draw(pieces(line)), None]:
         events += decoder.flush() if chunk is None else decoder.feed(chunk)
         counters, messages = decoder.counters, messages_in(events)
         assert counters.messages == len(messages)
@@ -747,7 +654,7 @@ def test_the_counters_add_up(line: bytes, direction: Direction | None, data: st.
         assert counters.noise == len(bytes_of(events)) - len(bytes_of(messages))
         assert counters.fed == len(bytes_of(events)) + decoder.pending
 
-    assert decoder.counters.fed == len(line)
+    assert decoder.counters.fed == 2 * len(line)
 
 
 @pytest.mark.parametrize("size", [1, 3, 1000])
@@ -763,7 +670,7 @@ def test_every_event_is_counted(size: int) -> None:
 
 def test_noise_is_reported_while_what_begins_behind_it_is_held() -> None:
     decoder = StreamDecoder(HOST)
-    assert decoder.feed(bytes.fromhex("00 13 55 55")) == [Noise(b"\x00\x13", Reason.BAD_HEADER)]
+    assert decoder.feed(bytes.fromhex("00 13 55 55")) == [Noise(b"\x00\x13", HEADER)]
     assert decoder.pending == 2
 
 
@@ -772,24 +679,6 @@ def test_what_ends_behind_an_unknown_frame_is_no_part_of_it_as_soon_as_that_is_w
     assert decoder.feed(bytes.fromhex("55 55 07 01 55 55 05 06")) == []
     assert bytes_of(decoder.feed(b"\x08")) == bytes.fromhex("55 55 07 01")
     assert decoder.pending == 5
-
-
-@pytest.mark.parametrize(
-    ("line", "expected"),
-    [
-        ("55 55 00 55 55 00", [("55 55 00", "length"), ("55 55 00", "length")]),
-        # A run of headers, each a byte after the other, is one piece: if it is for one reason.
-        ("55 55 55 03 03 00", [("55 55 55 03 03 00", "length")]),
-        ("55 55 55 0B 03 05 00", [("55", "length"), ("55 55 0B 03 05 00", "count")]),
-    ],
-)
-def test_each_refused_header_is_a_piece_of_noise(
-    line: str, expected: list[tuple[str, str]]
-) -> None:
-    decoder = StreamDecoder(HOST)
-    events = decoder.feed(bytes.fromhex(line)) + decoder.flush()
-    reasons = {"length": Reason.LENGTH_MISMATCH, "count": Reason.COUNT_MISMATCH}
-    assert events == [Noise(bytes.fromhex(data), reasons[why]) for data, why in expected]
 
 
 @in_turn(
@@ -813,35 +702,13 @@ def test_noise_of_any_size_costs_no_frame_that_comes_in_two(
 
 
 def test_the_counters_show_themselves() -> None:
-    decoder = StreamDecoder(CONTROLLER)
-    assert isinstance(decoder.counters, Counters)
-    assert repr(decoder.counters) == "Counters(fed=0, messages=0, noise=0, unknown_frames=0)"
-
-    decoder.feed(bytes.fromhex("00 55 55 02 63 55 55 02 07 55"))
-    assert repr(decoder.counters) == "Counters(fed=10, messages=1, noise=5, unknown_frames=1)"
+    counters = StreamDecoder(CONTROLLER).counters
+    assert isinstance(counters, Counters)
+    assert repr(counters) == "Counters(fed=0, messages=0, noise=0, unknown_frames=0)"
 
 
 # --- Work ----------------------------------------------------------------------------------------
 
-# Beginnings repeated for as long as one cares to send them.
-HOSTILE = (
-    "55",
-    "55 00",
-    "00",
-    "55 55 FF",
-    "55 55 55 63",
-    "55 55 FF 63",
-    "55 55 FF 63 00",
-    "55 55 02 63",
-    "55 55 FE 03 53",
-    "55 55 FF 14 FC",
-    "55 55 FF 15 54",
-    "55 55 FF 15 FC",
-    "55 55 08 03 02",
-    "55 55 FF 63 55 55 FE 03 53",
-    "55 55 05 06 55",
-    "55 55 02 07",
-)
 # So many calls of functions, Python's own included, does a byte cost at most. A decoder that looks
 # at anything twice for each byte that it holds back would need hundreds.
 CALLS_PER_BYTE = 120
@@ -873,28 +740,6 @@ def calls(work: Callable[[], object]) -> int:
         sys.setprofile(before)
         gc.enable()
     return count
-
-
-@each_direction
-@in_turn("pattern", lambda: HOSTILE)
-@in_turn("cut", lambda: CUTS, ids=lambda cut: cut.__name__)
-def test_hostile_input_costs_linear_time(
-    pattern: str, direction: Direction | None, cut: Callable[[bytes], list[bytes]]
-) -> None:
-    def cost(size: int) -> int:
-        line = (bytes.fromhex(pattern) * size)[:size]
-        chunks = cut(line)
-        return calls(lambda: read(direction, chunks))
-
-    # What is looked up once for all is none of it. Each is more than is ever held: at first, there
-    # is less to look at.
-    for size in (512, 768, 1024):
-        cost(size)
-    small, middle, large = cost(512), cost(768), cost(1024)
-
-    assert large <= CALLS_PER_BYTE * 1024
-    # At the end of the line, one more beginning may be left than at that of another.
-    assert large - middle <= 1.05 * (middle - small) + 100
 
 
 @given(
