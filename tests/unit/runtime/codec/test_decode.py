@@ -24,10 +24,12 @@ from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.strategies import HEADS, damaged_frames, directions
 
-COMMANDS = ", ".join(
-    str(command)
-    for command in sorted(kind.COMMAND for kind in MESSAGES if kind.DIRECTION is CONTROLLER)
-)
+
+def commands(*directions: Direction) -> str:
+    """Return the commands of some directions, as an error lists them."""
+    found = {kind.COMMAND for kind in MESSAGES if kind.DIRECTION in directions}
+    return ", ".join(map(str, sorted(found)))
+
 
 each_message = in_turn("kind", lambda: MESSAGES, ids=lambda kind: kind.__name__)
 
@@ -68,12 +70,12 @@ class Derived(bytes):
 
 
 @each_case
-def test_a_frame_is_any_kind_of_bytes(case: Case) -> None:
+def test_a_frame_is_any_kind_of_bytes_and_plain_bytes_are_kept(case: Case) -> None:
     for convert in (bytes, bytearray, memoryview, Derived):
-        message = busservo.decode(convert(case.frame), case.direction)
-        assert message == case.message
-        assert type(case.message).decode(convert(case.frame)) == case.message
-        assert type(message.encode()) is bytes
+        frame = convert(case.frame)
+        for message in (busservo.decode(frame, case.direction), type(case.message).decode(frame)):
+            assert message == case.message
+            assert type(message.encode()) is bytes
 
 
 def test_a_message_does_not_change_with_the_buffer_that_it_was_read_from() -> None:
@@ -90,19 +92,18 @@ def test_a_memoryview_may_have_gaps() -> None:
     assert busservo.decode(memoryview(frame)[::2], HOST) == busservo.ActionGroupStop()
 
 
-@pytest.mark.parametrize("frame", ["55 55 02 07", None, 4, [0x55, 0x55, 2, 7], object()])
-def test_what_is_no_bytes_is_no_frame(frame: Any) -> None:
-    with pytest.raises(TypeError, match="bytes, bytearray or memoryview expected, not "):
-        busservo.decode(frame, HOST)
-    with pytest.raises(TypeError, match="bytes, bytearray or memoryview expected, not "):
-        busservo.ActionGroupStop.decode(frame)
-
-
-def test_text_is_refused_with_a_hint_how_to_make_bytes_of_it() -> None:
-    text: Any = "55 55 02 07"
-
-    with pytest.raises(TypeError, match=re.escape("bytes.fromhex()")):
-        busservo.decode(text, HOST)
+@in_turn(
+    "frame, kind",
+    lambda: [
+        ("55 55 02 07", "str; bytes.fromhex() reads hex"),
+        *((None, "NoneType"), (4, "int"), ([0x55, 0x55, 2, 7], "list"), (object(), "object")),
+    ],
+)
+def test_what_is_no_bytes_is_no_frame(frame: Any, kind: str) -> None:
+    said = re.escape(f"bytes, bytearray or memoryview expected, not {kind}")
+    for read in (lambda data: busservo.decode(data, HOST), busservo.ActionGroupStop.decode):
+        with pytest.raises(TypeError, match=f"^{said}$"):
+            read(frame)
 
 
 @pytest.mark.parametrize("direction", ["host_to_controller", "host", 0, False, MESSAGES])
@@ -136,50 +137,26 @@ def test_a_bad_frame_is_refused_with_reason_and_offset(bad: BadFrame) -> None:
     assert isinstance(caught.value, ValueError)
 
 
+SIZE = "length mismatch at byte 2: the length is"
+BATTERY = "2 (BatteryVoltageRead) or 4 (BatteryVoltage)"
+OTHER = "unknown command at byte 3: the command is 99, and only"
+
+
 @in_turn(
     "frame, direction, text",
     lambda: [
         ("55 54", HOST, "bad header at byte 1: a frame begins 55 55"),
         ("55", HOST, "too short at byte 1: a frame begins 55 55"),
         ("55 55 02", HOST, "too short at byte 3: the shortest frame has 4 bytes"),
-        (
-            "55 55 01 63",
-            HOST,
-            "length mismatch at byte 2: the length is 1, and must be 2..255",
-        ),
-        (
-            "55 55 01 07",
-            HOST,
-            "length mismatch at byte 2: the length is 1, and must be 2 (ActionGroupStop)",
-        ),
-        (
-            "55 55 02 63",
-            CONTROLLER,
-            f"unknown command at byte 3: the command is 99, and only {COMMANDS} can be here",
-        ),
-        (
-            "55 55 09 03",
-            HOST,
-            "length mismatch at byte 2: the length is 9, and must be 8, 11, 14 .. 254 (ServoMove)",
-        ),
-        (
-            "55 55 05 0F",
-            EITHER,
-            (
-                "length mismatch at byte 2: the length is 5, and must be 2 (BatteryVoltageRead)"
-                " or 4 (BatteryVoltage)"
-            ),
-        ),
-        (
-            "55 55 03 14",
-            HOST,
-            "length mismatch at byte 2: the length is 3, and must be 4..255 (ServoUnload)",
-        ),
-        (
-            "55 55 05 06",
-            HOST,
-            "too short at byte 4: ActionGroupRun with this length has 7 bytes",
-        ),
+        ("55 55 05 06", HOST, "too short at byte 4: ActionGroupRun with this length has 7 bytes"),
+        ("55 55 01 63", HOST, f"{SIZE} 1, and must be 2..255"),
+        ("55 55 01 07", HOST, f"{SIZE} 1, and must be 2 (ActionGroupStop)"),
+        ("55 55 09 03", HOST, f"{SIZE} 9, and must be 8, 11, 14 .. 254 (ServoMove)"),
+        ("55 55 03 14", HOST, f"{SIZE} 3, and must be 4..255 (ServoUnload)"),
+        ("55 55 05 0F", EITHER, f"{SIZE} 5, and must be {BATTERY}"),
+        ("55 55 06 06", EITHER, f"{SIZE} 6, and must be 5 (ActionGroupRun, ActionGroupStarted)"),
+        ("55 55 02 63", CONTROLLER, f"{OTHER} {commands(CONTROLLER)} can be here"),
+        ("55 55 02 63", EITHER, f"{OTHER} {commands(HOST, CONTROLLER)} can be here"),
         (
             "55 55 02 07 00",
             CONTROLLER,
@@ -199,6 +176,7 @@ def test_a_refusal_says_what_was_expected(
         busservo.decode(bytes.fromhex(frame), direction)
 
     assert str(caught.value) == text
+    assert caught.value.problem == text.partition(": ")[2]
 
 
 def test_a_class_says_what_no_frame_can_be() -> None:
