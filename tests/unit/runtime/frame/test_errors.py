@@ -1,14 +1,15 @@
 """The errors of the library: one tree, named as users import it, and true as errors of Python's."""
 
-import copy
 import errno
 import inspect
-import pickle
 import sys
+from collections.abc import Iterator
+from copy import copy
 from typing import Any
 
 import busservo
 import framewire
+import lxservo
 import pytest
 from busservo import (
     AbsentError,
@@ -40,6 +41,7 @@ from framewire.line.port_errors import not_opened
 
 from tests.in_turn import in_turn
 from tests.programs import ran
+from tests.unit.runtime.frame.copies import pickled
 
 # What Python's own handlers catch of them: the sentence of the README, error by error.
 FAMILIES: dict[type[ProtocolError], set[type[Exception]]] = {
@@ -101,6 +103,27 @@ def test_an_error_is_named_as_it_is_imported(error: ProtocolError) -> None:
     assert getattr(framewire, kind.__name__) is getattr(busservo, kind.__name__) is kind
 
 
+def below(kind: type[ProtocolError]) -> Iterator[type[ProtocolError]]:
+    yield kind
+    for each in kind.__subclasses__():
+        yield from below(each)
+
+
+def test_every_error_is_named_by_the_runtime() -> None:
+    for name in framewire.__all__:
+        assert getattr(framewire, name).__name__ == name
+    ours = {kind.__name__ for kind in below(ProtocolError) if kind.__module__ == "framewire"}
+    assert ours == {*framewire.__all__}
+    for library in (busservo, lxservo):
+        shared = [name for name in framewire.__all__ if hasattr(library, name)]
+        assert len(shared) > 15
+        assert [getattr(library, name) for name in shared] == [
+            getattr(framewire, name) for name in shared
+        ]
+    with pytest.raises(AttributeError, match="has no attribute 'NoSuchError'"):
+        _ = framewire.NoSuchError  # type: ignore[attr-defined]
+
+
 def test_an_error_of_somebody_else_keeps_its_name() -> None:
     class CableError(TransportError):
         """The cable of somebody's own transport."""
@@ -110,23 +133,17 @@ def test_an_error_of_somebody_else_keeps_its_name() -> None:
 
 def test_a_traceback_names_the_package_though_nothing_was_imported_from_it() -> None:
     code = "from busservo._codec import decode\ndecode(b'', None)"
-    command = [sys.executable, "-c", code]
-    done = ran(*command, status=1)
+    done = ran(sys.executable, "-c", code, status=1)
     assert done.stderr.splitlines()[-1].startswith("framewire.DecodeError: too short")
 
 
 @each_error
 def test_an_error_can_be_copied_and_pickled(error: Any) -> None:
-    pickled = [
-        pickle.loads(pickle.dumps(error, protocol))  # noqa: S301
-        for protocol in range(pickle.HIGHEST_PROTOCOL + 1)
-    ]
-    for twin in (copy.copy(error), *pickled):
+    for twin in (copy(error), *pickled(error)):
         assert type(twin) is type(error)
         assert str(twin) == str(error)
         assert vars(twin) == vars(error)
         if isinstance(error, OSError):
-            assert isinstance(twin, OSError)
             copied = twin.errno, twin.strerror, twin.filename
             assert copied == (error.errno, error.strerror, error.filename)
 
@@ -140,14 +157,14 @@ def test_an_error_of_the_line_is_an_error_of_the_system(kind: Any, number: int |
         assert str(each) == "/dev/ttyUSB0: it is in use; close the other program"
 
 
-@pytest.mark.parametrize("error", [each for each in ERRORS if isinstance(each, TimeoutError)])
+@in_turn("error", lambda: [each for each in ERRORS if isinstance(each, TimeoutError)])
 def test_an_error_for_what_did_not_come_has_no_number_and_no_file(error: OSError) -> None:
     assert (error.errno, error.strerror, error.filename) == (None, None, None)
 
 
-@pytest.mark.parametrize(
-    ("number", "kind"),
-    [
+@in_turn(
+    "number, kind",
+    lambda: [
         (errno.EACCES, PortPermissionError),
         (errno.EBUSY, PortBusyError),
         (errno.ENOENT, PortNotFoundError),

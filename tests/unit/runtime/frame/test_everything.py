@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import copy
-import importlib
 import inspect
 import json
 import math
 import pickle
 import sys
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.targets.python.message_view import MessageView
+from framewire.client.exchange import column
+from framewire.command.values import fields_as_text, fields_in_json, message_from_text
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -22,7 +24,7 @@ from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from types import ModuleType
 
 NUMBERS: dict[str, Any] = messages_of("everything")["Numbers"].message.examples[0].values
@@ -47,9 +49,16 @@ def lists(made: Any, **changes: Any) -> Any:
     return made.Lists(**{**LISTS, "points": points, "readings": readings, **changes})
 
 
-def command_values(made: ModuleType) -> Any:
-    """Return what shows and reads values in the command of a library."""
-    return importlib.import_module("framewire.command.values")
+def flags(made: Any, error: int = 0, mode: int = 0, position: int = 0, temperature: int = 0) -> Any:
+    return made.Flags(error, mode, position, temperature)
+
+
+def texts(made: Any, **changes: Any) -> Any:
+    return made.Texts(**{"name": "", "note": "", **changes})
+
+
+def tail(made: Any, **changes: Any) -> Any:
+    return made.Tail(1, **changes)
 
 
 def test_the_address_comes_first_and_the_running_number_by_name(everything: Any) -> None:
@@ -78,12 +87,10 @@ def test_several_ids_are_constants(everything: Any) -> None:
 
 
 def test_named_bits_are_properties_and_masks(everything: Any) -> None:
-    flags = everything.Flags(error=0x53, mode=1, position=0, temperature=0)
-    assert (flags.error_voltage, flags.error_heat, flags.error_code) == (True, True, 5)
-    assert everything.Flags(error=0, mode=0, position=0, temperature=0).error_voltage is False
-    kind = everything.Flags
+    kind, found = everything.Flags, flags(everything, error=0x53, mode=1)
+    assert (found.error_voltage, found.error_heat, found.error_code) == (True, True, 5)
+    assert flags(everything).error_voltage is False
     assert (kind.ERROR_VOLTAGE, kind.ERROR_HEAT, kind.ERROR_CODE) == (0x01, 0x02, 0xF0)
-    assert flags.error & kind.ERROR_HEAT
     assert dict(kind.error.bits) == {"voltage": 0x01, "heat": 0x02, "code": 0xF0}
 
 
@@ -95,38 +102,30 @@ def test_bits_of_an_element_and_of_what_is_absent(everything: Any) -> None:
 
 
 def test_constants_and_reserved_bytes_are_no_fields(everything: Any) -> None:
-    flags = everything.Flags(error=0, mode=0, position=0, temperature=0)
-    assert flags.__match_args__ == ("error", "mode", "position", "temperature")
-    frame = flags.encode()
-    assert frame[5:6] == b"\x04"
-    assert frame[7:9] == b"\x01\x02"
-    assert [type(each).__name__ for each in everything.Flags.CONSTANTS] == [
-        "Always",
-        "Reserved",
-        "Reserved",
-        "Always",
-    ]
+    made = flags(everything)
+    assert made.__match_args__ == ("error", "mode", "position", "temperature")
+    frame = made.encode()
+    assert (frame[5:6], frame[7:9]) == (b"\x04", b"\x01\x02")
+    kinds = [type(each).__name__ for each in everything.Flags.CONSTANTS]
+    assert kinds == ["Always", "Reserved", "Reserved", "Always"]
 
 
 def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
-    flags = everything.Flags(error=0, mode=0, position=0, temperature=0)
-    body = flags.encode()[2:7] + b"\xaa\xbb" + flags.encode()[9:-1]
+    made = flags(everything)
+    body = made.encode()[2:7] + b"\xaa\xbb" + made.encode()[9:-1]
     frame = b"\xbe\xef" + body + bytes([sum(body) & 0xFF])
     read = everything.Flags.decode(frame)
     assert read.encode() == frame
-    assert read.to_dict() == flags.to_dict()
-    assert read != flags
+    assert read.to_dict() == made.to_dict()
+    assert read != made
     assert pickle.loads(pickle.dumps(read)).encode() == frame  # noqa: S301 - it is our own
 
 
-@pytest.mark.parametrize(
-    ("present", "size"), [((), 8), ((2,), 9), ((2, 3, 1.5), 16)], ids=["none", "one", "all"]
-)
+@in_turn("present, size", lambda: [((), 8), ((2,), 9), ((2, 3, 1.5), 16)])
 def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size: int) -> None:
     # Where nothing is there, the checksum follows: no value that a field could have.
     tail = everything.Tail(200, *present)
-    values = (tail.second, tail.third, tail.fourth)
-    assert values == (*present, *[None] * (3 - len(present)))
+    assert (tail.second, tail.third, tail.fourth) == (*present, *[None] * (3 - len(present)))
     assert len(tail.encode()) == size
     assert everything.Tail.decode(tail.encode()) == tail
     assert everything.Tail.from_dict(tail.to_dict()) == tail
@@ -134,26 +133,8 @@ def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size:
 
 def test_what_is_absent_has_no_value_to_compare(everything: Any) -> None:
     """Limits and replies are compared by column: of what is absent, there is none."""
-    column = importlib.import_module("framewire.client.exchange").column
     assert column(everything.Tail(1), "second") == []
     assert column(everything.Tail(1, second=7), "second") == [7]
-
-
-@pytest.mark.parametrize(
-    ("given", "problem"),
-    [
-        ({"second": None, "third": 1}, "second: it is absent, and third behind it is not: give"),
-        ({"second": 1, "third": 1}, "fourth: no frame ends before it: give fourth, or none of"),
-        ({"second": 100}, r"second: 100 is outside 0\.\.99"),
-        ({"second": 1, "third": 1, "fourth": 1e39}, "fourth: 1e.39 is outside -3.40"),
-    ],
-    ids=["gap", "no such end", "range", "float"],
-)
-def test_an_impossible_tail_is_refused(
-    everything: Any, given: dict[str, Any], problem: str
-) -> None:
-    with pytest.raises(everything.EncodeError, match=problem):
-        everything.Tail(1, **given)
 
 
 @in_turn(
@@ -183,40 +164,41 @@ def test_a_bad_number_is_named(everything: Any, changes: dict[str, Any], problem
 
 
 @in_turn(
-    "changes, problem",
+    "make, changes, problem",
     lambda: [
-        ({"channels": [0] * 7}, "channels: 7 numbers, and there are always 8"),
-        ({"channels": [0] * 7 + [2048]}, r"channels\[7\]: 2048 is outside 0\.\.2047"),
-        ({"channels": "12345678"}, "channels: '12345678' is not a list of whole numbers"),
-        ({"low_bits": [0, 0, 10, 0]}, r"low_bits\[2\]: 10 is outside 0\.\.9"),
-        ({"triple": [0, 0]}, r"triple: 2 items is outside 3\.\.3"),
-        ({"triple": [0, 6, 0]}, r"triple\[1\]: 6 is outside -5\.\.5"),
-        ({"angles": [0, "1"]}, r"angles\[1\]: '1' is not a number, but a str"),
-        ({"points": [(1, 2), (1, 256)]}, r"points\[1\]\.flags: 256 is outside 0\.\.255"),
-        ({"points": [(1, 2), (1,)]}, r"points\[1\]: \(1,\) is not \(x, flags\)"),
-        ({"readings": [READING] * 21}, r"readings: 21 items is outside 0\.\.20"),
-        ({"readings": [("VBATT", 1, 1, 1)]}, r"readings\[0\]\.label: 5 characters, and there is"),
-        ({"readings": [("\xb0C", 1, 1, 1)]}, r"readings\[0\]\.label: '\xb0' at 0 is not a char"),
-        ({"readings": [("C", 1, 101, 1)]}, r"readings\[0\]\.quality: 101 is outside 0\.\.100"),
+        (lists, {"channels": [0] * 7}, "channels: 7 numbers, and there are always 8"),
+        (lists, {"channels": [0] * 7 + [2048]}, r"channels\[7\]: 2048 is outside 0\.\.2047"),
+        (lists, {"channels": "12345678"}, "channels: '12345678' is not a list of whole numbers"),
+        (lists, {"low_bits": [0, 0, 10, 0]}, r"low_bits\[2\]: 10 is outside 0\.\.9"),
+        (lists, {"triple": [0, 0]}, r"triple: 2 items is outside 3\.\.3"),
+        (lists, {"triple": [0, 6, 0]}, r"triple\[1\]: 6 is outside -5\.\.5"),
+        (lists, {"angles": [0, "1"]}, r"angles\[1\]: '1' is not a number, but a str"),
+        (lists, {"points": [(1, 2), (1, 256)]}, r"points\[1\]\.flags: 256 is outside 0\.\.255"),
+        (lists, {"points": [(1, 2), (1,)]}, r"points\[1\]: \(1,\) is not \(x, flags\)"),
+        (lists, {"readings": [READING] * 21}, r"readings: 21 items is outside 0\.\.20"),
+        *(
+            (lists, {"readings": [(label, 1, quality, 1)]}, rf"readings\[0\]\.{problem}")
+            for label, quality, problem in (
+                ("VBATT", 1, "label: 5 characters, and there is"),
+                ("\xb0C", 1, "label: '\xb0' at 0 is not a char"),
+                ("C", 101, r"quality: 101 is outside 0\.\.100"),
+            )
+        ),
+        (texts, {"name": "123456789"}, "name: 9 characters, and there is room for 8"),
+        (texts, {"note": "x" * 41}, r"note: 41 characters is outside 0\.\.40"),
+        (texts, {"note": "\xe9"}, "note: '\xe9' at 0 is not a character of ASCII"),
+        (texts, {"name": b"a"}, "name: b'a' is not text, but a bytes"),
+        (tail, {"third": 1}, "second: it is absent, and third behind it is not: give"),
+        (tail, {"second": 1, "third": 1}, "fourth: no frame ends before it: give fourth, or none"),
+        (tail, {"second": 100}, r"second: 100 is outside 0\.\.99"),
+        (tail, {"second": 1, "third": 1, "fourth": 1e39}, "fourth: 1e.39 is outside -3.40"),
     ],
 )
-def test_a_bad_element_is_named(everything: Any, changes: dict[str, Any], problem: str) -> None:
+def test_a_bad_list_text_and_tail_is_named(
+    everything: Any, make: Callable[..., Any], changes: dict[str, Any], problem: str
+) -> None:
     with pytest.raises(everything.EncodeError, match=problem):
-        lists(everything, **changes)
-
-
-@pytest.mark.parametrize(
-    ("given", "problem"),
-    [
-        (("123456789", ""), "name: 9 characters, and there is room for 8"),
-        (("", "x" * 41), r"note: 41 characters is outside 0\.\.40"),
-        (("", "\xe9"), "note: '\xe9' at 0 is not a character of ASCII"),
-        ((b"a", ""), "name: b'a' is not text, but a bytes"),
-    ],
-)
-def test_a_bad_text_is_named(everything: Any, given: tuple[Any, Any], problem: str) -> None:
-    with pytest.raises(everything.EncodeError, match=problem):
-        everything.Texts(*given)
+        make(everything, **changes)
 
 
 def test_zeros_at_the_end_of_a_fixed_text_are_no_part_of_it(everything: Any) -> None:
@@ -225,9 +207,9 @@ def test_zeros_at_the_end_of_a_fixed_text_are_no_part_of_it(everything: Any) -> 
     assert (texts.name, texts.note) == ("ab", "c\0")
 
 
-@pytest.mark.parametrize(
-    ("at", "byte", "problem"),
-    [
+@in_turn(
+    "at, byte, problem",
+    lambda: [
         (5, 0x05, "layout is 05, and always 04"),
         (9, 0x0A, r"mode is 10, outside 0\.\.9"),
         (18, 0x01, "mark is 01 03, and always 02 03"),
@@ -236,7 +218,7 @@ def test_zeros_at_the_end_of_a_fixed_text_are_no_part_of_it(everything: Any) -> 
 def test_a_field_that_is_wrong_in_a_frame_is_named(
     everything: Any, at: int, byte: int, problem: str
 ) -> None:
-    frame = bytearray(everything.Flags(error=0, mode=0, position=0, temperature=0).encode())
+    frame = bytearray(flags(everything).encode())
     frame[at] = byte
     with pytest.raises(everything.DecodeError, match=problem) as raised:
         everything.Flags.decode(frame)
@@ -284,7 +266,7 @@ def test_messages_are_values(everything: Any) -> None:
             assert copy.replace(message) == message
 
 
-@pytest.mark.parametrize("word", ["nan", "inf", "-inf"])
+@in_turn("word", lambda: ["nan", "inf", "-inf"])
 def test_what_json_has_no_number_for_comes_back_from_its_word(everything: Any, word: str) -> None:
     names = everything.Tail.__match_args__
     fields = dict(zip(names, (200, 2, 3, word), strict=True))
@@ -292,19 +274,17 @@ def test_what_json_has_no_number_for_comes_back_from_its_word(everything: Any, w
 
 
 def test_values_are_shown_in_json_as_they_are(everything: Any) -> None:
-    values = command_values(everything)
     for message in [*specimens(everything), everything.Tail(1), everything.Texts('"\\', "")]:
-        assert json.loads(values.fields_in_json(message)) == message.to_dict()
-    shown = values.fields_in_json(numbers(everything, an_f32=math.nan, an_f64=-math.inf))
+        assert json.loads(fields_in_json(message)) == message.to_dict()
+    shown = fields_in_json(numbers(everything, an_f32=math.nan, an_f64=-math.inf))
     assert '"an_f32": "nan", "an_f64": "-inf"' in shown
 
 
 def test_values_are_shown_in_words(everything: Any) -> None:
-    shown = command_values(everything).fields_as_text
-    flags = everything.Flags(error=3, mode=1, position=65535, temperature=0)
+    shown = fields_as_text
     words = "error=3 (voltage, heat) mode=1 (busy) position=65535 (unknown) temperature=0"
-    assert shown(flags) == words
-    assert shown(everything.Flags(0x52, 1, 0, 0)).startswith("error=82 (heat, code 5) ")
+    assert shown(flags(everything, 3, 1, 65535)) == words
+    assert shown(flags(everything, 0x52, 1)).startswith("error=82 (heat, code 5) ")
     assert shown(everything.Tail(1, 2)) == "first=1 second=2"
     assert shown(everything.Texts("a b", "c:d,e%")) == "name=a%20b note=c%3Ad%2Ce%25"
     reading = "readings=VBAT:12.5:99:-300"
@@ -312,9 +292,9 @@ def test_values_are_shown_in_words(everything: Any) -> None:
     assert "an_f32=1.5 m " in shown(numbers(everything))
 
 
-@pytest.mark.parametrize(
-    ("kind", "words", "given"),
-    [
+@in_turn(
+    "kind, words, given",
+    lambda: [
         ("Flags", "error=voltage+heat mode=busy position=unknown temperature=0x10", (3, 1, -1, 16)),
         ("Tail", "first=1", (1,)),
         ("Tail", "first=1 second=2", (1, 2)),
@@ -329,7 +309,7 @@ def test_values_are_read_from_words(
 ) -> None:
     made = getattr(everything, kind)
     expected = made(*(0xFFFF if value == -1 else value for value in given))
-    assert command_values(everything).message_from_text(made, words.split(" ")) == expected
+    assert message_from_text(made, words.split(" ")) == expected
 
 
 def test_an_example_is_written_for_the_command_as_it_is_read(everything: Any) -> None:
@@ -338,13 +318,13 @@ def test_an_example_is_written_for_the_command_as_it_is_read(everything: Any) ->
         kind = getattr(everything, layout.name)
         for example in layout.message.examples:
             words = MessageView(layout, model).command_words(example.values)
-            made = command_values(everything).message_from_text(kind, words)
+            made = message_from_text(kind, words)
             assert made.encode() == example.hex
 
 
-@pytest.mark.parametrize(
-    ("kind", "words", "problem"),
-    [
+@in_turn(
+    "kind, words, problem",
+    lambda: [
         ("Tail", "second=1", r"needs first; it is written Tail first=FIRST \[second=SECOND\]"),
         ("Flags", "error=smoke", "'smoke' is no number: write it like 12 or 0x0C, or voltage"),
         ("Tail", "first=1 fourth=x", "fourth: 'x' is no number: write it like 1.5"),
@@ -357,7 +337,7 @@ def test_words_that_are_no_values_are_named(
     everything: Any, kind: str, words: str, problem: str
 ) -> None:
     with pytest.raises(Exception, match=problem):
-        command_values(everything).message_from_text(getattr(everything, kind), words.split())
+        message_from_text(getattr(everything, kind), words.split())
 
 
 def test_an_element_is_a_tuple_with_names(everything: Any) -> None:
@@ -380,7 +360,7 @@ def test_every_field_has_its_documentation(everything: Any) -> None:
 
 
 def test_a_notebook_shows_every_part(everything: Any) -> None:
-    strip = everything.Flags(error=3, mode=1, position=65535, temperature=0)._repr_html_()
+    strip = flags(everything, 3, 1, 65535)._repr_html_()
     for shown in ("what", "sum", "layout", "3 (voltage, heat)", "1 (busy)", "65535 (unknown)"):
         assert f">{shown}<" in strip
     strip = lists(everything)._repr_html_()
@@ -391,16 +371,16 @@ def test_a_notebook_shows_every_part(everything: Any) -> None:
 
 @given(st.data())
 def test_the_strategies_make_messages_of_every_kind(everything: Any, data: st.DataObject) -> None:
-    strategies = __import__(f"{everything.__name__}.strategies", fromlist=["messages"])
+    strategies = import_module(f"{everything.__name__}.strategies")
     message = data.draw(strategies.messages())
     assert type(message).decode(message.encode()) == message
     again = type(message).from_dict(message.to_dict())
     assert again.encode() == message.encode()
 
 
-@pytest.mark.parametrize("name", ["lists", "numbers", "rest", "tail", "texts", "flags"])
+@in_turn("name", lambda: ["lists", "numbers", "rest", "tail", "texts", "flags"])
 @few_each
 @given(data=st.data())
 def test_each_message_has_a_strategy(everything: Any, name: str, data: st.DataObject) -> None:
-    strategies = __import__(f"{everything.__name__}.strategies", fromlist=["messages"])
+    strategies = import_module(f"{everything.__name__}.strategies")
     assert type(data.draw(getattr(strategies, name)())).__name__.lower() == name

@@ -3,7 +3,6 @@
 import copy
 import json
 import re
-import sys
 from html.parser import HTMLParser
 from typing import Any
 
@@ -25,73 +24,61 @@ from framewire.command.values import fields_in_json
 
 from tests.cases import Case, each_case
 from tests.in_turn import in_turn
-from tests.programs import ran
 
 # ------------------------------------------------------------------ to_dict, from_dict
 
 
 @each_case
-def test_a_message_comes_back_from_plain_data(case: Case) -> None:
+def test_a_message_comes_back_from_plain_data_as_the_command_prints_it(case: Case) -> None:
     fields = case.message.to_dict()
     assert [*fields] == [*case.message.__match_args__]
-    again = json.loads(json.dumps(fields))
-    assert again == fields
-    assert type(case.message).from_dict(again) == case.message
-
-
-@each_case
-def test_plain_data_is_what_the_command_prints(case: Case) -> None:
-    assert json.loads(fields_in_json(case.message)) == case.message.to_dict()
+    assert json.loads(json.dumps(fields)) == fields == json.loads(fields_in_json(case.message))
+    assert type(case.message).from_dict(fields) == case.message
 
 
 def test_elements_are_dicts_and_may_be_given_as_tuples() -> None:
     move = ServoMove(1000, [(1, 800)])
     assert move.to_dict() == {"time_ms": 1000, "targets": [{"servo_id": 1, "position": 800}]}
-    for targets in (
-        [(1, 800)],
-        [[1, 800]],
-        [ServoTarget(1, 800)],
-        ({"position": 800, "servo_id": 1},),
-    ):
-        assert ServoMove.from_dict({"targets": targets, "time_ms": 1000}) == move
+    for target in ((1, 800), [1, 800], ServoTarget(1, 800), {"position": 800, "servo_id": 1}):
+        assert ServoMove.from_dict({"targets": [target], "time_ms": 1000}) == move
 
 
 TARGET = {"servo_id": 1, "position": 800}
+OF_A_MOVE, OF_A_TARGET = "ServoMove has time_ms, targets", "ServoTarget has servo_id, position"
 
 
 @in_turn(
     "kind, fields, said",
     lambda: [
-        (ServoMove, {"time_ms": 1}, "targets: it is missing; ServoMove has time_ms, targets"),
-        (
-            ServoMove,
-            {"time_ms": 1, "targets": [TARGET], "speed": 2},
-            "speed: there is no such field; ServoMove has time_ms, targets",
-        ),
-        (
-            ServoMove,
-            {"time_ms": 1, "targets": [TARGET], "servo_count": 1},
-            "servo_count: 1 is not given: it follows from targets; leave it out",
-        ),
-        (
-            ServoMove,
-            {"time_ms": 1, "targets": [TARGET, {"servo_id": 1}]},
-            "targets[1].position: it is missing; ServoTarget has servo_id, position",
-        ),
-        (
-            ServoMove,
-            {"time_ms": 1, "targets": [{**TARGET, "speed": 3}]},
-            "targets[0].speed: there is no such field; ServoTarget has servo_id, position",
-        ),
-        (
-            ServoMove,
-            {"time_ms": 1, "targets": [TARGET, {**TARGET, "position": 70000}]},
-            "targets[1].position: 70000 is outside 0..65535",
-        ),
-        (
-            ServoMove,
-            {"time_ms": 1, "targets": TARGET},
-            "targets[0].servo_id: 'servo_id' is not a whole number, but a str",
+        *(
+            (ServoMove, {"time_ms": 1, **fields}, said)
+            for fields, said in (
+                ({}, f"targets: it is missing; {OF_A_MOVE}"),
+                (
+                    {"targets": [TARGET], "speed": 2},
+                    f"speed: there is no such field; {OF_A_MOVE}",
+                ),
+                (
+                    {"targets": [TARGET], "servo_count": 1},
+                    "servo_count: 1 is not given: it follows from targets; leave it out",
+                ),
+                (
+                    {"targets": [TARGET, {"servo_id": 1}]},
+                    f"targets[1].position: it is missing; {OF_A_TARGET}",
+                ),
+                (
+                    {"targets": [{**TARGET, "speed": 3}]},
+                    f"targets[0].speed: there is no such field; {OF_A_TARGET}",
+                ),
+                (
+                    {"targets": [TARGET, {**TARGET, "position": 70000}]},
+                    "targets[1].position: 70000 is outside 0..65535",
+                ),
+                (
+                    {"targets": TARGET},
+                    "targets[0].servo_id: 'servo_id' is not a whole number, but a str",
+                ),
+            )
         ),
         (ServoUnload, {"servo_ids": [{"id": 1}]}, "servo_ids[0]: {'id': 1} is not a whole number"),
         (ActionGroupStop, {"group": 1}, "group: there is no such field; ActionGroupStop has no"),
@@ -206,18 +193,11 @@ def test_a_long_strip_is_cut_and_says_so() -> None:
     assert noise.rows[0][0].endswith("00 00 and 936 bytes more")
 
 
-@pytest.mark.parametrize("event", SHOWN, ids=repr)
+@in_turn("event", lambda: SHOWN)
 def test_a_strip_is_a_plain_table(event: Message | Noise) -> None:
     table = Table(event._repr_html_())
-    assert table.tags == {"div", "table", "tr", "td", "th"} - (
-        {"th"} if type(event) is Noise else set()
-    )
+    head = set() if type(event) is Noise else {"th"}
+    assert table.tags == {"div", "table", "tr", "td"} | head
     assert table.attributes == {"style"}
     # Its colours are those of the page, which may be light or dark.
     assert not re.search(r"color|background|#", event._repr_html_())
-
-
-def test_the_strip_module_is_imported_lazily() -> None:
-    code = "from busservo import ActionGroupStop; ActionGroupStop(); print('html' in sys.modules)"
-    program = f"import sys; sys.path[:] = {sys.path!r}; {code}"
-    assert ran(sys.executable, "-S", "-c", program).stdout == "False\n"
