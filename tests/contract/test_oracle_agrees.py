@@ -1,7 +1,7 @@
 """The library and the oracle, which share no code, agree on any bytes and on any stream."""
 
 import pytest
-from busservo import DecodeError, Direction, Message, StreamDecoder, decode, strategies
+from busservo import DecodeError, Direction, Message, decode, strategies
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -20,6 +20,7 @@ from tests.strategies import (
     read,
     said,
     scanned,
+    single_bytes,
     unknown_frames,
 )
 
@@ -103,34 +104,17 @@ def test_they_find_the_same_in_any_stream(
 
 
 @given(lines, directions, st.data())
+@example(make_noisy_line.recording(), None, None)
 def test_they_have_found_the_same_before_the_line_goes_quiet(
-    line: bytes, direction: Direction | None, data: st.DataObject
+    line: bytes, direction: Direction | None, data: st.DataObject | None
 ) -> None:
-    found = read(direction, data.draw(pieces(line)), quiet=False)
+    chunks = single_bytes(line) if data is None else data.draw(pieces(line))
+    found = read(direction, chunks, quiet=False)
     early = oracle.scan(line, oracles(direction), quiet=False)
 
     assert [said(message) for message in messages_in(found)] == [
         event for event in early if not isinstance(event, bytes)
     ]
-
-
-@each_direction
-def test_they_agree_on_each_byte_of_the_noisy_line(direction: Direction | None) -> None:
-    decoder = StreamDecoder(direction)
-    line = make_noisy_line.recording()
-    held = b""
-    for at in range(len(line)):
-        # What the oracle has read it does not take back, so that it may go on from there.
-        held += line[at : at + 1]
-        early = oracle.scan(held, oracles(direction), quiet=False)
-        expected = [event for event in early if not isinstance(event, bytes)]
-        found = messages_in(decoder.feed(line[at : at + 1]))
-
-        assert [said(message) for message in found] == expected, at
-        read_to = sum(
-            len(event if isinstance(event, bytes) else oracle.build(*event)) for event in early
-        )
-        held = held[read_to:]
 
 
 @each_direction
