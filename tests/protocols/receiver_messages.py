@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from framegen.model.codec import encode
 from framegen.model.slots import Constant, Items, Text
 
-from tests.protocols.peer import Peer, Values, as_is
+from tests.protocols.peer import Peer, Values, as_is, with_values
 from tests.protocols.specs import messages_of
 
 if TYPE_CHECKING:
@@ -21,16 +21,13 @@ class Pyubx2(Peer):
     protocol = "ubx"
     package = "pyubx2"
     writes = dict.fromkeys(messages_of("ubx"), as_is)
-    # It adds the fine parts of a position to the coarse ones, and knows no shorter NAV-PVT.
-    reads = {
-        name: as_is for name in messages_of("ubx") if name not in ("NavHpposllh", "NavPvt")
-    } | {
-        "NavPvt": lambda values: (
-            values
-            | {
-                name: values[name] or 0
-                for name in ("vehicle_heading", "declination", "declination_accuracy")
-            }
+    reads = dict.fromkeys(messages_of("ubx"), as_is) | {
+        # It knows no shorter one.
+        "NavPvt": with_values(
+            **dict.fromkeys(
+                ("vehicle_heading", "declination", "declination_accuracy"),
+                lambda value: value or 0,
+            )
         )
     }
 
