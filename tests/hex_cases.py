@@ -39,37 +39,10 @@ HEX = [
 ]
 
 NO_HEX = [
-    "5",
-    "555",
-    "55 5 02",
-    "0x",
-    "0x 55",
-    "0\u00d7",
-    "\u00d755",
-    "0x555",
-    "0x5 5",
-    "0x50x5x",
-    "0x5\\x55",
-    "x55",
-    "\\",
-    "\\x",
-    "00x5",
-    "5G",
-    "0xO2",
-    "55 55 zz",
-    "“55”",
-    "55.55",
-    "[55]",
-    "55\x1b[2J",
-    "55\0",
-    "55 \u0665\u0665",
-    "\uff15\uff15",
-    "55\u200955",
-    "0b0101012",
-    "0b010101010",
-    "0b01010101h",
-    "5# 5",
-    "5\n5",
+    *("5", "555", "55 5 02", "0x", "0x 55", "0\u00d7", "\u00d755", "0x555", "0x5 5", "0x50x5x"),
+    *("0x5\\x55", "x55", "\\", "\\x", "00x5", "5G", "0xO2", "55 55 zz", "“55”", "55.55", "[55]"),
+    *("55\x1b[2J", "55\0", "55 \u0665\u0665", "\uff15\uff15", "55\u200955", "0b0101012"),
+    *("0b010101010", "0b01010101h", "5# 5", "5\n5"),
 ]
 
 # What programs print of a line, and the bytes with the way that each says: tx, rx, or nothing. A
@@ -115,24 +88,8 @@ NO_LOGS = [
 def random_texts(count: int) -> list[str]:
     """Return texts that are nearly hex, the same each time."""
     pieces = [
-        "0x",
-        "\\x",
-        "0",
-        "5",
-        "aF",
-        "10",
-        "0b",
-        "01010101",
-        "55",
-        " ",
-        ",",
-        "-",
-        "#",
-        "\n",
-        "g",
-        "x",
-        "\\",
-        "\u00a0",
+        *("0x", "\\x", "0", "5", "aF", "10", "0b", "01010101", "55", " ", ",", "-", "#", "\n"),
+        *("g", "x", "\\", "\u00a0"),
     ]
     chance = random.Random(20)  # noqa: S311 - to be the same each time
     return ["".join(chance.choices(pieces, k=chance.randrange(9))) for _ in range(count)]

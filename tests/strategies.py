@@ -14,24 +14,11 @@ Event: TypeAlias = Message | Noise
 # --- Lines ---------------------------------------------------------------------------------------
 
 # Beginnings that cost a decoder most: legal as far as they go, claiming much, or nearly a header.
-HEADS = tuple(
-    bytes.fromhex(head)
-    for head in (
-        "55",
-        "55 55",
-        "55 55 55",
-        "55 55 05 06",
-        "55 55 08 03 01",
-        "55 55 0B 03",
-        "55 55 55 14 52",
-        "55 55 55 63",
-        "55 55 FE 03 53",
-        "55 55 FF",
-        "55 55 FF 14 FC",
-        "55 55 FF 15",
-        "55 55 FF 15 54",
-        "55 55 FF 63",
-    )
+HEADS = (
+    *(b"\x55", b"\x55\x55", b"\x55\x55\x55"),
+    *(bytes.fromhex(f"55 55 {head}") for head in ("05 06", "08 03 01", "0B 03", "55 14 52")),
+    *(bytes.fromhex(f"55 55 {head}") for head in ("55 63", "FE 03 53", "FF", "FF 14 FC")),
+    *(bytes.fromhex(f"55 55 {head}") for head in ("FF 15", "FF 15 54", "FF 63")),
 )
 
 directions = st.sampled_from(DIRECTIONS)

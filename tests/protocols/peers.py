@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from tests.protocols.actuator_sdk import DynamixelSdk
 from tests.protocols.receiver_messages import Pyubx2
 from tests.protocols.register_messages import Pymodbus
-from tests.protocols.servo_clients import Lewanlib, LewansoulLx16a, Pylx16a
+from tests.protocols.servo_clients import LewansoulLx16a, Pylx16a
 
 if TYPE_CHECKING:
     from tests.protocols.peer import Peer
 
-PEERS: list[type[Peer]] = [LewansoulLx16a, Lewanlib, Pylx16a, DynamixelSdk, Pymodbus, Pyubx2]
+PEERS: list[type[Peer]] = [LewansoulLx16a, Pylx16a, DynamixelSdk, Pymodbus, Pyubx2]

@@ -38,54 +38,33 @@ def _in_memory(values: Values) -> Values:
 
 _COIL = with_values(value=lambda value: 0xFF00 if value & 1 else 0)
 # Names of its classes that write and read a message, with its own names of values.
+_RANGE, _LIST = {"start": "address", "quantity": "count"}, {"registers": "registers"}
+_BIT, _REGISTER = {"start": "address", "value": "bits"}, {"start": "address", "value": "registers"}
 _MODBUS: dict[str, tuple[str, dict[str, str]]] = {
-    "CoilsRead": ("bit_message.ReadCoilsRequest", {"start": "address", "quantity": "count"}),
+    "CoilsRead": ("bit_message.ReadCoilsRequest", _RANGE),
     "Coils": ("bit_message.ReadCoilsResponse", {"coils": "bits"}),
-    "InputsRead": (
-        "bit_message.ReadDiscreteInputsRequest",
-        {"start": "address", "quantity": "count"},
-    ),
+    "InputsRead": ("bit_message.ReadDiscreteInputsRequest", _RANGE),
     "Inputs": ("bit_message.ReadDiscreteInputsResponse", {"inputs": "bits"}),
-    "HoldingRead": (
-        "register_message.ReadHoldingRegistersRequest",
-        {"start": "address", "quantity": "count"},
-    ),
-    "Holding": ("register_message.ReadHoldingRegistersResponse", {"registers": "registers"}),
-    "InputRegistersRead": (
-        "register_message.ReadInputRegistersRequest",
-        {"start": "address", "quantity": "count"},
-    ),
-    "InputRegisters": ("register_message.ReadInputRegistersResponse", {"registers": "registers"}),
-    "CoilWrite": ("bit_message.WriteSingleCoilRequest", {"start": "address", "value": "bits"}),
-    "CoilWritten": ("bit_message.WriteSingleCoilResponse", {"start": "address", "value": "bits"}),
-    "RegisterWrite": (
-        "register_message.WriteSingleRegisterRequest",
-        {"start": "address", "value": "registers"},
-    ),
-    "RegisterWritten": (
-        "register_message.WriteSingleRegisterResponse",
-        {"start": "address", "value": "registers"},
-    ),
+    "HoldingRead": ("register_message.ReadHoldingRegistersRequest", _RANGE),
+    "Holding": ("register_message.ReadHoldingRegistersResponse", _LIST),
+    "InputRegistersRead": ("register_message.ReadInputRegistersRequest", _RANGE),
+    "InputRegisters": ("register_message.ReadInputRegistersResponse", _LIST),
+    "CoilWrite": ("bit_message.WriteSingleCoilRequest", _BIT),
+    "CoilWritten": ("bit_message.WriteSingleCoilResponse", _BIT),
+    "RegisterWrite": ("register_message.WriteSingleRegisterRequest", _REGISTER),
+    "RegisterWritten": ("register_message.WriteSingleRegisterResponse", _REGISTER),
     "CoilsWrite": ("bit_message.WriteMultipleCoilsRequest", {"start": "address", "coils": "bits"}),
-    "CoilsWritten": (
-        "bit_message.WriteMultipleCoilsResponse",
-        {"start": "address", "quantity": "count"},
-    ),
+    "CoilsWritten": ("bit_message.WriteMultipleCoilsResponse", _RANGE),
     "RegistersWrite": (
         "register_message.WriteMultipleRegistersRequest",
-        {"start": "address", "registers": "registers"},
+        {"start": "address", **_LIST},
     ),
-    "RegistersWritten": (
-        "register_message.WriteMultipleRegistersResponse",
-        {"start": "address", "quantity": "count"},
-    ),
+    "RegistersWritten": ("register_message.WriteMultipleRegistersResponse", _RANGE),
 }
 _REFUSED = [name for name in messages_of("modbus") if name.endswith("Refused")]
 _SAID: dict[str, Callable[[Values], Values]] = dict.fromkeys(_MODBUS, as_is) | {
-    "CoilsRead": _in_memory,
-    "InputsRead": _in_memory,
-    "HoldingRead": _in_memory,
-    "InputRegistersRead": _in_memory,
+    **dict.fromkeys(("CoilsRead", "InputsRead"), _in_memory),
+    **dict.fromkeys(("HoldingRead", "InputRegistersRead"), _in_memory),
     "Coils": _whole("coils"),
     "Inputs": _whole("inputs"),
     "CoilWrite": _COIL,

@@ -1,6 +1,6 @@
 """Clients of the LX-16A servo bus, from the package index.
 
-They are `lewansoul-lx16a`, `lewanlib` and `pylx16a`.
+They are `lewansoul-lx16a` and `pylx16a`.
 """
 
 from __future__ import annotations
@@ -159,103 +159,12 @@ class LewansoulLx16a(Peer):
         return {"servo_id": frame[2], **_ASKS[message](self.servos, frame[2])}
 
 
-# --- lewanlib ------------------------------------------------------------------------------------
-
-
-def _degrees(position: int) -> float:
-    """Return an angle of half a step more: it cuts off what is no whole step."""
-    return min((position + 0.5) * 0.24, 240)
-
-
 def _steps(degrees: float) -> int:
     return round(degrees / 0.24)
 
 
-def _thousandths(value: float) -> int:
-    return round(1000 * value)
-
-
-_TELLS_IN_DEGREES: dict[str, Tell] = {
-    "Move": lambda bus, to, told: bus.move_time_write(
-        to, _degrees(told["position"]), told["time_ms"] / 1000
-    ),
-    "MovePrepare": lambda bus, to, told: bus.move_time_wait_write(
-        to, _degrees(told["position"]), told["time_ms"] / 1000
-    ),
-    "MoveStart": lambda bus, to, _: bus.move_start(to),
-    "MoveStop": lambda bus, to, _: bus.move_stop(to),
-    "OffsetSave": lambda bus, to, _: bus.angle_offset_write(to),
-    "OffsetAdjust": lambda bus, to, told: bus.angle_offset_adjust(
-        to, told["offset"] * 0.24, write=False
-    ),
-    "TemperatureLimitWrite": lambda bus, to, told: bus.temp_max_limit_write(
-        to, told["highest"], "C"
-    ),
-    "ModeWrite": lambda bus, to, told: bus.mode_write(
-        to, "motor" if told["mode"] else "servo", told["speed"]
-    ),
-    "TorqueWrite": lambda bus, to, told: bus.set_powered(to, bool(told["torque"])),
-    "LedWrite": lambda bus, to, told: bus.led_ctrl_write(to, not told["led"]),
-    "LedErrorsWrite": lambda bus, to, told: bus.led_error_write(
-        to, *(bool(told["errors"] & bit) for bit in (4, 2, 1))
-    ),
-}
-_ASKS_IN_DEGREES: dict[str, Ask] = {
-    "LastMove": lambda bus, to: _move(*bus.move_time_read(to)),
-    "PreparedMove": lambda bus, to: _move(*bus.move_time_wait_read(to)),
-    "Offset": lambda bus, to: {"offset": _steps(bus.angle_offset_read(to))},
-    "PositionLimits": lambda bus, to: _two(
-        "lowest", "highest", map(_steps, bus.angle_limit_read(to))
-    ),
-    "VoltageLimits": lambda bus, to: _two(
-        "lowest_mv", "highest_mv", map(_thousandths, bus.vin_limit_read(to))
-    ),
-    "TemperatureLimit": lambda bus, to: {"highest": bus.temp_max_limit_read(to, "C")},
-    "Temperature": lambda bus, to: {"temperature": bus.temp_read(to, "C")},
-    "Voltage": lambda bus, to: {"voltage_mv": _thousandths(bus.vin_read(to))},
-    "Position": lambda bus, to: {"position": _steps(bus.pos_read(to))},
-    "Torque": lambda bus, to: {"torque": int(bus.is_powered(to))},
-    "Led": lambda bus, to: {"led": int(not bus.led_ctrl_read(to))},
-    "LedErrors": lambda bus, to: _errors(*bus.led_error_read(to)),
-}
-
-
-def _move(degrees: float, seconds: float) -> Values:
-    return {"position": _steps(degrees), "time_ms": _thousandths(seconds)}
-
-
 def _errors(locked: bool, voltage: bool, temperature: bool) -> Values:
     return {"errors": locked << 2 | voltage << 1 | temperature}
-
-
-class Lewanlib(Peer):
-    """The client `lewanlib`: degrees and seconds, cut down to steps and rounded to milliseconds."""
-
-    protocol = "lxservo"
-    package = "lewanlib.bus"
-    writes = dict.fromkeys(_TELLS_IN_DEGREES, as_is) | {"ModeWrite": _mode}
-    reads = dict.fromkeys(_ASKS_IN_DEGREES, _to_one) | {
-        # To it, a voltage is a signed number.
-        "Voltage": lambda values: _to_one(values | {"voltage_mv": values["voltage_mv"] & 0x7FFF}),
-        "Torque": lambda values: _to_one(_TORQUE(values)),
-        "Led": lambda values: _to_one(_LED(values)),
-        "LedErrors": lambda values: _to_one(values | {"errors": values["errors"] & 7}),
-    }
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.wire = Wire()
-        self.bus = self.module.ServoBus(
-            serial_conn=self.wire, discard_echo=False, retry_count=0, on_exit_power_off=False
-        )
-
-    def write(self, message: str, values: Values) -> bytes:
-        _TELLS_IN_DEGREES[message](self.bus, values["servo_id"], values)
-        return self.wire.written
-
-    def read(self, message: str, frame: bytes) -> Values:
-        self.wire.reply = frame
-        return {"servo_id": frame[2], **_ASKS_IN_DEGREES[message](self.bus, frame[2])}
 
 
 # --- pylx16a -------------------------------------------------------------------------------------

@@ -87,18 +87,6 @@ def test_the_makers_library_talks_to_a_generated_actuator(libraries: Libraries) 
     assert device.rejects.total == 0
 
 
-def test_a_generated_controller_talks_to_a_generated_actuator(libraries: Libraries) -> None:
-    made = libraries["dynamixel1"]
-    with (
-        served(actuators(made, 1, 2)) as port,
-        made.open_controller(port, **LIVE) as controller,
-    ):
-        controller.write(2, 30, [0xF4, 0x01])
-        assert list(controller.read(2, 30, 2)) == [0xF4, 0x01]
-        with pytest.raises(made.FailureError, match="range"):
-            controller.device(1).read(60, 10)
-
-
 # --- Modbus --------------------------------------------------------------------------------------
 
 
@@ -242,19 +230,6 @@ def test_a_client_that_drops_its_echo_talks_to_servos_on_one_wire(libraries: Lib
         assert theirs.pos_read(1) == 120
 
 
-@pytest.mark.parametrize("echo", [False, True])
-def test_a_generated_client_talks_to_generated_servos(libraries: Libraries, echo: bool) -> None:
-    made = libraries["lxservo"]
-    with (
-        served(servos(made, 1, 2), echo=echo) as port,
-        made.open_controller(port, local_echo=echo, **LIVE) as controller,
-    ):
-        controller.move(1, 800, 1000)
-        assert [controller.read_position(number) for number in (1, 2)] == [800, 500]
-        controller.broadcast().move(250, 0)
-        assert controller.device(2).read_position() == 250
-
-
 # --- UBX -----------------------------------------------------------------------------------------
 
 
@@ -294,19 +269,3 @@ def test_a_generated_client_sets_a_receiver_of_others(libraries: Libraries) -> N
         finally:
             client.set_message_rate(0, 0, 0)
             receiver.join(GENEROUS)
-
-
-# --- A sensor that only reports ------------------------------------------------------------------
-
-
-def test_a_generated_client_listens_to_a_sensor(libraries: Libraries) -> None:
-    made = libraries["tfmini"]
-    with (
-        crossed() as (theirs, ours),
-        serial.Serial(theirs) as sensor,
-        made.open_controller(ours, **LIVE) as client,
-    ):
-        for distance in (150, 151):
-            sensor.write(made.Measurement(distance, 1000, 2304).encode() + b"\x59")
-        heard = [report.distance for _, report in zip(range(2), client.reports(), strict=False)]
-        assert heard == [150, 151]
