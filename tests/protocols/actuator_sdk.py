@@ -57,9 +57,6 @@ _WRITES: Narrowed = {
     "Ping": to_one,
     "Read": to_one,
     "Write": _short("data"),
-    "RegWrite": _short("data"),
-    "Action": to_one,
-    "FactoryReset": to_one,
     "SyncWrite": lambda values: _short("data")(values) | {"servo_id": 254},
     "BulkRead": lambda values: values | {"items": values["items"][:80], "servo_id": 254},
 }
@@ -89,13 +86,6 @@ class DynamixelSdk(Peer):
             case "Write":
                 data = values["data"]
                 handler.writeTxOnly(port, to, values["start"], len(data), data)
-            case "RegWrite":
-                data = values["data"]
-                handler.regWriteTxOnly(port, to, values["start"], len(data), data)
-            case "Action":
-                handler.action(port, to)
-            case "FactoryReset":
-                handler.factoryReset(port, to)
             case "SyncWrite":
                 data = values["data"]
                 handler.syncWriteTxOnly(port, values["start"], values["size"], data, len(data))

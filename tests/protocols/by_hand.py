@@ -137,18 +137,11 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
             struct.pack("<BH", len(values["targets"]), values["time_ms"])
             + _each("<BH", values["targets"]),
         ),
-        "CoordinateStep": lambda values: _learm(4, _pack("<bbb", values)),
         "ActionGroupRun": lambda values: _learm(6, _pack("<BH", values)),
-        "ActionGroupStop": lambda _: _learm(7, b""),
-        "ActionGroupsErase": lambda _: _learm(8, b""),
         "OffsetSet": lambda values: _learm(10, _pack("<Bb", values)),
-        "OffsetsSave": lambda _: _learm(11, b""),
-        "PoseReset": lambda _: _learm(12, b""),
         "PositionsRead": lambda _: _learm(13, b""),
         "Version": lambda values: _learm(1, _pack("<BB", values)),
         "Offsets": lambda values: _learm(2, _each("<Bb", values["offsets"])),
-        "ActionGroupsErased": lambda _: _learm(8, b""),
-        "OffsetsSaved": lambda _: _learm(11, b""),
         "Positions": lambda values: _learm(13, _each("<BH", values["positions"])),
     },
     "msp": {
@@ -157,8 +150,6 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
         "ApiVersionRefused": lambda _: _msp(b"!", 1, b""),
         "VariantRead": lambda _: _msp(b"<", 4, b""),
         "Variant": lambda values: _msp(b">", 4, _name(values["name"], 4)),
-        "AttitudeRead": lambda _: _msp(b"<", 108, b""),
-        "Attitude": lambda values: _msp(b">", 108, _pack("<hhh", values)),
         "AltitudeRead": lambda _: _msp(b"<", 109, b""),
         "Altitude": lambda values: _msp(b">", 109, _altitude(values)),
         "RawRcSet": lambda values: _msp(

@@ -43,12 +43,8 @@ _BIT, _REGISTER = {"start": "address", "value": "bits"}, {"start": "address", "v
 _MODBUS: dict[str, tuple[str, dict[str, str]]] = {
     "CoilsRead": ("bit_message.ReadCoilsRequest", _RANGE),
     "Coils": ("bit_message.ReadCoilsResponse", {"coils": "bits"}),
-    "InputsRead": ("bit_message.ReadDiscreteInputsRequest", _RANGE),
-    "Inputs": ("bit_message.ReadDiscreteInputsResponse", {"inputs": "bits"}),
     "HoldingRead": ("register_message.ReadHoldingRegistersRequest", _RANGE),
     "Holding": ("register_message.ReadHoldingRegistersResponse", _LIST),
-    "InputRegistersRead": ("register_message.ReadInputRegistersRequest", _RANGE),
-    "InputRegisters": ("register_message.ReadInputRegistersResponse", _LIST),
     "CoilWrite": ("bit_message.WriteSingleCoilRequest", _BIT),
     "CoilWritten": ("bit_message.WriteSingleCoilResponse", _BIT),
     "RegisterWrite": ("register_message.WriteSingleRegisterRequest", _REGISTER),
@@ -63,10 +59,8 @@ _MODBUS: dict[str, tuple[str, dict[str, str]]] = {
 }
 _REFUSED = [name for name in messages_of("modbus") if name.endswith("Refused")]
 _SAID: dict[str, Callable[[Values], Values]] = dict.fromkeys(_MODBUS, as_is) | {
-    **dict.fromkeys(("CoilsRead", "InputsRead"), _in_memory),
-    **dict.fromkeys(("HoldingRead", "InputRegistersRead"), _in_memory),
+    **dict.fromkeys(("CoilsRead", "HoldingRead"), _in_memory),
     "Coils": _whole("coils"),
-    "Inputs": _whole("inputs"),
     "CoilWrite": _COIL,
     "CoilWritten": _COIL,
     "CoilsWrite": lambda values: _in_memory(_whole("coils")(values)),
@@ -136,7 +130,7 @@ def _theirs(name: str, value: Any) -> Any:
 
 def _ours(layout: MessageLayout, name: str, value: Any) -> Any:
     """Return a value of theirs as ours."""
-    if name in ("coils", "inputs"):
+    if name == "coils":
         groups = [value[at : at + 8] for at in range(0, len(value), 8)]
         return [sum(bit << place for place, bit in enumerate(group)) for group in groups]
     if name == "value":

@@ -15,7 +15,7 @@ from tests.protocols.peer import Peer, Values, as_is, with_values
 from tests.protocols.specs import messages_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterator
 
 # What tells a servo something, and what asks it; a client, the servo, and values by their names.
 Tell: TypeAlias = "Callable[[Any, int, Values], object]"
@@ -57,31 +57,39 @@ def _mode(values: Values) -> Values:
     return values | {"mode": mode, "speed": values["speed"] if mode else 0}
 
 
+def _tell(method: str, *names: str) -> Tell:
+    """Return what calls a method of a client with the servo and the values of these names."""
+    return lambda client, to, told: getattr(client, method)(to, *(told[name] for name in names))
+
+
+def _ask(method: str, *names: str) -> Ask:
+    """Return what calls a method of a client with the servo, and names what it returns."""
+
+    def asked(client: Any, to: int) -> Values:
+        found = getattr(client, method)(to)
+        return dict(zip(names, found if names[1:] else (found,), strict=True))
+
+    return asked
+
+
 _TORQUE = with_values(torque=lambda value: value & 1)
 _LED = with_values(led=lambda value: value & 1)
 
 
 # --- lewansoul-lx16a -----------------------------------------------------------------------------
 
+# A method by its name, and the values that it takes.
 _TELLS: dict[str, Tell] = {
-    "Move": lambda servos, to, told: servos.move(to, told["position"], told["time_ms"]),
-    "MovePrepare": lambda servos, to, told: servos.move_prepare(
-        to, told["position"], told["time_ms"]
-    ),
-    "MoveStart": lambda servos, to, _: servos.move_start(to),
-    "MoveStop": lambda servos, to, _: servos.move_stop(to),
-    "ServoIdWrite": lambda servos, to, told: servos.set_servo_id(to, told["new_id"]),
-    "OffsetAdjust": lambda servos, to, told: servos.set_position_offset(to, told["offset"]),
-    "OffsetSave": lambda servos, to, _: servos.save_position_offset(to),
-    "PositionLimitsWrite": lambda servos, to, told: servos.set_position_limits(
-        to, told["lowest"], told["highest"]
-    ),
-    "VoltageLimitsWrite": lambda servos, to, told: servos.set_voltage_limits(
-        to, told["lowest_mv"], told["highest_mv"]
-    ),
-    "TemperatureLimitWrite": lambda servos, to, told: servos.set_max_temperature_limit(
-        to, told["highest"]
-    ),
+    "Move": _tell("move", "position", "time_ms"),
+    "MovePrepare": _tell("move_prepare", "position", "time_ms"),
+    "MoveStart": _tell("move_start"),
+    "MoveStop": _tell("move_stop"),
+    "ServoIdWrite": _tell("set_servo_id", "new_id"),
+    "OffsetAdjust": _tell("set_position_offset", "offset"),
+    "OffsetSave": _tell("save_position_offset"),
+    "PositionLimitsWrite": _tell("set_position_limits", "lowest", "highest"),
+    "VoltageLimitsWrite": _tell("set_voltage_limits", "lowest_mv", "highest_mv"),
+    "TemperatureLimitWrite": _tell("set_max_temperature_limit", "highest"),
     "ModeWrite": lambda servos, to, told: (
         servos.set_motor_mode(to, told["speed"]) if told["mode"] else servos.set_servo_mode(to)
     ),
@@ -89,33 +97,27 @@ _TELLS: dict[str, Tell] = {
         servos.motor_on(to) if told["torque"] else servos.motor_off(to)
     ),
     "LedWrite": lambda servos, to, told: servos.led_off(to) if told["led"] else servos.led_on(to),
-    "LedErrorsWrite": lambda servos, to, told: servos.set_led_errors(to, told["errors"]),
+    "LedErrorsWrite": _tell("set_led_errors", "errors"),
 }
 # By the message that replies.
 _ASKS: dict[str, Ask] = {
-    "PreparedMove": lambda servos, to: _two("position", "time_ms", servos.get_prepared_move(to)),
-    "ServoId": lambda servos, to: {"own_id": servos.get_servo_id(to)},
-    "Offset": lambda servos, to: {"offset": servos.get_position_offset(to)},
-    "PositionLimits": lambda servos, to: _two("lowest", "highest", servos.get_position_limits(to)),
-    "VoltageLimits": lambda servos, to: _two(
-        "lowest_mv", "highest_mv", servos.get_voltage_limits(to)
-    ),
-    "TemperatureLimit": lambda servos, to: {"highest": servos.get_max_temperature_limit(to)},
-    "Temperature": lambda servos, to: {"temperature": servos.get_temperature(to)},
-    "Voltage": lambda servos, to: {"voltage_mv": servos.get_voltage(to)},
-    "Position": lambda servos, to: {"position": servos.get_position(to)},
+    "PreparedMove": _ask("get_prepared_move", "position", "time_ms"),
+    "ServoId": _ask("get_servo_id", "own_id"),
+    "Offset": _ask("get_position_offset", "offset"),
+    "PositionLimits": _ask("get_position_limits", "lowest", "highest"),
+    "VoltageLimits": _ask("get_voltage_limits", "lowest_mv", "highest_mv"),
+    "TemperatureLimit": _ask("get_max_temperature_limit", "highest"),
+    "Temperature": _ask("get_temperature", "temperature"),
+    "Voltage": _ask("get_voltage", "voltage_mv"),
+    "Position": _ask("get_position", "position"),
     "Mode": lambda servos, to: {
         "mode": servos.get_mode(to),
         "speed": servos.get_motor_speed(to),
     },
     "Torque": lambda servos, to: {"torque": int(servos.is_motor_on(to))},
     "Led": lambda servos, to: {"led": 1 - servos.is_led_on(to)},
-    "LedErrors": lambda servos, to: {"errors": servos.get_led_errors(to)},
+    "LedErrors": _ask("get_led_errors", "errors"),
 }
-
-
-def _two(first: str, second: str, values: Iterable[object]) -> Values:
-    return dict(zip((first, second), values, strict=True))
 
 
 def _questions() -> dict[str, str]:
@@ -163,10 +165,6 @@ def _steps(degrees: float) -> int:
     return round(degrees / 0.24)
 
 
-def _errors(locked: bool, voltage: bool, temperature: bool) -> Values:
-    return {"errors": locked << 2 | voltage << 1 | temperature}
-
-
 # --- pylx16a -------------------------------------------------------------------------------------
 
 
@@ -190,42 +188,19 @@ _TELLS_IN_ANGLES: dict[str, Tell] = {
         told["lowest_mv"], told["highest_mv"]
     ),
     "TemperatureLimitWrite": lambda servo, _, told: servo.set_temp_limit(told["highest"]),
-    "ModeWrite": lambda servo, _, told: (
-        servo.motor_mode(told["speed"]) if told["mode"] else servo.servo_mode()
-    ),
-    "TorqueWrite": lambda servo, _, told: (
-        servo.enable_torque() if told["torque"] else servo.disable_torque()
-    ),
-    "LedWrite": lambda servo, _, told: (
-        servo.led_power_off() if told["led"] else servo.led_power_on()
-    ),
-    "LedErrorsWrite": lambda servo, _, told: servo.set_led_error_triggers(
-        *(bool(told["errors"] & bit) for bit in (1, 2, 4))
-    ),
 }
 _ASKS_IN_ANGLES: dict[str, Ask] = {
     "LastMove": lambda servo, _: _moved(*servo.get_last_instant_move_hw()),
-    "PreparedMove": lambda servo, _: _moved(*servo.get_last_delayed_move_hw()),
     "ServoId": lambda servo, _: {"own_id": servo.get_id(poll_hardware=True)},
     "Offset": lambda servo, _: {"offset": _steps(servo.get_angle_offset(poll_hardware=True))},
-    "PositionLimits": lambda servo, _: _two(
-        "lowest", "highest", map(_steps, servo.get_angle_limits(poll_hardware=True))
-    ),
-    "VoltageLimits": lambda servo, _: _two(
-        "lowest_mv", "highest_mv", servo.get_vin_limits(poll_hardware=True)
-    ),
-    "TemperatureLimit": lambda servo, _: {"highest": servo.get_temp_limit(poll_hardware=True)},
-    "Temperature": lambda servo, _: {"temperature": servo.get_temp()},
+    "PositionLimits": lambda servo, _: _limits(*servo.get_angle_limits(poll_hardware=True)),
     "Voltage": lambda servo, _: {"voltage_mv": servo.get_vin()},
     "Position": lambda servo, _: {"position": _steps(servo.get_physical_angle())},
-    "Mode": lambda servo, _: {
-        "mode": int(servo.is_motor_mode(poll_hardware=True)),
-        "speed": servo.get_motor_speed(poll_hardware=True) or 0,
-    },
-    "Torque": lambda servo, _: {"torque": int(servo.is_torque_enabled(poll_hardware=True))},
-    "Led": lambda servo, _: {"led": int(not servo.is_led_power_on(poll_hardware=True))},
-    "LedErrors": lambda servo, _: _errors(*servo.get_led_error_triggers(poll_hardware=True)[::-1]),
 }
+
+
+def _limits(lowest: float, highest: float) -> Values:
+    return {"lowest": _steps(lowest), "highest": _steps(highest)}
 
 
 def _moved(degrees: float, time_ms: int) -> Values:
@@ -251,21 +226,13 @@ class Pylx16a(Peer):
         dict.fromkeys(_TELLS_IN_ANGLES, _to_one)
         | {name: _to_one for name, reply in _questions().items() if reply in _ASKS_IN_ANGLES}
         | {
-            "ModeWrite": lambda values: _to_one(_mode(values)),
             "PositionLimitsWrite": _in_turn("lowest", "highest"),
             "VoltageLimitsWrite": _in_turn("lowest_mv", "highest_mv"),
-            "TorqueWrite": lambda values: _to_one(_TORQUE(values)),
-            "LedWrite": lambda values: _to_one(_LED(values)),
-            "LedErrorsWrite": lambda values: _to_one(values | {"errors": values["errors"] & 7}),
         }
     )
     reads = dict.fromkeys(_ASKS_IN_ANGLES, _to_one) | {
         # To it, what is more is negative.
         "Offset": lambda values: _to_one(values | {"offset": min(values["offset"], 125)}),
-        "Mode": lambda values: _to_one(_mode(values)),
-        "Torque": lambda values: _to_one(_TORQUE(values)),
-        "Led": lambda values: _to_one(_LED(values)),
-        "LedErrors": lambda values: _to_one(values | {"errors": values["errors"] & 7}),
     }
 
     def __init__(self) -> None:
@@ -297,5 +264,4 @@ class Pylx16a(Peer):
     def read(self, message: str, frame: bytes) -> Values:
         self.wire.reply = frame
         with self.servo(frame[2]) as servo:
-            servo._motor_mode = message == "Mode"
             return {"servo_id": frame[2], **_ASKS_IN_ANGLES[message](servo, frame[2])}

@@ -176,7 +176,7 @@ def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str
     ("name", "queries"),
     [
         ("dynamixel1", ["Read"]),
-        ("modbus", ["CoilsRead", "InputsRead", "HoldingRead", "InputRegistersRead"]),
+        ("modbus", ["CoilsRead", "HoldingRead"]),
         ("ubx", ["NavPvtPoll", "CfgPrtPoll", "CfgMsgPoll", "CfgRatePoll", "MonVerPoll"]),
         ("learm", ["VersionRead", "OffsetsRead", "PositionsRead"]),
     ],
