@@ -5,7 +5,7 @@ the library. Whatever reads or writes frames is held to these tables.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from busservo import (
     ActionGroupCompleted,
@@ -260,20 +260,33 @@ class BadValue(NamedTuple):
     problem: str
 
 
-def _move(*targets: Any, time_ms: Any = 1000) -> tuple[Callable[..., Message], dict[str, Any]]:
+_Made: TypeAlias = tuple[Callable[..., Message], dict[str, Any]]
+
+
+def _move(*targets: Any, time_ms: Any = 1000) -> _Made:
     return ServoMove, {"time_ms": time_ms, "targets": [*targets]}
 
 
-def _run(group: Any, times: Any = 1) -> tuple[Callable[..., Message], dict[str, Any]]:
+def _run(group: Any, times: Any = 1) -> _Made:
     return ActionGroupRun, {"group": group, "times": times}
 
 
-def _unload(servo_ids: Any) -> tuple[Callable[..., Message], dict[str, Any]]:
+def _unload(servo_ids: Any) -> _Made:
     return ServoUnload, {"servo_ids": servo_ids}
+
+
+def _ask(servo_ids: Any) -> _Made:
+    return ServoPositionsRead, {"servo_ids": servo_ids}
+
+
+def _told(positions: Any) -> _Made:
+    return ServoPositions, {"positions": positions}
 
 
 _HUGE = 10**5000  # more digits than Python agrees to print
 _LONG = "x" * 100
+_NO_NUMBER, _TRUTH = "is not a whole number, but", "is a truth value, not a whole number"
+_NO_PAIR, _NO_LIST = "is not (servo_id, position)", "is not a list of whole numbers"
 
 BAD_VALUES = (
     # Outside the range, by one and by far.
@@ -283,95 +296,61 @@ BAD_VALUES = (
     BadValue(*_run(1, 65536), "times", 65536, "65536 is outside 0..65535"),
     BadValue(*_run(_HUGE), "group", _HUGE, "an integer of 16610 bits is outside 0..255"),
     BadValue(*_run(1, -_HUGE), "times", -_HUGE, "an integer of 16610 bits is outside 0..65535"),
-    BadValue(
-        *_move((1, 800), (2, 70000)), "targets[1].position", 70000, "70000 is outside 0..65535"
-    ),
+    BadValue(*_move((1, 8), (2, 65536)), "targets[1].position", 65536, "65536 is outside 0..65535"),
     BadValue(*_move((256, 800)), "targets[0].servo_id", 256, "256 is outside 0..255"),
     BadValue(*_move((1, 1), time_ms=65536), "time_ms", 65536, "65536 is outside 0..65535"),
     BadValue(*_unload([1, 300]), "servo_ids[1]", 300, "300 is outside 0..255"),
     # No whole number.
-    BadValue(*_run(True), "group", True, "True is a truth value, not a whole number"),
-    BadValue(*_run(1, False), "times", False, "False is a truth value, not a whole number"),
-    BadValue(*_run(1.0), "group", 1.0, "1.0 is not a whole number, but a float"),
-    BadValue(*_run("8"), "group", "8", "'8' is not a whole number, but a str"),
-    BadValue(*_run(None), "group", None, "None is not a whole number, but nothing"),
-    BadValue(*_run([8]), "group", [8], "[8] is not a whole number, but a list"),
-    BadValue(*_run(_LONG), "group", _LONG, f"'{56 * 'x'}... is not a whole number, but a str"),
-    BadValue(
-        *_move((1, True)), "targets[0].position", True, "True is a truth value, not a whole number"
-    ),
-    BadValue(
-        *_move((1, 1.5)), "targets[0].position", 1.5, "1.5 is not a whole number, but a float"
-    ),
-    BadValue(
-        *_move((None, 1)), "targets[0].servo_id", None, "None is not a whole number, but nothing"
-    ),
-    BadValue(*_move((1, 1), time_ms=0.5), "time_ms", 0.5, "0.5 is not a whole number, but a float"),
-    BadValue(
-        *_unload([1, True]), "servo_ids[1]", True, "True is a truth value, not a whole number"
-    ),
-    BadValue(*_unload(["1"]), "servo_ids[0]", "1", "'1' is not a whole number, but a str"),
-    BadValue(
-        *_unload([(1, 2)]), "servo_ids[0]", (1, 2), "(1, 2) is not a whole number, but a tuple"
-    ),
+    BadValue(*_run(True), "group", True, f"True {_TRUTH}"),
+    BadValue(*_run(1, False), "times", False, f"False {_TRUTH}"),
+    BadValue(*_run(1.0), "group", 1.0, f"1.0 {_NO_NUMBER} a float"),
+    BadValue(*_run("8"), "group", "8", f"'8' {_NO_NUMBER} a str"),
+    BadValue(*_run(None), "group", None, f"None {_NO_NUMBER} nothing"),
+    BadValue(*_run([8]), "group", [8], f"[8] {_NO_NUMBER} a list"),
+    BadValue(*_run(_LONG), "group", _LONG, f"'{56 * 'x'}... {_NO_NUMBER} a str"),
+    BadValue(*_move((1, True)), "targets[0].position", True, f"True {_TRUTH}"),
+    BadValue(*_move((1, 1.5)), "targets[0].position", 1.5, f"1.5 {_NO_NUMBER} a float"),
+    BadValue(*_move((None, 1)), "targets[0].servo_id", None, f"None {_NO_NUMBER} nothing"),
+    BadValue(*_move((1, 1), time_ms=0.5), "time_ms", 0.5, f"0.5 {_NO_NUMBER} a float"),
+    BadValue(*_unload([1, True]), "servo_ids[1]", True, f"True {_TRUTH}"),
+    BadValue(*_unload(["1"]), "servo_ids[0]", "1", f"'1' {_NO_NUMBER} a str"),
+    BadValue(*_unload([(1, 2)]), "servo_ids[0]", (1, 2), f"(1, 2) {_NO_NUMBER} a tuple"),
     # No pair.
-    BadValue(*_move(1), "targets[0]", 1, "1 is not (servo_id, position)"),
-    BadValue(*_move((1,)), "targets[0]", (1,), "(1,) is not (servo_id, position)"),
+    BadValue(*_move(1), "targets[0]", 1, f"1 {_NO_PAIR}"),
+    BadValue(*_move((1,)), "targets[0]", (1,), f"(1,) {_NO_PAIR}"),
     # Nor do two wrongs make a right, though together they have as many numbers as two pairs.
-    BadValue(*_move((1,), (1, 2, 3)), "targets[0]", (1,), "(1,) is not (servo_id, position)"),
-    BadValue(
-        *_move((1, 2), (1, 2, 3)), "targets[1]", (1, 2, 3), "(1, 2, 3) is not (servo_id, position)"
-    ),
-    BadValue(*_move(None), "targets[0]", None, "None is not (servo_id, position)"),
-    BadValue(*_move("ab"), "targets[0]", "ab", "'ab' is not (servo_id, position)"),
-    BadValue(*_move(b"ab"), "targets[0]", b"ab", "b'ab' is not (servo_id, position)"),
-    BadValue(*_move({7, 8}), "targets[0]", {7, 8}, f"{ {7, 8} } is not (servo_id, position)"),
-    BadValue(
-        *_move({1: 2, 3: 4}), "targets[0]", {1: 2, 3: 4}, "{1: 2, 3: 4} is not (servo_id, position)"
-    ),
+    BadValue(*_move((1,), (1, 2, 3)), "targets[0]", (1,), f"(1,) {_NO_PAIR}"),
+    BadValue(*_move((1, 2), (1, 2, 3)), "targets[1]", (1, 2, 3), f"(1, 2, 3) {_NO_PAIR}"),
+    BadValue(*_move(None), "targets[0]", None, f"None {_NO_PAIR}"),
+    BadValue(*_move("ab"), "targets[0]", "ab", f"'ab' {_NO_PAIR}"),
+    BadValue(*_move(b"ab"), "targets[0]", b"ab", f"b'ab' {_NO_PAIR}"),
+    BadValue(*_move({7, 8}), "targets[0]", {7, 8}, f"{ {7, 8} } {_NO_PAIR}"),
+    BadValue(*_move({1: 2, 3: 4}), "targets[0]", {1: 2, 3: 4}, f"{ {1: 2, 3: 4} } {_NO_PAIR}"),
     # Pairs as a mapping.
     *(
         BadValue(ServoMove, {"time_ms": 1, "targets": pairs}, path, value, text)
         for pairs, path, value, text in (
             ({1: 2, 3: 70000}, "targets[1].position", 70000, "70000 is outside 0..65535"),
             ({300: 2}, "targets[0].servo_id", 300, "300 is outside 0..255"),
-            ({"a": 2}, "targets[0].servo_id", "a", "'a' is not a whole number, but a str"),
+            ({"a": 2}, "targets[0].servo_id", "a", f"'a' {_NO_NUMBER} a str"),
             ({}, "targets", {}, "0 items is outside 1..83"),
         )
     ),
     # No list.
-    BadValue(*_unload(1), "servo_ids", 1, "1 is not a list of whole numbers"),
-    BadValue(*_unload(None), "servo_ids", None, "None is not a list of whole numbers"),
-    BadValue(*_unload("12"), "servo_ids", "12", "'12' is not a list of whole numbers"),
-    BadValue(*_unload({1}), "servo_ids", {1}, "{1} is not a list of whole numbers"),
-    BadValue(*_unload({1: 2}), "servo_ids", {1: 2}, "{1: 2} is not a list of whole numbers"),
-    BadValue(
-        ServoPositions,
-        {"positions": None},
-        "positions",
-        None,
-        "None is not a list of (servo_id, position)",
-    ),
+    BadValue(*_unload(1), "servo_ids", 1, f"1 {_NO_LIST}"),
+    BadValue(*_unload(None), "servo_ids", None, f"None {_NO_LIST}"),
+    BadValue(*_unload("12"), "servo_ids", "12", f"'12' {_NO_LIST}"),
+    BadValue(*_unload({1}), "servo_ids", {1}, f"{{1}} {_NO_LIST}"),
+    BadValue(*_unload({1: 2}), "servo_ids", {1: 2}, f"{{1: 2}} {_NO_LIST}"),
+    BadValue(*_told(None), "positions", None, "None is not a list of (servo_id, position)"),
     # Too few and too many.
     BadValue(*_move(), "targets", [], "0 items is outside 1..83"),
     BadValue(*_move(*[(1, 1)] * 84), "targets", [(1, 1)] * 84, "84 items is outside 1..83"),
     BadValue(*_unload([]), "servo_ids", [], "0 items is outside 1..252"),
     BadValue(*_unload([1] * 253), "servo_ids", [1] * 253, "253 items is outside 1..252"),
-    BadValue(ServoPositionsRead, {"servo_ids": ()}, "servo_ids", (), "0 items is outside 1..252"),
-    BadValue(
-        ServoPositionsRead,
-        {"servo_ids": (1,) * 253},
-        "servo_ids",
-        (1,) * 253,
-        "253 items is outside 1..252",
-    ),
-    BadValue(
-        ServoPositions,
-        {"positions": [(1, 1)] * 85},
-        "positions",
-        [(1, 1)] * 85,
-        "85 items is outside 0..84",
-    ),
+    BadValue(*_ask(()), "servo_ids", (), "0 items is outside 1..252"),
+    BadValue(*_ask((1,) * 253), "servo_ids", (1,) * 253, "253 items is outside 1..252"),
+    BadValue(*_told([(1, 1)] * 85), "positions", [(1, 1)] * 85, "85 items is outside 0..84"),
     # The first wrong value is the one that is reported, in the order of the arguments.
     BadValue(*_run(256, 65536), "group", 256, "256 is outside 0..255"),
     BadValue(*_move((256, 65536), time_ms=-1), "time_ms", -1, "-1 is outside 0..65535"),

@@ -119,98 +119,58 @@ def test_a_library_explains_as_the_reference_does(libraries: Libraries, name: st
 
 
 # What is said of bytes, by protocol: reason, what was due, and the hints.
+MOVE, HEARTBEAT = "Move (host -> servo)", "Heartbeat (vehicle -> ground)"
+SUM = "checksum is 17; the inverted sum of servo_id, length, command and parameters is 16"
+CRC = "the crc-16/mcrf4xx of length, sequence, sender, message, payload and extra"
+CENTRES = "E0 03 1F F8 C0 07 3E F0 81 0F 7C"
+NAME = "C8 43 31 5F 4D 49 4E 00 00 00 00 00 00 00 00 00"
 REFUSALS = [
     (
-        "lxservo",
-        "55 55 01 07 01 F4 01 E8 03 17",
-        "bad checksum",
-        "checksum is 17; the inverted sum of servo_id, length, command and parameters is 16",
-        ["with the right checksum they would be Move (host -> servo)"],
+        *("lxservo", "55 55 01 07 01 F4 01 E8 03 17", "bad checksum", SUM),
+        [f"with the right checksum they would be {MOVE}"],
     ),
     (
-        "lxservo",
-        "55 55 01 08 01 F4 01 E8 03 17",
-        "length mismatch",
+        *("lxservo", "55 55 01 08 01 F4 01 E8 03 17", "length mismatch"),
         "Move has a length of 7, not 8",
-        [
-            (
-                "10 bytes have a length of 7; with that and the right checksum they would be Move "
-                "(host -> servo)"
-            )
-        ],
+        [f"10 bytes have a length of 7; with that and the right checksum they would be {MOVE}"],
     ),
     (
-        "lxservo",
-        "55 55 01 07 77 F4 01 E8 03 A0",
-        "unknown command",
+        *("lxservo", "55 55 01 07 77 F4 01 E8 03 A0", "unknown command"),
         "no message host -> servo has the command 119",
         ["the checksum is right: a frame that this spec does not have"],
     ),
     (
-        "lxservo",
-        "55 55 FF 07 01 F4 01 E8 03 16",
-        "out of range",
-        "servo_id is 255, outside 0..254",
-        [],
+        *("lxservo", "55 55 FF 07 01 F4 01 E8 03 16", "out of range"),
+        *("servo_id is 255, outside 0..254", []),
     ),
     (
-        "modbus",
-        "FF 01 05 CD 6B B2 0E 1B 45 E6",
-        "bad header",
-        "a frame begins with its unit, 0..247",
-        [],
+        *("modbus", "FF 01 05 CD 6B B2 0E 1B 45 E6", "bad header"),
+        *("a frame begins with its unit, 0..247", []),
     ),
     (
-        "modbus",
-        "11 03 06 AE 41 56 52 43 40 49 AC",
-        "bad checksum",
+        *("modbus", "11 03 06 AE 41 56 52 43 40 49 AC", "bad checksum"),
         "crc is 49 AC; the crc-16/modbus of unit, function and data is 49 AD",
         ["with the right crc they would be Holding (device -> client)"],
     ),
     (
-        "modbus",
-        "11 03 05 AE 41",
-        "count mismatch",
-        "no Holding has a size of 5, of 1..125 elements",
-        [],
+        *("modbus", "11 03 05 AE 41", "count mismatch"),
+        *("no Holding has a size of 5, of 1..125 elements", []),
     ),
     (
-        "ubx",
-        "B5 62 06 77 06 00 E8 03 01 00 01 00 70 20",
-        "unknown command",
+        *("ubx", "B5 62 06 77 06 00 E8 03 01 00 01 00 70 20", "unknown command"),
         "no message host -> receiver has the class 6 and message 119",
         ["the checksum is right: a frame that this spec does not have"],
     ),
+    ("msp", "24 4D 00", "bad header", "a frame begins 24 4D 3C", []),
+    ("sbus", f"0F {CENTRES} {CENTRES} 00 01", "bad trailer", "end is always 00", []),
     (
-        "msp",
-        "24 4D 00",
-        "bad header",
-        "a frame begins 24 4D 3C",
-        [],
+        *("mavlink1", f"FE 14 07 FF BE 14 FF FF 01 01 {NAME} 58 DF", "out of range"),
+        *("name has the byte C8, which is not ASCII", []),
     ),
     (
-        "sbus",
-        "0F E0 03 1F F8 C0 07 3E F0 81 0F 7C E0 03 1F F8 C0 07 3E F0 81 0F 7C 00 01",
-        "bad trailer",
-        "end is always 00",
-        [],
-    ),
-    (
-        "mavlink1",
-        "FE 14 07 FF BE 14 FF FF 01 01 C8 43 31 5F 4D 49 4E 00 00 00 00 00 00 00 00 00 58 DF",
-        "out of range",
-        "name has the byte C8, which is not ASCII",
-        [],
-    ),
-    (
-        "mavlink1",
-        "FE 09 00 01 01 00 00 00 00 00 02 03 00 04 03 D0 15",
-        "bad checksum",
-        (
-            "checksum is D0 15; the crc-16/mcrf4xx of length, sequence, sender, message, payload "
-            "and extra is D0 14"
-        ),
-        ["with the right checksum they would be Heartbeat (vehicle -> ground)"],
+        *("mavlink1", "FE 09 00 01 01 00 00 00 00 00 02 03 00 04 03 D0 15", "bad checksum"),
+        f"checksum is D0 15; {CRC} is D0 14",
+        [f"with the right checksum they would be {HEARTBEAT}"],
     ),
 ]
 
@@ -248,54 +208,27 @@ frames:
     body: {is: body}
     check: {is: checksum, type: u8, method: xor, covers: [kind, body]}
 messages:
-  Wake:
-    frame: plain
-    id: 1
-    direction: host -> lamp
-    summary: Wake up.
-    cite: m
-    length: 3
-    fields: {state: {type: u16, always: 1, about: Awake.}}
-    examples: [{title: Wake, hex: 7E 03 01 00 01 00, values: {}, cite: m}]
-  Sleep:
-    frame: plain
-    id: 1
-    direction: host -> lamp
-    summary: Go to sleep.
-    cite: m
-    length: 3
-    fields: {state: {type: u16, always: 0, about: Asleep.}}
-    examples: [{title: Sleep, hex: 7E 03 01 00 00 01, values: {}, cite: m}]
-  Glow:
-    frame: numbered
-    id: 2
-    direction: host -> lamp
-    summary: Glow.
-    cite: m
-    length: 3
-    fields: {level: {type: u8, about: How bright.}}
-    examples: [{title: Glow, hex: 7E 03 02 00 02 00, values: {level: 2, number: 0}, cite: m}]
+  Wake: {frame: plain, id: 1, direction: host -> lamp, summary: Wake up., cite: m, length: 3,
+    fields: {state: {type: u16, always: 1, about: Awake.}},
+    examples: [{title: Wake, hex: 7E 03 01 00 01 00, values: {}, cite: m}]}
+  Sleep: {frame: plain, id: 1, direction: host -> lamp, summary: Go to sleep., cite: m, length: 3,
+    fields: {state: {type: u16, always: 0, about: Asleep.}},
+    examples: [{title: Sleep, hex: 7E 03 01 00 00 01, values: {}, cite: m}]}
+  Glow: {frame: numbered, id: 2, direction: host -> lamp, summary: Glow., cite: m, length: 3,
+    fields: {level: {type: u8, about: How bright.}},
+    examples: [{title: Glow, hex: 7E 03 02 00 02 00, values: {level: 2, number: 0}, cite: m}]}
 """
 
 
-@pytest.mark.parametrize(
-    ("data", "reason", "due"),
-    [
+@in_turn(
+    "data, reason, due",
+    lambda: [
         (
-            "7E 03 01 01 02 02",
-            "out of range",
+            *("7E 03 01 01 02 02", "out of range"),
             "Wake: state is always 00 01; Sleep: state is always 00 00",
         ),
-        (
-            "7E 03 01 00 01 77",
-            "bad checksum",
-            "check is 77; the xor of kind and body is 00",
-        ),
-        (
-            "7E 03 02 00 02 01 00",
-            "bad checksum",
-            "check is 01; the xor of kind and body is 00",
-        ),
+        ("7E 03 01 00 01 77", "bad checksum", "check is 77; the xor of kind and body is 00"),
+        ("7E 03 02 00 02 01 00", "bad checksum", "check is 01; the xor of kind and body is 00"),
         ("7E 03 01 00", "too short", "a size of 3 makes 6 bytes"),
         ("7E 03 02 00 02 00 00", "trailing bytes", "a size of 3 makes 6 bytes"),
     ],

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import all_ways, lines, read_by_reference, told
@@ -132,36 +133,19 @@ def hostile(name: str, way: Direction) -> list[bytes]:
 
 
 @each_counted
-def test_hostile_lines_that_come_at_once_cost_linear_time(
-    libraries: Libraries, name: str, way: Direction
-) -> None:
-    made = libraries[name]
-
-    def read(line: bytes) -> None:
-        decoder = made.StreamDecoder(direction_of(made, way))
-        decoder.feed(line)
-        decoder.flush()
-
-    for pattern in filter(None, hostile(name, way)):
-        line = pattern * (SIZES[-1] // len(pattern) + 1)
-        # What is looked up once for all is none of it.
-        read(line[:64])
-        costs = [calls(lambda: read(line[:end])) for end in SIZES]  # noqa: B023
-        assert_linear(name, way, costs, pattern)
-
-
-@each_counted
-def test_hostile_lines_that_come_byte_by_byte_cost_linear_time(
-    libraries: Libraries, name: str, way: Direction
+@in_turn("size", lambda: [1, SIZES[-1]])
+def test_hostile_lines_cost_linear_time_however_they_come(
+    libraries: Libraries, name: str, way: Direction, size: int
 ) -> None:
     made = libraries[name]
 
     def read(decoder: Any, line: bytes) -> None:
-        for at in range(len(line)):
-            decoder.feed(line[at : at + 1])
+        for at in range(0, len(line), size):
+            decoder.feed(line[at : at + size])
 
     for pattern in filter(None, hostile(name, way)):
         line = pattern * (SIZES[-1] // len(pattern) + 1)
+        # What is looked up once for all is none of it.
         warm = made.StreamDecoder(direction_of(made, way))
         read(warm, line[:64])
         warm.flush()

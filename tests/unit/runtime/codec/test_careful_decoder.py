@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING
 
-import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupStarted,
@@ -24,10 +22,7 @@ from hypothesis import strategies as st
 from tests.factories import compiled_of, data_in, library, library_files
 from tests.in_turn import in_turn
 from tests.mutations.places import having
-from tests.strategies import joined
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
+from tests.strategies import bytes_of, joined, messages_in
 
 RECEIVED = Direction.CONTROLLER_TO_HOST
 REPORT = ActionGroupCompleted(8, 1)
@@ -52,21 +47,13 @@ def careful(*pieces: bytes, flushed: bool = False) -> list[Message | Noise]:
     return events
 
 
-def messages(events: Iterable[Message | Noise]) -> list[Message]:
-    return [event for event in events if not isinstance(event, Noise)]
-
-
-def bytes_of(events: Iterable[Message | Noise]) -> bytes:
-    return b"".join(each.data if isinstance(each, Noise) else each.encode() for each in events)
-
-
 @in_turn("lost", lambda: range(1, 3))
 @in_turn("cut", lambda: range(8))
 def test_a_battery_reply_with_a_hole_is_no_message(lost: int, cut: int) -> None:
     """55 55 04 0F, two bytes lost, and a report: 21845 mV, if it were taken for whole."""
     torn = BatteryVoltage(0x1D4C).encode()[: -lost or None]
     line = torn + REPORT.encode()
-    assert messages(careful(line[:cut], line[cut:])) == [REPORT]
+    assert messages_in(careful(line[:cut], line[cut:])) == [REPORT]
 
 
 def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
@@ -76,7 +63,7 @@ def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
             frame = torn.encode()
             for lost in range(1, min(len(frame) - 4, len(follows.encode()) - 2) + 1):
                 line = frame[:-lost] + follows.encode()
-                assert messages(careful(line, flushed=True)) == [follows], (torn, follows, lost)
+                assert messages_in(careful(line, flushed=True)) == [follows], (torn, follows, lost)
 
 
 @in_turn("follows", lambda: [[ActionGroupStopped()], [REPORT], [ActionGroupStopped(), REPORT]])
@@ -85,7 +72,7 @@ def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], p
     filling = b"".join(each.encode() for each in follows) + REPORT.encode()[:part]
     torn = ServoPositions([(servo, 500) for servo in range(1, 7)]).encode()
     line = torn[: -len(filling)] + filling + REPORT.encode()[part:]
-    assert messages(careful(line, flushed=True)) == [*follows, REPORT]
+    assert messages_in(careful(line, flushed=True)) == [*follows, REPORT]
 
 
 @in_turn("message", lambda: MESSAGES)
@@ -115,14 +102,13 @@ def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
     assert decoder.feed(b"\x07") == [ActionGroupStopped()]
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "message",
-    [
+    lambda: [
         ServoPositions([(1, 0x5555), (2, 500)]),
         ServoPositions([(1, 0x5555), (2, 0x5555), (3, 500)]),
         ServoPositions([(0x55, 0x0255), (7, 500)]),
     ],
-    ids=repr,
 )
 def test_a_header_in_the_middle_of_a_message_is_no_reason_to_wait(message: Message) -> None:
     assert careful(message.encode()) == [message]
@@ -145,7 +131,7 @@ def test_a_message_that_stays_doubtful_is_noise() -> None:
     decoder = CODEC.careful_decoder(RECEIVED)
     assert decoder.feed(bytes.fromhex("55 55 04 0F 55 55 05 08")) == []
     events = decoder.flush()
-    assert messages(events) == []
+    assert messages_in(events) == []
     assert bytes_of(events) == bytes.fromhex("55 55 04 0F 55 55 05 08")
     assert decoder.pending == 0
 
@@ -189,7 +175,7 @@ def test_without_doubtful_messages_it_agrees_with_the_stream_decoder(line: list[
     found = [*doubting.feed(whole)]
     while doubting.pending:
         found += doubting.flush()
-    if not any(b"\x55" in each.encode()[2:] for each in messages(expected)):
+    if not any(b"\x55" in each.encode()[2:] for each in messages_in(expected)):
         assert joined(found) == joined(expected)
 
 
@@ -211,33 +197,20 @@ frames:
     byte: {is: constant, bytes: "06"}
     body: {is: body}
 messages:
-  Done:
-    frame: acknowledgement
-    direction: meter -> host
-    summary: It is done.
-    cite: m
-    length: 1
-    examples: [{title: Done, hex: "06", values: {}, cite: m}]
-  Value:
-    frame: normal
-    id: 2
-    direction: meter -> host
-    summary: A value.
-    cite: m
-    length: 4
-    fields: {value: {type: u8, about: The value.}}
-    examples: [{title: Four, hex: AA 02 04 06, values: {value: 4}, cite: m}]
+  Done: {frame: acknowledgement, direction: meter -> host, summary: It is done., cite: m, length: 1,
+    examples: [{title: Done, hex: "06", values: {}, cite: m}]}
+  Value: {frame: normal, id: 2, direction: meter -> host, summary: A value., cite: m, length: 4,
+    fields: {value: {type: u8, about: The value.}},
+    examples: [{title: Four, hex: AA 02 04 06, values: {value: 4}, cite: m}]}
 """
 
 
-@pytest.mark.parametrize(
+# What a checksum proves, and what ends as a single byte begins.
+@in_turn(
     "end",
-    [
-        pytest.param(
-            {"is": "checksum", "type": "u8", "method": "sum", "covers": ["code", "body"]},
-            id="what a checksum proves",
-        ),
-        pytest.param({"is": "constant", "bytes": "06"}, id="what ends as a single byte begins"),
+    lambda: [
+        {"is": "checksum", "type": "u8", "method": "sum", "covers": ["code", "body"]},
+        {"is": "constant", "bytes": "06"},
     ],
 )
 def test_an_acknowledgement_makes_no_other_frame_doubtful(end: dict[str, object]) -> None:

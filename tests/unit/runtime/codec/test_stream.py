@@ -142,7 +142,7 @@ def test_what_was_fed_may_change_afterwards() -> None:
     assert decoder.feed(b"\x1e") == [BatteryVoltage(voltage_mv=7881)]
 
 
-@pytest.mark.parametrize("data", ["55", 0x55, None, [0x55], object()])
+@in_turn("data", lambda: ["55", 0x55, None, [0x55], object()])
 def test_what_is_no_bytes_is_refused_and_changes_nothing(data: Any) -> None:
     decoder = StreamDecoder(HOST)
     decoder.feed(STOP[:3])
@@ -209,30 +209,26 @@ def test_a_copy_goes_on_by_itself(
 
 
 @given(lines, directions, st.data())
-def test_1_nothing_is_lost(line: bytes, direction: Direction | None, data: st.DataObject) -> None:
+def test_1_2_nothing_is_lost_all_is_counted_and_chunking_does_not_matter(
+    line: bytes, direction: Direction | None, data: st.DataObject
+) -> None:
     decoder = StreamDecoder(direction)
     events: list[Message | Noise] = []
     fed = b""
-    for chunk in data.draw(pieces(line)):
-        events += decoder.feed(chunk)
-        fed += chunk
-        reported = bytes_of(events)
+    # From quiet to quiet, twice.
+    for chunk in [*data.draw(pieces(line)), None, *data.draw(pieces(line)), None]:
+        events += decoder.flush() if chunk is None else decoder.feed(chunk)
+        fed += chunk or b""
+        reported, counters, messages = bytes_of(events), decoder.counters, messages_in(events)
         assert fed.startswith(reported)
-        assert len(reported) + decoder.pending == len(fed)
-    events += decoder.flush()
-
-    assert bytes_of(events) == line
-    assert decoder.pending == 0
-
-
-@given(lines, directions, st.data())
-def test_2_chunking_does_not_matter(
-    line: bytes, direction: Direction | None, data: st.DataObject
-) -> None:
-    chunks = data.draw(pieces(line))
+        assert len(reported) + decoder.pending == len(fed) == counters.fed
+        assert counters.messages == len(messages)
+        assert counters.unknown_frames == len(unknown_in(events))
+        assert counters.noise == len(reported) - len(bytes_of(messages))
+    assert (bytes_of(events), decoder.pending) == (2 * line, 0)
 
     # Messages, unknown frames and the reason of every byte of noise: all but where noise was cut.
-    assert joined(read(direction, chunks)) == joined(read(direction, [line]))
+    assert joined(read(direction, data.draw(pieces(line)))) == joined(read(direction, [line]))
 
 
 @given(directions, st.data())
@@ -271,23 +267,12 @@ def bytes_held(decoder: StreamDecoder) -> int:
 
 
 @each_direction
-@in_turn("length", lambda: [0, 1, 2, 5, 85, 254, 255])
-def test_4_it_holds_no_more_after_any_beginning_of_a_frame(
-    direction: Direction | None, length: int
-) -> None:
-    decoder = StreamDecoder(direction)
-    for command in range(256):
-        decoder.feed(bytes([0x55, 0x55, length, command]))
-        assert decoder.pending < LARGEST
-
-
-@each_direction
 def test_4_it_holds_no_more_for_a_beginning_within_an_unknown_frame(
     direction: Direction | None,
 ) -> None:
     # Both claim all that a length can say, and the second begins just before the first ends.
     for head in HEADS:
-        for between in (0, 1, 100, *range(240, 253)):
+        for between in (0, 100, *range(247, 253)):
             decoder = StreamDecoder(direction)
             decoder.feed(bytes.fromhex("55 55 FF 63") + bytes(between))
             for byte in single_bytes(head + bytes(260)):
@@ -317,16 +302,6 @@ def test_4_what_all_decoders_share_does_not_grow_with_what_arrives(command: int)
     assert grown < 7 * 256 // 10
 
 
-@given(st.lists(st.binary(max_size=300) | lines | st.none(), max_size=6), directions)
-def test_5_it_never_raises_on_input(
-    chunks: list[bytes | None], direction: Direction | None
-) -> None:
-    decoder = StreamDecoder(direction)
-    for chunk in chunks:
-        events = decoder.flush() if chunk is None else decoder.feed(chunk)
-        assert all(isinstance(event, (Message, Noise)) for event in events)
-
-
 @given(lines, directions, st.data())
 def test_5_flush_rescans_what_a_false_header_was_holding_back(
     line: bytes, direction: Direction | None, data: st.DataObject
@@ -339,19 +314,6 @@ def test_5_flush_rescans_what_a_false_header_was_holding_back(
     # After silence nothing is remembered: the decoder is as good as new.
     assert (decoder.pending, decoder.flush()) == (0, [])
     assert joined(decoder.feed(line)) == joined(read(direction, [line], quiet=False))
-
-
-@given(lines, st.binary(max_size=12).filter(lambda data: data), directions)
-def test_5_flush_finds_frames_behind_a_beginning_that_never_ends(
-    line: bytes, rest: bytes, direction: Direction | None
-) -> None:
-    # A move of 83 servos is announced, and then the line goes quiet.
-    hidden = bytes.fromhex("55 55 FE 03 53") + (line + rest)[:200]
-    decoder = StreamDecoder(HOST if direction is None else direction)
-
-    events = decoder.feed(hidden) + decoder.flush()
-
-    assert scanned(events) == oracle.scan(hidden, oracles(direction or HOST))
 
 
 @given(unknown_frames(), st.integers(0, 16), directions, st.data())
@@ -641,23 +603,7 @@ def test_noise_shows_itself_and_can_be_taken_apart() -> None:
 # --- Counters ------------------------------------------------------------------------------------
 
 
-@given(lines, directions, st.data())
-def test_the_counters_add_up(line: bytes, direction: Direction | None, data: st.DataObject) -> None:
-    decoder = StreamDecoder(direction)
-    events: list[Message | Noise] = []
-    # From quiet to quiet, twice.
-    for chunk in [*data.draw(pieces(line)), None, *data.draw(pieces(line)), None]:
-        events += decoder.flush() if chunk is None else decoder.feed(chunk)
-        counters, messages = decoder.counters, messages_in(events)
-        assert counters.messages == len(messages)
-        assert counters.unknown_frames == len(unknown_in(events))
-        assert counters.noise == len(bytes_of(events)) - len(bytes_of(messages))
-        assert counters.fed == len(bytes_of(events)) + decoder.pending
-
-    assert decoder.counters.fed == 2 * len(line)
-
-
-@pytest.mark.parametrize("size", [1, 3, 1000])
+@in_turn("size", lambda: [1, 3, 1000])
 def test_every_event_is_counted(size: int) -> None:
     line = bytes.fromhex("00 13 55 55 02 07 55 55 02 07 01 55 55 03 01 2A 55 55 02 07")
     decoder = StreamDecoder(HOST)
