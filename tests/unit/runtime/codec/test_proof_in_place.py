@@ -10,7 +10,7 @@ from framegen.render import render_target
 from framegen.targets import python
 from framegen.targets.python.proof_view import proof_in_place
 
-from tests.factories import compiled_values, library
+from tests.factories import compiled_values, data_in, library
 from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
@@ -45,15 +45,20 @@ def sealed(*tail: Any) -> Any:
     }
 
 
-WITH_GAP = {"header": HEADER, "gap": GAP, **sealed(checksum("inverted sum", ALL))}
-IN_FRONT = {
-    "header": HEADER,
-    "sum": checksum("inverted sum", ALL),
-    "length": LENGTH,
-    "id": ID,
-    "body": BODY,
-}
-WITH_HIDDEN = {**sealed(checksum("inverted sum", [*ALL, "extra"])), "extra": HIDDEN}
+def one(
+    method: str,
+    type_: str = "u8",
+    order: str = "little",
+    *behind: Any,
+    covers: list[str] = ALL,
+) -> Any:
+    """Return an envelope with one checksum behind its fields, and these parts behind that."""
+    return sealed(checksum(method, covers, type_, order), *behind)
+
+
+INVERTED = checksum("inverted sum", ALL)
+BEGUN = {"header": HEADER, "length": LENGTH, "id": ID, "body": BODY}
+WITH_HIDDEN = {**one("inverted sum", covers=[*ALL, "extra"]), "extra": HIDDEN}
 BEHIND_A_LENGTH = {
     "length": LENGTH,
     "header": HEADER,
@@ -61,66 +66,64 @@ BEHIND_A_LENGTH = {
     "body": BODY,
     "end": checksum("inverted sum", ["id", "body"]),
 }
-TWO_STRETCHES = sealed(checksum("inverted sum", ["length", "body"]))
 
 # The frames of a protocol, and the test that its decoders make; none where frames differ.
+_U16 = "frame[-2] | frame[-1] << 8"
 CASES = {
-    "inverted": (sealed(checksum("inverted sum", ALL)), "total=0xFE"),
-    "negated": (sealed(checksum("negated sum", ALL)), "total=0xFF"),
-    "behind a gap": (WITH_GAP, "sum(frame[3:]) & 0xFF == 0xFF"),
+    "inverted": (one("inverted sum"), "total=0xFE"),
+    "negated": (one("negated sum"), "total=0xFF"),
+    "behind a gap": (
+        {"header": HEADER, "gap": GAP, **one("inverted sum")},
+        "sum(frame[3:]) & 0xFF == 0xFF",
+    ),
     "behind a length and a constant": (BEHIND_A_LENGTH, "sum(frame[3:]) & 0xFF == 0xFF"),
-    "in front": (IN_FRONT, "~sum(frame[3:]) & 0xFF == frame[2]"),
+    "in front": (
+        {"header": HEADER, "sum": INVERTED, **BEGUN},
+        "~sum(frame[3:]) & 0xFF == frame[2]",
+    ),
     "in front of an end": (
-        sealed(checksum("inverted sum", ALL), END),
+        one("inverted sum", "u8", "little", END),
         "~sum(frame[2:-2]) & 0xFF == frame[-2]",
     ),
-    "plain": (sealed(checksum("sum", ALL)), "sum(frame[2:-1]) & 0xFF == frame[-1]"),
-    "of all": (sealed(checksum("sum", ["header", *ALL])), "sum(frame[:-1]) & 0xFF == frame[-1]"),
-    "two bytes": (
-        sealed(checksum("negated sum", ALL, "u16")),
-        "-sum(frame[2:-2]) & 0xFFFF == frame[-2] | frame[-1] << 8",
-    ),
+    "plain": (one("sum"), "sum(frame[2:-1]) & 0xFF == frame[-1]"),
+    "of all": (one("sum", covers=["header", *ALL]), "sum(frame[:-1]) & 0xFF == frame[-1]"),
+    "two bytes": (one("negated sum", "u16"), f"-sum(frame[2:-2]) & 0xFFFF == {_U16}"),
     "two bytes, big": (
-        sealed(checksum("crc-16/modbus", ALL, "u16", "big")),
+        one("crc-16/modbus", "u16", "big"),
         "_checksum_of(frame[2:-2]) == frame[-1] | frame[-2] << 8",
     ),
     "four bytes": (
-        sealed(checksum("crc-32/iso-hdlc", ALL, "u32", "big")),
+        one("crc-32/iso-hdlc", "u32", "big"),
         '_checksum_of(frame[2:-4]) == int.from_bytes(frame[-4:], "big")',
     ),
     "divided on": (
-        sealed(checksum("crc-16/modbus", ["header", *ALL], "u16")),
+        one("crc-16/modbus", "u16", covers=["header", *ALL]),
         "_checksum_of(frame) == 0x0",
     ),
-    "divided on, inverted": (
-        sealed(checksum("crc-16/ibm-sdlc", ALL, "u16")),
-        "_checksum_of(frame[2:]) == 0xF47",
-    ),
-    "divided on, big": (
-        sealed(checksum("crc-16/genibus", ALL, "u16", "big")),
-        "_checksum_of(frame[2:]) == 0xE2F0",
-    ),
+    "divided on, inverted": (one("crc-16/ibm-sdlc", "u16"), "_checksum_of(frame[2:]) == 0xF47"),
+    "divided on, big": (one("crc-16/genibus", "u16", "big"), "_checksum_of(frame[2:]) == 0xE2F0"),
     "divided on, four bytes": (
-        sealed(checksum("crc-32/iso-hdlc", ALL, "u32")),
+        one("crc-32/iso-hdlc", "u32"),
         "_checksum_of(frame[2:]) == 0x2144DF1C",
     ),
-    "one byte": (
-        sealed(checksum("crc-8/maxim-dow", ALL)),
-        "_checksum_of(frame[2:-1]) == frame[-1]",
-    ),
-    "seven bits": (
-        sealed(checksum("negated sum-7", ALL)),
-        "_checksum_of(frame[2:-1]) == frame[-1]",
-    ),
-    "of words": (
-        sealed(checksum("word sum", ALL, "u16")),
-        "_checksum_of(frame[2:-2]) == frame[-2] | frame[-1] << 8",
-    ),
+    "one byte": (one("crc-8/maxim-dow"), "_checksum_of(frame[2:-1]) == frame[-1]"),
+    "seven bits": (one("negated sum-7"), "_checksum_of(frame[2:-1]) == frame[-1]"),
+    "of words": (one("word sum", "u16"), f"_checksum_of(frame[2:-2]) == {_U16}"),
     "two checksums": (sealed(checksum("sum", ALL), checksum("xor", ALL)), None),
-    "two stretches": (TWO_STRETCHES, None),
+    "two stretches": (one("inverted sum", covers=["length", "body"]), None),
     "what is not sent": (WITH_HIDDEN, None),
     "no checksum": (sealed(), None),
 }
+
+
+MADE_UP = """
+framegen: 2
+protocol: {name: made_up, title: Made up, version: 1.0.0, authority: paper, summary: For the tests.}
+sources: {paper: {title: A paper, kind: document}}
+endpoints: {sensor: Reports., host: Listens.}
+link: {baud: 9600, cite: "paper, 2"}
+byte_order: little
+"""
 
 
 def spec_of(**frames: Any) -> Any:
@@ -131,31 +134,16 @@ def spec_of(**frames: Any) -> Any:
         messages[f"Level{number}"] = {
             "id": ids if len(ids) > 1 else number,
             "frame": name,
+            "length": 5,
             "direction": "sensor -> host",
             "summary": "A level.",
             "cite": "paper, 1",
-            "length": 5,
             "fields": {
                 "level": {"type": "u16", "range": "0..1000", "about": "The level."},
                 "state": {"type": "u8", "about": "The state."},
             },
         }
-    return {
-        "framegen": 2,
-        "protocol": {
-            "name": "made_up",
-            "title": "Made up",
-            "version": "1.0.0",
-            "authority": "paper",
-            "summary": "For the tests.",
-        },
-        "sources": {"paper": {"title": "A paper", "kind": "document"}},
-        "endpoints": {"sensor": "Reports.", "host": "Listens."},
-        "link": {"baud": 9600, "cite": "paper, 2"},
-        "byte_order": "little",
-        "frames": frames,
-        "messages": messages,
-    }
+    return {**data_in(MADE_UP), "frames": frames, "messages": messages}
 
 
 VALUES = {"level": 500, "state": 7}
