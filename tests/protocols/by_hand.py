@@ -165,7 +165,6 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
             + struct.pack(">I", values["used"])[1:]
             + _pack(">b", values, "remaining"),
         ),
-        "Attitude": lambda values: _crsf(0x1E, _pack(">hhh", values)),
         "FlightMode": lambda values: _crsf(0x21, bytes(values["letters"])),
         "LinkStatistics": lambda values: _crsf(
             0x14,
@@ -227,7 +226,6 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
     "visca": {
         "PowerSet": lambda values: _camera("81 01 04 00", values),
         "ZoomTo": lambda values: _camera("81 01 04 47", values),
-        "Turn": lambda values: _camera("81 01 06 01", values),
         "PowerRead": lambda values: _camera("81 09 04 00", values),
         "ZoomRead": lambda values: _camera("81 09 04 47", values),
         "AimRead": lambda values: _camera("81 09 06 12", values),

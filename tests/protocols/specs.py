@@ -44,11 +44,6 @@ def messages_of(name: str) -> dict[str, MessageLayout]:
     return model_of(name).messages
 
 
-def all_messages() -> list[tuple[str, str]]:
-    """Return every message of every protocol: the protocol and its own name."""
-    return [(name, message) for name in FILES for message in messages_of(name)]
-
-
 @cache
 def values_of(name: str, message: str, *, few: bool = False) -> st.SearchStrategy[Values]:
     """Return a strategy for values that a frame of a message can carry, `few` in each list."""

@@ -216,15 +216,3 @@ def test_clients_of_others_talk_to_generated_servos(libraries: Libraries) -> Non
         assert others.pos_read(2) == 60
         assert others.temp_read(1, "C") == 31
     assert device.rejects.total == 0
-
-
-def test_a_client_that_drops_its_echo_talks_to_servos_on_one_wire(libraries: Libraries) -> None:
-    with (
-        served(servos(libraries["lxservo"], 1), echo=True) as port,
-        serial.Serial(port, timeout=GENEROUS) as line,
-    ):
-        theirs = needed("lewanlib.bus").ServoBus(
-            serial_conn=line, discard_echo=True, retry_count=0, on_exit_power_off=False
-        )
-        theirs.move_time_write(1, 120.1, 1)
-        assert theirs.pos_read(1) == 120

@@ -1,23 +1,35 @@
-"""Protocols that others made: each spec holds what they read and write."""
+"""Protocols that others made: each spec holds what they read and write, and uses the language."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
+from framegen.language import spec
 from framegen.model.codec import Decoded, decode, encode
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import BaseModel
 
-from tests.factories import compiled_file
+from tests.factories import BUSSERVO, compiled_file
 from tests.few_each import few_each
 from tests.in_turn import in_turn
+from tests.protocols.actuator_sdk import DynamixelSdk
 from tests.protocols.by_hand import BY_HAND
-from tests.protocols.peers import PEERS
+from tests.protocols.receiver_messages import Pyubx2
+from tests.protocols.register_messages import Pymodbus
+from tests.protocols.servo_clients import LewansoulLx16a, Pylx16a
 from tests.protocols.specs import FILES, SPOKEN, messages_of, model_of, values_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from tests.protocols.peer import Peer
+
+
+# What others wrote for the same protocols, from the package index. A peer is asked for as many
+# messages as it knows, on a line that ends in this process; what it cannot say is narrowed.
+PEERS: list[type[Peer]] = [LewansoulLx16a, Pylx16a, DynamixelSdk, Pymodbus, Pyubx2]
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -64,3 +76,54 @@ def test_every_message_is_held_to_what_others_write_or_read() -> None:
     held |= {(peer.protocol, name) for peer in PEERS for name in [*peer.writes, *peer.reads]}
     spoken = {(name, message) for name in SPOKEN for message in messages_of(name)}
     assert held == spoken
+
+
+# --- The keys of the language: used by a protocol that somebody has, or standing here -------------
+
+# A part that is more than a byte or has notes, a citation, and what only a later version has.
+UNUSED = {
+    ("LengthPart", "byte_order"),
+    ("IdPart", "byte_order"),
+    ("AddressPart", "byte_order"),
+    ("CounterPart", "byte_order"),
+    *((kind, "notes") for kind in ("ConstantPart", "ReservedPart", "LengthPart", "IdPart")),
+    *((kind, "notes") for kind in ("BodyPart", "AddressPart", "CounterPart", "ChecksumPart")),
+    ("NamedAddress", "cite"),
+    ("NumberField", "cite"),
+    ("ListField", "cite"),
+    ("Message", "since"),
+    ("Message", "deprecated"),
+    ("Reserved", "name"),
+    # What earlier editions were like: tests/unit/comparison has editions that say so.
+    *((kind, "was") for kind in ("Message", "NumberField", "ListField", "NamedValue", "Bits")),
+    *((kind, "was") for kind in ("AddressPart", "CounterPart", "NamedAddress")),
+    ("Release", "breaks"),
+    # No protocol has a word of its own for whoever commands it: tests/unit/targets has one.
+    ("Protocol", "client"),
+}
+
+
+def keys_in(value: Any) -> Iterator[tuple[str, str]]:
+    """Yield the keys that a spec uses, each with the name of the mapping that has it."""
+    if isinstance(value, BaseModel):
+        for key in value.model_fields_set:
+            yield type(value).__name__, key
+            yield from keys_in(getattr(value, key))
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from keys_in(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from keys_in(item)
+
+
+def test_every_key_of_the_language_is_used() -> None:
+    parts = [
+        kind
+        for kind in vars(spec).values()
+        if isinstance(kind, type) and issubclass(kind, spec.Part) and not kind.__subclasses__()
+    ]
+    keys = {(part.__name__, key) for part in parts for key in part.model_fields}
+    files = [BUSSERVO, *(FILES[name] for name in SPOKEN)]
+    used = {key for file in files for key in keys_in(compiled_file(file).spec)}
+    assert keys - used <= UNUSED

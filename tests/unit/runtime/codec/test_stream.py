@@ -12,7 +12,6 @@ import pytest
 from busservo import (
     MESSAGES,
     ActionGroupRun,
-    ActionGroupStarted,
     ActionGroupStop,
     ActionGroupStopped,
     BatteryVoltage,
@@ -22,7 +21,6 @@ from busservo import (
     Noise,
     Reason,
     ServoMove,
-    ServoPositions,
     StreamDecoder,
     UnknownFrame,
     decode,
@@ -552,19 +550,6 @@ def test_silence_without_anything_held_says_nothing() -> None:
     assert StreamDecoder(HOST).flush() == []
 
 
-@given(lines, directions)
-def test_noise_without_a_header_before_it_is_a_bad_header(
-    line: bytes, direction: Direction | None
-) -> None:
-    at = 0
-    last: Message | Noise | None = None
-    for event in read(direction, [line]):
-        if type(event) is Noise and type(last) is not Noise:
-            assert (event.reason is HEADER) is not line.startswith(b"\x55\x55", at)
-        at += len(bytes_of([event]))
-        last = event
-
-
 # --- Noise as a value ----------------------------------------------------------------------------
 
 
@@ -625,26 +610,6 @@ def test_what_ends_behind_an_unknown_frame_is_no_part_of_it_as_soon_as_that_is_w
     assert decoder.feed(bytes.fromhex("55 55 07 01 55 55 05 06")) == []
     assert bytes_of(decoder.feed(b"\x08")) == bytes.fromhex("55 55 07 01")
     assert decoder.pending == 5
-
-
-@in_turn(
-    "direction, message",
-    lambda: [
-        (HOST, ServoMove(1000, [(1, 800)])),
-        (CONTROLLER, ActionGroupStarted(8, 1)),
-        # Of this length, a request and a reply share a head.
-        (None, ServoPositions([(3, 800)])),
-    ],
-)
-@in_turn("size", lambda: [2, 3, 4, 5, 6])
-def test_noise_of_any_size_costs_no_frame_that_comes_in_two(
-    size: int, direction: Direction | None, message: Message
-) -> None:
-    frame = message.encode()
-    for before in range(16):
-        decoder = StreamDecoder(direction)
-        events = decoder.feed(bytes(before) + frame[:size]) + decoder.feed(frame[size:])
-        assert messages_in(events) == [message], before
 
 
 def test_the_counters_show_themselves() -> None:
