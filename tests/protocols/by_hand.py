@@ -7,17 +7,13 @@ from binascii import crc_hqx
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Sequence
 
     from tests.protocols.peer import Values
 
 
 def _pack(layout: str, values: Values, *names: str) -> bytes:
     return struct.pack(layout, *(values[name] for name in names or values))
-
-
-def _each(layout: str, items: Iterable[Values]) -> bytes:
-    return b"".join(struct.pack(layout, *item.values()) for item in items)
 
 
 def _channels(values: Sequence[int]) -> bytes:
@@ -65,10 +61,6 @@ def _motor_question(command: int) -> bytes:
 
 
 # --- Frames --------------------------------------------------------------------------------------
-
-
-def _learm(command: int, parameters: bytes) -> bytes:
-    return bytes([0x55, 0x55, len(parameters) + 2, command]) + parameters
 
 
 def _msp(direction: bytes, command: int, payload: bytes) -> bytes:
@@ -129,21 +121,6 @@ def _name(text: str, size: int) -> bytes:
 
 # What writes a frame, by protocol and message.
 BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
-    "learm": {
-        "VersionRead": lambda _: _learm(1, b""),
-        "OffsetsRead": lambda _: _learm(2, b""),
-        "ServoMove": lambda values: _learm(
-            3,
-            struct.pack("<BH", len(values["targets"]), values["time_ms"])
-            + _each("<BH", values["targets"]),
-        ),
-        "ActionGroupRun": lambda values: _learm(6, _pack("<BH", values)),
-        "OffsetSet": lambda values: _learm(10, _pack("<Bb", values)),
-        "PositionsRead": lambda _: _learm(13, b""),
-        "Version": lambda values: _learm(1, _pack("<BB", values)),
-        "Offsets": lambda values: _learm(2, _each("<Bb", values["offsets"])),
-        "Positions": lambda values: _learm(13, _each("<BH", values["positions"])),
-    },
     "msp": {
         "ApiVersionRead": lambda _: _msp(b"<", 1, b""),
         "ApiVersion": lambda values: _msp(b">", 1, _pack("<BBB", values)),

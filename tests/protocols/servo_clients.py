@@ -161,60 +161,23 @@ class LewansoulLx16a(Peer):
         return {"servo_id": frame[2], **_ASKS[message](self.servos, frame[2])}
 
 
-def _steps(degrees: float) -> int:
-    return round(degrees / 0.24)
-
-
 # --- pylx16a -------------------------------------------------------------------------------------
 
 
-def _angle(position: int) -> float:
-    return position * 0.24
-
-
-_TELLS_IN_ANGLES: dict[str, Tell] = {
-    "Move": lambda servo, _, told: servo.move(_angle(told["position"]), told["time_ms"]),
-    "MovePrepare": lambda servo, _, told: servo.move(
-        _angle(told["position"]), told["time_ms"], wait=True
-    ),
-    "MoveStart": lambda servo, *_: servo.move_start(),
-    "ServoIdWrite": lambda servo, _, told: servo.set_id(told["new_id"]),
-    "OffsetAdjust": lambda servo, _, told: servo.set_angle_offset(_angle(told["offset"])),
-    "OffsetSave": lambda servo, *_: servo.set_angle_offset(0, permanent=True),
-    "PositionLimitsWrite": lambda servo, _, told: servo.set_angle_limits(
-        _angle(told["lowest"]), _angle(told["highest"])
-    ),
-    "VoltageLimitsWrite": lambda servo, _, told: servo.set_vin_limits(
-        told["lowest_mv"], told["highest_mv"]
-    ),
-    "TemperatureLimitWrite": lambda servo, _, told: servo.set_temp_limit(told["highest"]),
-}
-_ASKS_IN_ANGLES: dict[str, Ask] = {
-    "LastMove": lambda servo, _: _moved(*servo.get_last_instant_move_hw()),
-    "ServoId": lambda servo, _: {"own_id": servo.get_id(poll_hardware=True)},
-    "Offset": lambda servo, _: {"offset": _steps(servo.get_angle_offset(poll_hardware=True))},
-    "PositionLimits": lambda servo, _: _limits(*servo.get_angle_limits(poll_hardware=True)),
-    "Voltage": lambda servo, _: {"voltage_mv": servo.get_vin()},
-    "Position": lambda servo, _: {"position": _steps(servo.get_physical_angle())},
-}
-
-
-def _limits(lowest: float, highest: float) -> Values:
-    return {"lowest": _steps(lowest), "highest": _steps(highest)}
+def _steps(degrees: float) -> int:
+    return round(degrees / 0.24)
 
 
 def _moved(degrees: float, time_ms: int) -> Values:
     return {"position": _steps(degrees), "time_ms": time_ms}
 
 
-def _in_turn(lowest: str, highest: str) -> Callable[[Values], Values]:
-    """Return what puts two limits into the order that alone it takes."""
-
-    def narrowed(values: Values) -> Values:
-        low, high = sorted((values[lowest], values[highest]))
-        return _to_one(values | {lowest: low, highest: high})
-
-    return narrowed
+# What the other asks as well, but for the first: here, positions are in degrees.
+_ASKS_IN_ANGLES: dict[str, Ask] = {
+    "LastMove": lambda servo, _: _moved(*servo.get_last_instant_move_hw()),
+    "Position": lambda servo, _: {"position": _steps(servo.get_physical_angle())},
+    "Voltage": lambda servo, _: {"voltage_mv": servo.get_vin()},
+}
 
 
 class Pylx16a(Peer):
@@ -222,18 +185,10 @@ class Pylx16a(Peer):
 
     protocol = "lxservo"
     package = "pylx16a.lx16a"
-    writes = (
-        dict.fromkeys(_TELLS_IN_ANGLES, _to_one)
-        | {name: _to_one for name, reply in _questions().items() if reply in _ASKS_IN_ANGLES}
-        | {
-            "PositionLimitsWrite": _in_turn("lowest", "highest"),
-            "VoltageLimitsWrite": _in_turn("lowest_mv", "highest_mv"),
-        }
+    writes = dict.fromkeys(
+        [name for name, reply in _questions().items() if reply in _ASKS_IN_ANGLES], _to_one
     )
-    reads = dict.fromkeys(_ASKS_IN_ANGLES, _to_one) | {
-        # To it, what is more is negative.
-        "Offset": lambda values: _to_one(values | {"offset": min(values["offset"], 125)}),
-    }
+    reads = dict.fromkeys(_ASKS_IN_ANGLES, _to_one)
 
     def __init__(self) -> None:
         super().__init__()
@@ -241,11 +196,9 @@ class Pylx16a(Peer):
 
     @contextmanager
     def servo(self, number: int) -> Iterator[Any]:
-        """Return one that has been asked already: it may move, start, and tell its speed."""
+        """Return one that has been asked already; all of them have one line."""
         servo = self.module.LX16A.__new__(self.module.LX16A)
-        servo._id, servo._angle_limits, servo._torque_enabled = number, (0, 1000), True
-        servo._motor_mode, servo._waiting_for_move, servo._waiting_angle = False, True, 0
-        # All of them have one line.
+        servo._id = number
         self.module.LX16A._controller = self.wire
         try:
             yield servo
@@ -253,12 +206,9 @@ class Pylx16a(Peer):
             self.module.LX16A._controller = None
 
     def write(self, message: str, values: Values) -> bytes:
-        with self.servo(values["servo_id"]) as servo:
-            if message in _TELLS_IN_ANGLES:
-                _TELLS_IN_ANGLES[message](servo, servo._id, values)
-            else:
-                with pytest.raises(self.module.ServoTimeoutError):
-                    _ASKS_IN_ANGLES[_questions()[message]](servo, servo._id)
+        ask = _ASKS_IN_ANGLES[_questions()[message]]
+        with self.servo(values["servo_id"]) as servo, pytest.raises(self.module.ServoTimeoutError):
+            ask(servo, servo._id)
         return self.wire.written
 
     def read(self, message: str, frame: bytes) -> Values:

@@ -13,7 +13,7 @@ from tests.contract.comparison.ends import differing, ends_of
 from tests.mutations.edits import pair_of
 from tests.mutations.mutations import MUTATIONS, editions, places
 
-SPECS = ("lxservo", "dynamixel1", "modbus", "visca", "msp", "roboclaw", "learm", "ubx")
+SPECS = ("lxservo", "dynamixel1", "modbus", "visca", "msp", "roboclaw", "ubx")
 
 
 @pytest.mark.parametrize("mutation", MUTATIONS)

@@ -260,7 +260,6 @@ FIRST = {
     "busservo": "BatteryVoltageRead",
     "lxservo": "MoveRead",
     "dynamixel1": "Ping",
-    "learm": "VersionRead",
     "modbus": "CoilsRead",
     "ubx": "NavPvtPoll",
     "sbus": "Channels",

@@ -178,7 +178,6 @@ def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str
         ("dynamixel1", ["Read"]),
         ("modbus", ["CoilsRead", "HoldingRead"]),
         ("ubx", ["NavPvtPoll", "CfgPrtPoll", "CfgMsgPoll", "CfgRatePoll", "MonVerPoll"]),
-        ("learm", ["VersionRead", "OffsetsRead", "PositionsRead"]),
     ],
 )
 def test_what_is_only_acknowledged_is_a_command(name: str, queries: list[str]) -> None:

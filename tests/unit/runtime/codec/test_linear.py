@@ -15,7 +15,7 @@ from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.render import render
 
-from tests.factories import yaml_of
+from tests.factories import data_in, yaml_of
 from tests.in_turn import in_turn
 from tests.rows import Rows
 
@@ -23,90 +23,51 @@ from tests.rows import Rows
 MANY = (20, 30, 40)
 
 
+MANY_MESSAGES = """
+framegen: 2
+protocol: {name: many, title: Many, version: 1.0.0, authority: manual, summary: Many messages.}
+sources: {manual: {title: A manual, kind: document}}
+endpoints: {host: Asks., device: Answers.}
+link: {baud: 9600}
+byte_order: big
+frame:
+  header: {is: constant, bytes: AA 55}
+  size: {is: length, type: u8, counts: [code, body]}
+  code: {is: id, type: u16}
+  body: {is: body}
+"""
+# Behind the body.
+BUS_PARTS = data_in("""
+station: {is: address, type: u8, values: {all: {value: 255, silent: true}}}
+check: {is: checksum, type: u8, method: inverted sum, covers: [size, code, body, station]}
+""")
+
+
 def many(number: int, *, bus: bool = False) -> Source:
     """Return a spec of questions and answers, reports among them; of devices on a `bus`, proven."""
-    messages: dict[str, Any] = {}
+    data = data_in(MANY_MESSAGES)
+    data["frame"] |= BUS_PARTS if bus else {}
+    messages = data["messages"] = {}
     for at in range(1000, 1000 + number, 2):
-        messages[f"Ask{at:04}"] = {
-            "id": at,
-            "direction": "host -> device",
-            "summary": f"Ask for level {at:04}.",
-            "cite": "manual",
-            "reply": f"Tell{at:04}",
-            "reports": [f"Tell{at:04}"],
-            "length": 2,
-            "examples": [_example(f"AA 55 02 {at:04X}", {})],
-        }
-        messages[f"Tell{at:04}"] = {
-            "id": at,
-            "direction": "device -> host",
-            "summary": f"Tell level {at:04}.",
-            "cite": "manual",
-            "length": 3,
-            "fields": {"level": {"type": "u8", "about": "How bright."}},
-            "examples": [_example(f"AA 55 03 {at:04X} 07", {"level": 7})],
-        }
-    if bus:
-        _put_on_a_bus(messages)
-    frame: dict[str, Any] = {
-        "header": {"is": "constant", "bytes": "AA 55"},
-        "size": {"is": "length", "type": "u8", "counts": ["code", "body"]},
-        "code": {"is": "id", "type": "u16"},
-        "body": {"is": "body"},
-    }
-    data = {
-        "framegen": 2,
-        "protocol": {
-            "name": "many",
-            "title": "Many",
-            "version": "1.0.0",
-            "authority": "manual",
-            "summary": "Many messages.",
-        },
-        "sources": {"manual": {"title": "A manual", "kind": "document"}},
-        "endpoints": {"host": "Asks.", "device": "Answers."},
-        "link": {"baud": 9600},
-        "byte_order": "big",
-        "frame": frame | (BUS_PARTS if bus else {}),
-        "messages": messages,
-    }
+        ask, tell, refuse = f"Ask{at:04}", f"Tell{at:04}", f"Not{at:04}"
+        level = {"fields": {"level": {"type": "u8", "about": "How bright."}}}
+        messages[ask] = _message(at, "host -> device", {}, bus) | {"reply": tell, "reports": [tell]}
+        messages[tell] = _message(at, "device -> host", {"level": 7}, bus) | level
+        if bus:
+            # The stations of a bus answer, or refuse, with frames that prove themselves.
+            messages[ask]["refusal"] = refuse
+            messages[refuse] = _message(at + 5000, "device -> host", {"level": 7}, bus) | level
     return Source("many.yaml", yaml_of(data))
 
 
-# Behind the body.
-BUS_PARTS: dict[str, Any] = {
-    "station": {"is": "address", "type": "u8", "values": {"all": {"value": 255, "silent": True}}},
-    "check": {
-        "is": "checksum",
-        "type": "u8",
-        "method": "inverted sum",
-        "covers": ["size", "code", "body", "station"],
-    },
-}
-
-
-def _put_on_a_bus(messages: dict[str, Any]) -> None:
-    """Have the stations of a bus answer, or refuse, with frames that prove themselves."""
-    for message in messages.values():
-        if "reply" in message:
-            message["refusal"] = message["reply"].replace("Tell", "Not")
-        (example,) = message["examples"]
-        frame = bytes.fromhex(example["hex"]) + b"\x07"
-        example["hex"] = (frame + bytes([~sum(frame[2:]) & 0xFF])).hex(" ")
-        example["values"]["station"] = 7
-    for name, message in [*messages.items()]:
-        if name.startswith("Tell"):
-            refusal = {**message, "id": message["id"] + 5000, "summary": "Say no."}
-            digits = bytes.fromhex(message["examples"][0]["hex"])
-            body = digits[:3] + refusal["id"].to_bytes(2, "big") + digits[5:-1]
-            hexed = (body + bytes([~sum(body[2:]) & 0xFF])).hex(" ")
-            refusal["examples"] = [{**message["examples"][0], "hex": hexed}]
-            messages[name.replace("Tell", "Not")] = refusal
-
-
-def _example(digits: str, values: dict[str, int]) -> dict[str, Any]:
-    spaced = bytes.fromhex(digits).hex(" ")
-    return {"title": "One.", "hex": spaced, "values": values, "cite": "manual"}
+def _message(code: int, way: str, values: dict[str, int], bus: bool) -> dict[str, Any]:
+    frame = bytes([0xAA, 0x55, 2 + len(values)]) + code.to_bytes(2, "big") + bytes(values.values())
+    if bus:
+        frame, values = frame + b"\x07", values | {"station": 7}
+        frame += bytes([~sum(frame[2:]) & 0xFF])
+    example = {"title": "One.", "hex": frame.hex(" "), "values": values, "cite": "manual"}
+    said = {"id": code, "direction": way, "summary": f"Say level {code:04}.", "cite": "manual"}
+    return said | {"length": frame[2], "examples": [example]}
 
 
 def lines_run(work: Callable[[], object], package: ModuleType) -> int:

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from tests.factories import DEMO, data_of, files_of, imported, layout_of
 from tests.lines.timed_line import client_of
-from tests.lines.virtual_line import run
 
 WEATHER, LAMP = (data_of(DEMO.with_name(f"{name}.yaml")) for name in ("weather", "lamp"))
 MODELS = {"weather": layout_of(WEATHER), "stage_lamp": layout_of(LAMP)}
@@ -58,19 +57,6 @@ def test_what_a_sensor_sends_its_client_receives() -> None:
         assert [*logger.reports(timeout=1)] == noted == [gale, gusts, gale]
         with pytest.raises(weather.NoReportError, match=r"no GustsMeasured\(\) came within 1"):
             logger.wait_for(weather.GustsMeasured, timeout=1)
-
-
-def test_what_a_sensor_sends_is_received_with_asyncio() -> None:
-    weather = lib("weather")
-    gusts = weather.GustsMeasured([])
-    mast = weather.Device()
-
-    async def listen() -> Any:
-        async with client_of(mast, weather.AsyncController) as logger:
-            mast.send(gusts)
-            return await logger.wait_for(weather.GustsMeasured, timeout=1)
-
-    assert run(listen()) == gusts
 
 
 def test_nothing_can_be_sent_to_a_sensor() -> None:
