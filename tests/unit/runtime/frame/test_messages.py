@@ -92,33 +92,22 @@ def test_a_list_can_be_read_as_columns_of_plain_numbers(pairs: list[tuple[int, i
 
 
 @each_case
-def test_the_numbers_of_a_list_are_read_at_once(case: Case) -> None:
+def test_the_numbers_of_a_list_and_their_count_are_read_at_once(case: Case) -> None:
     items = case.message.SHAPE.items
     if items is not None:
-        numbers = [
-            number for item in getattr(case.message, items.name) for number in np.ravel(item)
-        ]
-        assert items.numbers(case.frame) == tuple(numbers)
-
-
-def test_named_elements_and_plain_pairs_make_the_same_message() -> None:
-    plain = ServoMove(time_ms=1000, targets=[(1, 800)])
-    named = ServoMove(time_ms=1000, targets=[ServoTarget(servo_id=1, position=800)])
-
-    assert plain == named
-    assert hash(plain) == hash(named)
-    assert plain.encode() == named.encode()
+        listed = getattr(case.message, items.name)
+        assert items.numbers(case.frame) == tuple(
+            each for item in listed for each in np.ravel(item)
+        )
+        count = getattr(case.message, items.count.name)
+        assert count == case.frame[items.count.at] == len(listed)
 
 
 @in_turn(
     "listed",
     lambda: [
-        list,
-        tuple,
-        dict,
+        *(list, tuple, dict, iter, np.array),
         lambda items: MappingProxyType(dict(items)),
-        iter,
-        np.array,
         lambda items: (item for item in items),
         lambda items: [iter(item) for item in items],
         lambda items: [items[0], [*items[1]]],
@@ -195,14 +184,6 @@ def test_a_field_is_a_number_to_type_checkers_and_never_assigned() -> None:
         target.position = 5  # type: ignore[assignment]
 
 
-@each_case
-def test_what_counts_a_list_can_be_read(case: Case) -> None:
-    items = case.message.SHAPE.items
-    if items is not None:
-        count = getattr(case.message, items.count.name)
-        assert count == case.frame[items.count.at] == len(getattr(case.message, items.name))
-
-
 @in_turn(
     "field, words",
     lambda: [
@@ -225,14 +206,6 @@ def test_where_there_is_no_source_a_field_has_no_documentation() -> None:
     exec("\n    ".join(lines), space)  # noqa: S102
 
     assert space["Lamp"].level.__doc__ is None
-
-
-def test_named_values_are_constants() -> None:
-    assert ActionGroupRun.TIMES_UNLIMITED == 0
-    assert ActionGroupStarted.TIMES_UNLIMITED == 0
-    assert ActionGroupSpeed.GROUP_ALL == 0xFF
-    assert ServoPosition.POSITION_ABSENT == 0xFFFF
-    assert ServoPositions([(3, 0xFFFF)]).positions[0].position == ServoPosition.POSITION_ABSENT
 
 
 @in_turn(
