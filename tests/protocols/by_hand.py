@@ -125,8 +125,6 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
         "ApiVersionRead": lambda _: _msp(b"<", 1, b""),
         "ApiVersion": lambda values: _msp(b">", 1, _pack("<BBB", values)),
         "ApiVersionRefused": lambda _: _msp(b"!", 1, b""),
-        "VariantRead": lambda _: _msp(b"<", 4, b""),
-        "Variant": lambda values: _msp(b">", 4, _name(values["name"], 4)),
         "AltitudeRead": lambda _: _msp(b"<", 109, b""),
         "Altitude": lambda values: _msp(b">", 109, _altitude(values)),
         "RawRcSet": lambda values: _msp(
@@ -196,9 +194,6 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
             *(30, 39),
             struct.pack("<I6f", values["boot_ms"], *values["angles"], *values["rates"]),
         ),
-        "Timesync": lambda values: _mavlink(
-            values, 111, 34, _pack("<qq", values, "answered_ns", "asked_ns")
-        ),
     },
     "visca": {
         "PowerSet": lambda values: _camera("81 01 04 00", values),
@@ -216,11 +211,9 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
     },
     "roboclaw": {
         "EncoderOneRead": lambda _: _motor_question(16),
-        "EncoderTwoRead": lambda _: _motor_question(17),
         "VersionRead": lambda _: _motor_question(21),
         "VoltageRead": lambda _: _motor_question(24),
         "EncoderOne": lambda values: _motor_answer(16, ">IB", values),
-        "EncoderTwo": lambda values: _motor_answer(17, ">IB", values),
         "Version": lambda values: _motor_answer(
             21, "28s", {"text": values["text"].encode("ascii")}
         ),

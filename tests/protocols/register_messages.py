@@ -49,8 +49,6 @@ _MODBUS: dict[str, tuple[str, dict[str, str]]] = {
     "CoilWritten": ("bit_message.WriteSingleCoilResponse", _BIT),
     "RegisterWrite": ("register_message.WriteSingleRegisterRequest", _REGISTER),
     "RegisterWritten": ("register_message.WriteSingleRegisterResponse", _REGISTER),
-    "CoilsWrite": ("bit_message.WriteMultipleCoilsRequest", {"start": "address", "coils": "bits"}),
-    "CoilsWritten": ("bit_message.WriteMultipleCoilsResponse", _RANGE),
     "RegistersWrite": (
         "register_message.WriteMultipleRegistersRequest",
         {"start": "address", **_LIST},
@@ -63,8 +61,6 @@ _SAID: dict[str, Callable[[Values], Values]] = dict.fromkeys(_MODBUS, as_is) | {
     "Coils": _whole("coils"),
     "CoilWrite": _COIL,
     "CoilWritten": _COIL,
-    "CoilsWrite": lambda values: _in_memory(_whole("coils")(values)),
-    "CoilsWritten": _in_memory,
     "RegistersWritten": lambda values: _in_memory(
         values | {"quantity": max(1, values["quantity"] % 123)}
     ),
@@ -114,9 +110,7 @@ class Pymodbus(Peer):
         made, names = self._class(message)
         assert type(found) is made
         ours = {name: _ours(layout, name, getattr(found, its)) for name, its in names.items()}
-        return (
-            {"unit": unit} | ours | ({"quantity": found.count} if message == "CoilsWrite" else {})
-        )
+        return {"unit": unit} | ours
 
 
 def _theirs(name: str, value: Any) -> Any:

@@ -52,14 +52,6 @@ def test_making_a_deprecated_message_warns_at_the_callers_line(old: ModuleType, 
     assert first <= warning.lineno < first + len(lines)
 
 
-def test_a_line_warns_once_by_default(old: ModuleType) -> None:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("default")
-        for _ in range(3):
-            old.VentsOpen(1, [(1, 0)])
-    assert [str(each.message) for each in caught] == [SAID]
-
-
 def test_reading_a_deprecated_message_does_not_warn(old: ModuleType) -> None:
     with pytest.warns(DeprecationWarning, match=TEXT):
         message = old.VentsOpen(1, [(1, 0)])

@@ -333,10 +333,10 @@ def test_a_pickle_of_no_legal_frame_is_no_message() -> None:
 def test_an_element_is_a_named_tuple_like_others(kind: Any) -> None:
     element: Any = kind(servo_id=1, position=800)
 
+    assert issubclass(kind, tuple)
     assert element == (1, 800) == kind(1, 800)
     assert hash(element) == hash((1, 800))
     assert (element.servo_id, element.position) == (1, 800)
-    assert isinstance(element, tuple)
     assert repr(element) == f"{kind.__name__}(servo_id=1, position=800)"
     assert eval(repr(element), vars(busservo).copy()) == element  # noqa: S307
     assert element._fields == element.__match_args__ == ("servo_id", "position")
