@@ -44,10 +44,7 @@ SECONDS, BYTES = 300, 4 << 30
 
 # Names of files and folders of tests that are tried first on the mutants of a subject.
 SUBJECTS = {
-    "model": [
-        *("model", "language", "test_bad_specs.py", "test_explain.py", "test_reference_stream.py"),
-        "test_vectors.py",
-    ],
+    "model": ["model", "language", "test_bad_specs.py", "test_explain.py", "test_vectors.py"],
     "checks": ["checks", "test_findings.py", "test_part_names.py"],
     "comparison": ["comparison"],
     "codec": ["codec", "test_messages.py", "test_demo_library.py", "protocols"],
