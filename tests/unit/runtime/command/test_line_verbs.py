@@ -25,7 +25,7 @@ from framewire.line.link_errors import PortNotFoundError
 from framewire.line.serial_port import SerialPortSeen
 from serial.tools.list_ports_common import ListPortInfo
 
-from tests.commands import called
+from tests.commands import records, run
 from tests.documents import ROOT
 from tests.in_turn import in_turn
 from tests.lines.timed_line import client_on
@@ -34,80 +34,80 @@ from tests.programs import ran
 from tests.timeouts import GENEROUS
 from tests.unit.runtime.command.test_settings_file import refused_port
 
-Capture = pytest.CaptureFixture[str]
+REPLAY = f"replay {ROOT}/tests/captures/noisy_line.bin"
+PATIENT = ("--timeout", GENEROUS)
+SPLIT = "sent in {} requests: one reply has no room for so much"
 
-PATIENT = ("--timeout", str(GENEROUS))
 
-
-def test_a_reply_is_printed_as_decode_prints_it(capsys: Capture) -> None:
-    with VirtualController("tcp") as board:
-        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
+def test_a_reply_is_printed_as_decode_prints_it_or_as_json() -> None:
     shown = "     0  controller  BatteryVoltage voltage_mv=7500 mV | 55 55 04 0F 4C 1D\n"
-    assert capsys.readouterr().out == shown
-
-
-def test_a_reply_can_be_json(capsys: Capture) -> None:
-    words = ["ServoPositionsRead", "servo_ids=1", "--json"]
     with VirtualController("tcp") as board:
-        assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
-    record = json.loads(capsys.readouterr().out)
+        words = ("send", "--port", board.port, *PATIENT)
+        assert run(*words, "BatteryVoltageRead") == (0, shown, "")
+        (record,) = records(*words, "ServoPositionsRead", "servo_ids=1", "--json")
     assert record["fields"] == {"positions": [{"servo_id": 1, "position": 500}]}
 
 
-def test_a_command_arrives_and_prints_nothing(capsys: Capture) -> None:
+def test_a_command_arrives_and_prints_nothing() -> None:
     with VirtualController("tcp") as board:
-        assert main(["send", "--port", board.port, "ServoUnload", "servo_ids=1,2"]) == 0
+        words = ("send", "--port", board.port)
+        assert run(*words, "ServoUnload", "servo_ids=1,2") == (0, "", "")
         # Its answer proves that the command before it has been taken in.
-        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
+        assert run(*words, "BatteryVoltageRead", *PATIENT).status == 0
         assert (board.servos[1].loaded, board.servos[3].loaded) == (False, True)
         assert board.rejects.total == 0
-    assert "ServoUnload" not in capsys.readouterr().out
 
 
-def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named(capsys: Capture) -> None:
+def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named() -> None:
     with VirtualController("tcp", servos=[1, 3]) as board:
-        words = ["ServoPositionsRead", "servo_ids=1,2,3,9"]
-        assert main(["send", "--port", board.port, *words, *PATIENT]) == 1
-    output, errors = capsys.readouterr()
+        words = ("ServoPositionsRead", "servo_ids=1,2,3,9")
+        status, output, errors = run("send", "--port", board.port, *words, *PATIENT)
+    assert (status, errors) == (1, "the reply is incomplete: nothing of servo_ids 2, 9\n")
     assert "ServoPositions positions=1:500,3:500" in output
-    assert errors == "the reply is incomplete: nothing of servo_ids 2, 9\n"
 
 
-def test_a_question_too_large_for_one_reply_is_sent_in_parts(capsys: Capture) -> None:
+def test_a_question_too_large_for_one_reply_is_sent_in_parts() -> None:
     servos = range(1, 201)
     with VirtualController("tcp", servos=servos) as board:
         ids = f"servo_ids={','.join(map(str, servos))}"
-        words = ["ServoPositionsRead", ids, "--json", "--baud", "inf"]
-        assert main(["send", "--port", board.port, *words, *PATIENT]) == 0
+        words = ("ServoPositionsRead", ids, "--json", "--baud", "inf")
+        status, output, errors = run("send", "--port", board.port, *words, *PATIENT)
         assert board.accepted == 3
-    output, errors = capsys.readouterr()
     parts = [json.loads(line)["fields"]["positions"] for line in output.splitlines()]
     assert [len(each) for each in parts] == [84, 84, 32]
     assert [each["servo_id"] for part in parts for each in part] == [*servos]
-    assert errors == "sent in 3 requests: one reply has no room for so much\n"
+    assert (status, errors) == (0, f"{SPLIT.format(3)}\n")
 
 
-def test_silence_after_a_part_keeps_what_had_come(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_silence_after_a_part_keeps_what_had_come(monkeypatch: pytest.MonkeyPatch) -> None:
     line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, ServoPositions([(1, 500)]))])
     client = client_on(line, Controller, settle=None)
     monkeypatch.setattr(send, "open_client", lambda *_, **__: client)
-    words = ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(1, 87)))}"]
-    assert main(["send", "--port", "COM7", *words]) == 1
-    output, errors = capsys.readouterr()
+    ids = f"servo_ids={','.join(map(str, range(1, 87)))}"
+    status, output, errors = run("send", "--port", "COM7", "ServoPositionsRead", ids)
+    assert status == 1
     assert output.count("ServoPositions positions=1:500 |") == 1
     first, incomplete, silent = errors.splitlines()
-    assert first == "sent in 2 requests: one reply has no room for so much"
+    assert first == SPLIT.format(2)
     assert incomplete.startswith("the reply is incomplete: nothing of servo_ids 2, 3, 4, ")
     assert "no ServoPositions came within" in silent
 
 
-def test_retries_ask_again(capsys: Capture) -> None:
-    words = ["--retries", "2", "--timeout", "0.01"]
-    assert main(["send", "--port", "loop://", "BatteryVoltageRead", *words]) == 1
-    warning, error = capsys.readouterr().err.split("\n", 1)
-    assert "loop:// gives back what is sent" in warning
+def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As for a protocol whose question has more fields than its list."""
+    monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
+    status, _, errors = run("send", "--port", "loop://", "ServoPositionsRead")
+    problem = "85 items are requested at once, and a reply has room for 84\n"
+    assert (status, errors.endswith(problem)) == (2, True)
+
+
+def test_retries_ask_again() -> None:
+    words = ("BatteryVoltageRead", "--retries", "2", "--timeout", "0.01")
+    status, _, errors = run("send", "--port", "loop://", *words)
+    warning, error = errors.split("\n", 1)
+    assert (status, "loop:// gives back what is sent" in warning) == (1, True)
     assert error.startswith("no BatteryVoltage came within ")
     assert "to 3 requests of BatteryVoltageRead()" in error
 
@@ -115,28 +115,19 @@ def test_retries_ask_again(capsys: Capture) -> None:
 # `stats` has no port: it is told the rate of a line that was recorded.
 @in_turn("name", lambda: sorted({*PROGRAM.verbs} - {"simulate", "stats"}))
 def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
-    verb = verb_named(name, PROGRAM)
     parser = argparse.ArgumentParser()
-    verb.add_arguments(parser, PROGRAM)
+    verb_named(name, PROGRAM).add_arguments(parser, PROGRAM)
     options = parser.format_help()
     assert ("--port" in options) == ("--baud" in options)
 
 
-@pytest.mark.parametrize("baud", ["19200", "inf"])
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["send", "BatteryVoltageRead"],
-        ["bench-line"],
-        ["monitor"],
-        ["replay", str(ROOT / "tests" / "captures" / "noisy_line.bin"), "--raw"],
-    ],
-)
+@in_turn("baud", lambda: ["19200", "inf"])
+@in_turn("line", lambda: ["send BatteryVoltageRead", "bench-line", "monitor", f"{REPLAY} --raw"])
 def test_the_rate_is_that_of_the_port(
-    monkeypatch: pytest.MonkeyPatch, words: list[str], baud: str
+    monkeypatch: pytest.MonkeyPatch, line: str, baud: str
 ) -> None:
     opened = refused_port(monkeypatch)
-    assert main([*words, "--port", "COM7", "--baud", baud]) == 2
+    assert run(*line.split(), "--port", "COM7", "--baud", baud).status == 2
     assert opened == [("COM7", float(baud))]
 
 
@@ -145,6 +136,16 @@ ADAPTER = SerialPortSeen("COM3", "1A86:7523", "USB Serial")
 OTHER = SerialPortSeen("/dev/cu.01", "10C4:EA60", "CP\n2102")
 BUILT_IN = SerialPortSeen("COM1", "", "")
 BOARD = HidDevice(0x0483, 0x5750, "1-1", "")
+KEEP = "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
+NO_USB = "no port is plugged in by USB; if it is one of these, name it:\n  --port COM1  not USB\n"
+SEVERAL = (
+    "2 ports are plugged in by USB; name the one that is meant:\n"
+    "  --port COM3        USB Serial\n  --port /dev/cu.01  CP\\n2102\n"
+)
+NONE = (
+    "no port is plugged in; plug in the device, or name a port: --port PORT, BUSSERVO_PORT=PORT, "
+    "or `port` in busservo.toml; `busservo doctor` looks closer\n"
+)
 
 # Which port is taken, by the words, the environment, the ports and the devices there are; or what
 # the error says.
@@ -153,47 +154,16 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
     ([], "COM8", [ADAPTER], [], "COM8"),
     ([], "", [ADAPTER], [], "COM3"),
     ([], "", [BUILT_IN, ADAPTER], [], "COM3"),
-    (
-        [],
-        "",
-        [BUILT_IN],
-        [],
-        (
-            "busservo: error: no port is plugged in by USB; if it is one of these, name it:\n"
-            "  --port COM1  not USB\n"
-            "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
-        ),
-    ),
+    ([], "", [BUILT_IN], [], f"busservo: error: {NO_USB}{KEEP}"),
     ([], "", [BUILT_IN], [BOARD], "hid://"),
     ([], "", [ADAPTER], [BOARD], "COM3"),
-    (
-        [],
-        "",
-        [BUILT_IN, ADAPTER, OTHER],
-        [],
-        (
-            "busservo: error: 2 ports are plugged in by USB; name the one that is meant:\n"
-            "  --port COM3        USB Serial\n"
-            "  --port /dev/cu.01  CP\\n2102\n"
-            "  busservo doctor --port PORT --save  keeps one in busservo.toml\n"
-        ),
-    ),
-    (
-        [],
-        "",
-        [],
-        [],
-        (
-            "busservo: error: no port is plugged in; plug in the device, or name a port: "
-            "--port PORT, BUSSERVO_PORT=PORT, or `port` in busservo.toml; `busservo doctor` looks "
-            "closer\n"
-        ),
-    ),
+    ([], "", [BUILT_IN, ADAPTER, OTHER], [], f"busservo: error: {SEVERAL}{KEEP}"),
+    ([], "", [], [], f"busservo: error: {NONE}"),
 ]
 
 
 def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
-    monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     taken: list[str] = []
 
@@ -207,40 +177,37 @@ def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
         monkeypatch.setenv("BUSSERVO_PORT", variable)
         monkeypatch.setattr(link, "serial_ports", lambda ports=ports: ports)
         monkeypatch.setattr(link, "hid_devices_at_hand", lambda _link, devices=devices: devices)
-        assert main(["send", "ActionGroupStop", *words]) == 2
-        errors = capsys.readouterr().err
+        status, _, errors = run("send", "ActionGroupStop", *words)
+        assert status == 2
         found.append(taken.pop() if taken else errors)
     assert found == [expected for *_, expected in PORTS]
 
 
 @pytest.mark.parametrize("echoes", [True, False])
 def test_a_local_echo_is_expected_where_it_was_said(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch, *, echoes: bool
+    monkeypatch: pytest.MonkeyPatch, *, echoes: bool
 ) -> None:
     monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
-    words = ["BatteryVoltageRead", "--baud", "inf", "--local-echo"]
+    words = ("BatteryVoltageRead", "--baud", "inf", "--local-echo")
     with VirtualController("tcp", local_echo=echoes) as board:
-        status = main(["send", "--port", board.port, *words, *PATIENT])
-    output, errors = capsys.readouterr()
+        status, output, errors = run("send", "--port", board.port, *words, *PATIENT)
     assert (status, "7500 mV" in output) == ((0, True) if echoes else (2, False))
     assert ("leave out local_echo" in errors) == (not echoes)
 
 
-def test_a_local_echo_that_was_not_said_is_told_as_all_else_is(capsys: Capture) -> None:
+def test_a_local_echo_that_was_not_said_is_told_as_all_else_is() -> None:
     with VirtualController("tcp", local_echo=True) as board:
-        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 0
-    assert capsys.readouterr().err.startswith(f"busservo: {board.port} gives back what is sent: ")
+        status, _, errors = run("send", "--port", board.port, "BatteryVoltageRead", *PATIENT)
+    assert status == 0
+    assert errors.startswith(f"busservo: {board.port} gives back what is sent: ")
 
 
-def test_ports_lists_or_says_that_there_are_none(capsys: Capture) -> None:
-    assert main(["ports"]) == 0
-    output, errors = capsys.readouterr()
-    assert output or errors.startswith("no serial port is plugged in\n")
+USB0 = "/dev/ttyUSB0"
 
 
 def plugged_in() -> list[ListPortInfo]:
     """Return an adapter, and a port that is built in."""
-    adapter = ListPortInfo("/dev/ttyUSB0")
+    adapter = ListPortInfo(USB0)
     adapter.vid, adapter.pid, adapter.description = 0x1A86, 0x7523, "USB Serial"
     return [adapter, ListPortInfo("/dev/ttyS0")]
 
@@ -253,90 +220,88 @@ UNLISTED = (
     "USB HID devices (0483:5750) have no serial port, and are not listed without "
     "hidapi: pip install hidapi\n"
 )
-# The ports and the devices that there are, and what is printed of them.
-LISTED: list[tuple[list[ListPortInfo], list[HidDevice] | None, str, str]] = [
-    ([], [], "", NO_PORT),
-    ([], None, "", f"{NO_PORT}{UNLISTED}"),
-    ([], [LOBOT], f"hid://0483:5750   0483:5750  LOBOT, {ABOUT}\n", NO_PORT),
-    (plugged_in(), [], "/dev/ttyS0        -\n/dev/ttyUSB0      1A86:7523  USB Serial\n", ""),
+IN_JSON = [
+    {"port": USB0, "usb": "1A86:7523", "description": "USB Serial"},
+    # Of two boards of a kind, each has an address of its own.
+    {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {ABOUT}"},
+    {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": ABOUT},
+]
+# The ports and the devices that there are, the words, and what is printed.
+LISTED: list[tuple[list[ListPortInfo], list[HidDevice] | None, str, str, str]] = [
+    ([], [], "ports", "", NO_PORT),
+    ([], None, "ports", "", f"{NO_PORT}{UNLISTED}"),
+    ([], [LOBOT], "ports", f"hid://0483:5750   0483:5750  LOBOT, {ABOUT}\n", NO_PORT),
+    (
+        plugged_in(),
+        [],
+        "ports",
+        "/dev/ttyS0        -\n/dev/ttyUSB0      1A86:7523  USB Serial\n",
+        "",
+    ),
+    (
+        *(plugged_in()[:1], [LOBOT, NAMELESS], "ports --json"),
+        *("".join(f"{json.dumps(each)}\n" for each in IN_JSON), ""),
+    ),
 ]
 
 
-@in_turn("ports, devices, output, errors", lambda: LISTED, ids=lambda row: row[2] + row[3])
+@in_turn("ports, devices, words, output, errors", lambda: LISTED, ids=lambda row: repr(row[2:]))
 def test_ports_are_listed_and_boards_without_one(
     ports: list[ListPortInfo],
     devices: list[HidDevice] | None,
+    words: str,
     output: str,
     errors: str,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
     monkeypatch.setattr("framewire.command.ports.hid_devices_at_hand", lambda _link: devices)
-    assert called(main, "ports") == (0, output, errors)
+    assert run(*words.split()) == (0, output, errors)
 
 
-def test_ports_are_listed_as_json(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: plugged_in()[:1])
-    devices = [LOBOT, NAMELESS]
-    monkeypatch.setattr("framewire.command.ports.hid_devices_at_hand", lambda _link: devices)
-    # Of two boards of a kind, each has an address of its own.
-    assert [json.loads(line) for line in called(main, "ports", "--json").out.splitlines()] == [
-        {"port": "/dev/ttyUSB0", "usb": "1A86:7523", "description": "USB Serial"},
-        {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {ABOUT}"},
-        {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": ABOUT},
-    ]
-
-
-def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own(
-    capsys: Capture,
-) -> None:
+def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own() -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
-        assert main(["send", "--port", board.port, "BatteryVoltageRead", *PATIENT]) == 3
-        errors = capsys.readouterr().err
-        assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
-        assert errors.endswith("; check the cable and the power, then run this again\n")
+        status, _, errors = run("send", "--port", board.port, "BatteryVoltageRead", *PATIENT)
+    assert status == 3
+    assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
+    assert errors.endswith("; check the cable and the power, then run this again\n")
 
 
-def test_simulate_runs_the_simulator(capsys: Capture) -> None:
-    assert main(["simulate", "--help"]) == 0
-    shown = capsys.readouterr().out
-    assert shown.startswith("usage: busservo simulate ")
+def test_simulate_runs_the_simulator() -> None:
+    status, shown, _ = run("simulate", "--help")
+    assert (status, shown.partition("[")[0].strip()) == (0, "usage: busservo simulate")
     assert "busservo simulate --tcp 4000" in shown
     assert "busservo-simulator" not in shown
 
 
-def test_simulate_says_what_is_missing(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_simulate_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("busservo_simulator", "busservo_simulator.cli"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setattr(sys, "path", [])
     monkeypatch.setattr(sys, "meta_path", [])
     monkeypatch.setitem(sys.modules, "busservo_simulator", None)
-    assert main(["simulate"]) == 2
-    assert "is not installed here" in capsys.readouterr().err
+    status, _, errors = run("simulate")
+    assert (status, "is not installed here" in errors) == (2, True)
 
 
-FILE = str(ROOT / "tests" / "captures" / "noisy_line.bin")
+def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for module in ("cli", "command"):
+        monkeypatch.delitem(sys.modules, f"busservo_simulator.{module}", raising=False)
+    monkeypatch.setitem(sys.modules, "signal", None)
+    with pytest.raises(ModuleNotFoundError, match="signal"):
+        simulate.hand_over([], PROGRAM)
 
 
 # What imports less than this each time, one after another in one process.
-WITHOUT_A_PORT = [
-    ["decode", "55"],
-    ["encode", "ActionGroupStop"],
-    ["answer"],
-    ["--help"],
-    ["decode", "--help"],
-]
+WITHOUT_A_PORT = ["decode 55", "encode ActionGroupStop", "answer", "--help", "decode --help"]
 BEFORE_A_PORT = [
-    ["monitor", "--help"],
-    ["send", "--help"],
-    ["bench-line", "--help"],
-    ["replay", "--help"],
-    ["doctor", "--help"],
-    ["doctor", "--port", "COM7", "--baud", "x"],
-    ["ports", "--help"],
-    ["replay", FILE, "--dry-run", "--skip-noise", "--either", "send"],
-    ["send", "--port", "COM7", "ServoMov"],
-    ["--version"],
+    *(f"{verb} --help" for verb in ("monitor", "send", "bench-line", "replay", "doctor", "ports")),
+    "doctor --port COM7 --baud x",
+    f"{REPLAY} --dry-run --skip-noise --either send",
+    "send --port COM7 ServoMov",
+    "--version",
 ]
 
 
@@ -348,39 +313,35 @@ def test_pyserial_is_imported_only_to_open_a_port() -> None:
     assert imported(BEFORE_A_PORT, "serial", "shtab") == []
 
 
-def imported(commands: list[list[str]], *names: str) -> list[tuple[list[str], list[str]]]:
+def imported(commands: list[str], *names: str) -> list[tuple[str, list[str]]]:
     """Return the commands behind which some of these modules are imported, and which."""
     program = f"""if True:
         import sys
         sys.path[:] = {sys.path!r}
         from busservo.__main__ import main
-        found = [(words, main(words), {{*{names!r}}} & {{*sys.modules}}) for words in {commands!r}]
-        print([(words, sorted(some)) for words, _, some in found if some])
+        found = [(each, main(each.split()), {{*sys.modules}}) for each in {commands!r}]
+        found = [(each, sorted(known & {{*{names!r}}})) for each, _, known in found]
+        print([(each, some) for each, some in found if some])
     """
     done = ran(sys.executable, "-S", "-c", program, stdin=subprocess.DEVNULL)
-    found: list[tuple[list[str], list[str]]] = ast.literal_eval(done.stdout.splitlines()[-1])
+    found: list[tuple[str, list[str]]] = ast.literal_eval(done.stdout.splitlines()[-1])
     return found
 
 
 @in_turn("verb", lambda: sorted({*PROGRAM.verbs} - {"simulate"}))
-def test_help_teaches_by_examples_that_work_and_names_every_exit_status(
-    capsys: Capture, verb: str
-) -> None:
-    assert main([verb, "--help"]) == 0
-    shown = capsys.readouterr().out
-    assert "\nexamples:\n  busservo " in shown
+def test_help_teaches_by_examples_that_work_and_names_every_exit_status(verb: str) -> None:
+    status, shown, _ = run(verb, "--help")
+    assert (status, "\nexamples:\n  busservo " in shown) == (0, True)
     assert all(example in shown for example, _ in PROGRAM.examples[verb])
     ends = re.findall(r"^  ([0-9]+) +[a-z]", shown.partition("\nexit status:\n")[2], re.MULTILINE)
     assert [int(end) for end in ends] == sorted({0, 2, 130, 141, *map(int, ends)})
     assert ("3" in ends) == ("--port" in shown)
 
 
-@in_turn(
-    "line",
-    lambda: [
-        line for lines in PROGRAM.examples.values() for line, _ in lines if "--help" not in line
-    ],
-)
+EXAMPLES = [line for lines in PROGRAM.examples.values() for line, _ in lines]
+
+
+@in_turn("line", lambda: [line for line in EXAMPLES if "--help" not in line])
 def test_an_example_is_a_command_line(line: str) -> None:
     _, name, *words = shlex.split(line)
     verb = verb_named(name, PROGRAM)
@@ -397,42 +358,19 @@ def test_an_example_is_a_command_line(line: str) -> None:
         assert all(each.encode() for each in verb.messages(given))
 
 
-def test_a_question_too_large_for_one_reply_is_refused_where_it_cannot_be_split(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """As for a protocol whose question has more fields than its list."""
-    monkeypatch.setattr(send, "in_parts", lambda *_: [ServoPositionsRead(range(85))])
-    assert main(["send", "--port", "loop://", "ServoPositionsRead"]) == 2
-    problem = "85 items are requested at once, and a reply has room for 84\n"
-    assert capsys.readouterr().err.endswith(problem)
-
-
-def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(send, "open_client", interrupted)
-    assert main(["send", "--port", "loop://", "ActionGroupStop"]) == 130
-    assert capsys.readouterr() == ("", "")
+    assert run("send", "--port", "loop://", "ActionGroupStop") == (130, "", "")
 
 
 def test_a_verb_can_be_run_from_any_thread() -> None:
     """Signal are for the main thread alone, and SIGTERM is then left as it is."""
     before = signal.getsignal(signal.SIGTERM)
     with VirtualController("tcp") as board, ThreadPoolExecutor(1) as pool:
-        done = pool.submit(main, ["send", "--port", board.port, "BatteryVoltageRead", *PATIENT])
-        assert done.result(GENEROUS) == 0
+        words = ["send", "--port", board.port, "BatteryVoltageRead", *map(str, PATIENT)]
+        assert pool.submit(main, words).result(GENEROUS) == 0
         assert board.accepted == 1
     assert signal.getsignal(signal.SIGTERM) is before
-
-
-def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    for module in ("cli", "command"):
-        monkeypatch.delitem(sys.modules, f"busservo_simulator.{module}", raising=False)
-    monkeypatch.setitem(sys.modules, "signal", None)
-    with pytest.raises(ModuleNotFoundError, match="signal"):
-        simulate.hand_over([], PROGRAM)
