@@ -190,22 +190,30 @@ def test_a_capture_without_a_message_has_statistics_too(data: bytes) -> None:
 
 
 @pytest.mark.parametrize(
-    ("missing", "words", "extra"),
-    [("numpy", [], "tables"), ("pyarrow", [], "tables"), ("matplotlib", ["--plot"], "plots")],
+    ("missing", "line", "extra"),
+    [
+        ("numpy", "stats 55", "tables"),
+        ("pyarrow", "stats 55", "tables"),
+        ("matplotlib", "stats 55 --plot line.svg", "plots"),
+        ("pyarrow", "decode 55 --parquet folder", "tables"),
+    ],
 )
 def test_a_missing_extra_is_named(
-    raw: Path, monkeypatch: pytest.MonkeyPatch, missing: str, words: list[str], extra: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, missing: str, line: str, extra: str
 ) -> None:
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, missing, None)
-    command = "framewire.command."
+    # As it is where nothing has imported them yet.
+    modules = [f"command.{name}" for name in ("measuring", "drawing", "arrow_tables")]
     for name in [*sys.modules]:
-        if name.startswith(("framewire.tables", f"{command}measuring", f"{command}drawing")):
+        if name.startswith(tuple(f"framewire.{each}" for each in ("tables", *modules))):
             monkeypatch.delitem(sys.modules, name)
-    picture = [raw.with_suffix(".svg")] * len(words)
-    status, output, errors = run("stats", "55", *words, *picture)
+    status, output, errors = run(*line.split())
     assert (status, output) == (2, "")
-    assert f"busservo: error: {missing} is needed here" in errors
+    assert errors.startswith(f"busservo: error: {missing} is needed here, and cannot be imported")
     assert errors.endswith(f"pip install 'busservo[{extra}]'\n")
+    # What needs none of them still works.
+    assert run("decode", "55550207").status == 0
 
 
 # ------------------------------------------------------------------ excerpts
