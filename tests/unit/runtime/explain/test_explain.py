@@ -1,4 +1,4 @@
-"""`framegen explain`: its text for frames, and for bytes that are none."""
+"""What `explain` says of frames, of bytes that are none, and of frames of look-alikes."""
 
 import json
 import shutil
@@ -7,33 +7,23 @@ from pathlib import Path
 import pytest
 from framegen.cli import main
 from framegen.explain import explain
-from framegen.language.load import load, read_source
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model import codec
 from framegen.model.model import Model, derive
 from framewire.explain import refusals
 from framewire.explain.explanation import Explanation, Reading, Refusal, Row
+from framewire.explain.lookalikes import recognise
 from framewire.explain.text import as_json, as_text
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import data_of
+from tests.commands import run
+from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, data_of
 from tests.in_turn import in_turn
+from tests.strategies import damaged_frames
 
-ROOT = Path(__file__).parents[4]
-BUSSERVO = ROOT / "spec" / "busservo.yaml"
-DEMO = ROOT / "tests" / "specs" / "demo.yaml"
-
-
-def layout_of(file: Path) -> Model:
-    spec = load(read_source(file)).spec
-    assert spec is not None
-    return derive(spec)
-
-
-LAYOUT = layout_of(BUSSERVO)
-GREENHOUSE = layout_of(DEMO)
+LAYOUT, GREENHOUSE = (compiled_file(file).model for file in (BUSSERVO, DEMO))
 HOST, CONTROLLER = LAYOUT.directions
 
 
@@ -41,8 +31,8 @@ def explained(hex_text: str, model: Model = LAYOUT) -> Explanation:
     return explain(model, bytes.fromhex(hex_text), model.directions)
 
 
-def hints(explanation: Explanation) -> list[str]:
-    return [hint.text for hint in explanation.hints]
+def hints(hex_text: str, model: Model = LAYOUT) -> list[str]:
+    return [hint.text for hint in explained(hex_text, model).hints]
 
 
 # ---------------------------------------------------------------------------- whole pages
@@ -166,43 +156,35 @@ hint: a frame begins at byte 3: BatteryVoltageRead (host -> controller)
       55 55 02 0F
 """
 
-PAGES = [
-    pytest.param(MOVE, 0, MOVE_PAGE, id="a command"),
-    pytest.param(BATTERY, 0, BATTERY_PAGE, id="a reply with a scale"),
-    pytest.param(BOTH_WAYS, 0, BOTH_WAYS_PAGE, id="a frame that is legal in both directions"),
-    pytest.param(OFF_BY_ONE, 1, OFF_BY_ONE_PAGE, id="a length that is off by one"),
-    pytest.param(LX16A, 1, LX16A_PAGE, id="a frame of a look-alike"),
-    pytest.param(NOISE_BEFORE, 1, NOISE_BEFORE_PAGE, id="a frame after noise"),
-]
-
-
-@pytest.mark.parametrize(("hex_text", "code", "page"), PAGES)
-def test_a_page_explains_a_frame(
-    hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["explain", str(BUSSERVO), *hex_text.split()]) == code
-    assert capsys.readouterr() == (page, "")
-
-
-@pytest.mark.parametrize(("hex_text", "code", "page"), PAGES)
-def test_json_holds_the_same_as_the_page(
-    hex_text: str, code: int, page: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["explain", str(BUSSERVO), "--json", hex_text]) == code
-    printed = json.loads(capsys.readouterr().out)
-    assert printed == as_json(explained(hex_text))
-    assert (printed["hex"], printed["frame"]) == (hex_text, code == 0)
-    assert [reading["message"] for reading in printed["readings"]] == [
-        line.split(",")[0] for line in page.splitlines() if code == 0 and line.endswith(ENDS)
-    ]
-
-
-ENDS = (", host -> controller", ", controller -> host")
+WAYS = (", host -> controller", ", controller -> host")
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "line"),
+    ("hex_text", "code", "page"),
     [
+        pytest.param(MOVE, 0, MOVE_PAGE, id="a command"),
+        pytest.param(BATTERY, 0, BATTERY_PAGE, id="a reply with a scale"),
+        pytest.param(BOTH_WAYS, 0, BOTH_WAYS_PAGE, id="a frame that is legal in both directions"),
+        pytest.param(OFF_BY_ONE, 1, OFF_BY_ONE_PAGE, id="a length that is off by one"),
+        pytest.param(LX16A, 1, LX16A_PAGE, id="a frame of a look-alike"),
+        pytest.param(NOISE_BEFORE, 1, NOISE_BEFORE_PAGE, id="a frame after noise"),
+    ],
+)
+def test_a_page_explains_a_frame_and_json_holds_the_same(
+    hex_text: str, code: int, page: str
+) -> None:
+    assert run("explain", BUSSERVO, *hex_text.split(), main=main) == (code, page, "")
+    status, output, _ = run("explain", BUSSERVO, "--json", hex_text, main=main)
+    printed = json.loads(output)
+    assert (status, printed) == (code, as_json(explained(hex_text)))
+    assert (printed["hex"], printed["frame"]) == (hex_text, code == 0)
+    said = [line.split(",")[0] for line in page.splitlines() if code == 0 and line.endswith(WAYS)]
+    assert [reading["message"] for reading in printed["readings"]] == said
+
+
+@in_turn(
+    "words, code, line",
+    lambda: [
         (["55 55 02 07"], 0, "ActionGroupStop, host -> controller"),
         (["55 55 01 03 1C DF"], 0, "PositionRead, host -> servo"),
         (["55 55 01 03 1C DE"], 1, "These 6 bytes are no frame of the LX-16A servo bus."),
@@ -211,15 +193,11 @@ ENDS = (", host -> controller", ", controller -> host")
     ],
 )
 def test_bytes_are_explained_by_the_protocol_that_they_come_closest_to(
-    words: list[str],
-    code: int,
-    line: str,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    words: list[str], code: int, line: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(ROOT)
-    assert main(["explain", *words]) == code
-    assert capsys.readouterr().out.partition("\n")[0].endswith(line)
+    status, output, _ = run("explain", *words, main=main)
+    assert (status, output.partition("\n")[0].endswith(line)) == (code, True)
 
 
 def test_more_bytes_than_a_line_holds_are_shown_on_several() -> None:
@@ -266,30 +244,29 @@ EXAMPLES = [
 
 
 @in_turn("model, name, data", lambda: EXAMPLES)
-def test_every_byte_of_an_example_is_explained(model: Model, name: str, data: bytes) -> None:
-    explanation = explain(model, data, model.directions)
-    (reading,) = (each for each in explanation.readings if each.message == name)
+def test_every_byte_and_every_value_of_an_example_is_explained(
+    model: Model, name: str, data: bytes
+) -> None:
+    message = model.messages[name]
+    found = explain(model, data, model.directions)
+    (reading,) = (each for each in found.readings if each.message == name)
     assert rows_cover(reading.rows, data)
     assert reading.rows[-1].end == len(data)
-    assert "example" in dict(reading.facts)
-    assert explanation.hints == ()
+    assert ("example" in dict(reading.facts), found.hints) == (True, ())
+    shown = {row.path: row.value for row in reading.rows}
+    values = codec.decode(model, message.direction, data).values
+    assert {path: shown[path] for path in flat("", values)} == flat("", values)
 
 
-@in_turn("model, name, data", lambda: EXAMPLES)
-def test_every_value_of_an_example_is_shown(model: Model, name: str, data: bytes) -> None:
-    message = model.messages[name]
-    (reading,) = explain(model, data, [message.direction]).readings
-    values = {row.path: row.value for row in reading.rows}
-    for field, value in codec.decode(model, message.direction, data).values.items():
-        if not isinstance(value, list):
-            assert values[field] == value
-            continue
-        for index, element in enumerate(value):
-            if not isinstance(element, dict):
-                assert values[f"{field}[{index}]"] == element
-                continue
-            for inner, number in element.items():
-                assert values[f"{field}[{index}].{inner}"] == number
+def flat(path: str, value: object) -> dict[str, object]:
+    """Return the values within a value, by their paths."""
+    if isinstance(value, dict):
+        inner = ((f"{path}.{name}".removeprefix("."), each) for name, each in value.items())
+    elif isinstance(value, list):
+        inner = ((f"{path}[{index}]", each) for index, each in enumerate(value))
+    else:
+        return {path: value}
+    return {name: leaf for each in inner for name, leaf in flat(*each).items()}
 
 
 @in_turn("model, name, data", lambda: EXAMPLES)
@@ -310,10 +287,7 @@ def test_a_signed_number_is_shown_with_its_sign_and_in_its_unit() -> None:
 
 def test_a_deprecated_message_says_so_first() -> None:
     (reading,) = explained("C3 5A A5 10 00 04 FF FF FF FE", GREENHOUSE).readings
-    assert reading.facts[0] == (
-        "deprecated",
-        "The display reads the bus by itself since 2024.",
-    )
+    assert reading.facts[0] == ("deprecated", "The display reads the bus by itself since 2024.")
 
 
 # ---------------------------------------------------------------------------- no frames
@@ -355,67 +329,53 @@ def test_a_value_out_of_range_is_where_the_frame_ends() -> None:
 
 def test_the_direction_that_came_closest_is_shown_first() -> None:
     refused = explained("55 55 09 15 06 01 02 03 04 05").refusals
-    assert [(refusal.direction, len(refusal.rows)) for refusal in refused] == [
-        (str(HOST), 9),
-        (str(CONTROLLER), 3),
-    ]
-    refused = explained("55 55 02 08").refusals
-    assert [refusal.reason for refusal in refused] == [
-        refusals.LENGTH_MISMATCH,
-        refusals.UNKNOWN_COMMAND,
-    ]
+    found = [(refusal.direction, len(refusal.rows)) for refusal in refused]
+    assert found == [(str(HOST), 9), (str(CONTROLLER), 3)]
+    reasons = [refusal.reason for refusal in explained("55 55 02 08").refusals]
+    assert reasons == [refusals.LENGTH_MISMATCH, refusals.UNKNOWN_COMMAND]
 
 
 # ---------------------------------------------------------------------------- hints
 
-STOP_OR_STOPPED = "ActionGroupStop (host -> controller) or ActionGroupStopped (controller -> host)"
-HINTS = [
-    (
-        "55 55 02 0D",
-        ["in the dialect of LeArm and uHand boards, 13 reads the positions of all six servos"],
-    ),
-    ("55 55 02 08", ["in the dialect of LeArm and uHand boards, 8 erases action groups"]),
-    ("55 55 02 63", []),
-    ("12 34", []),
-    (
-        "55 55 02 0F 55 55 02 07",
-        [
-            "a frame begins at byte 0: BatteryVoltageRead (host -> controller)",
-            f"a frame begins at byte 4: {STOP_OR_STOPPED}",
-        ],
-    ),
-    # A frame inside a frame's bytes is shown once, and what follows it is looked at again.
-    (
-        "55 55 55 02 0F 55 02",
-        ["a frame begins at byte 1: BatteryVoltageRead (host -> controller)"],
-    ),
-]
+DIALECT = "in the dialect of LeArm and uHand boards,"
+READ = "BatteryVoltageRead (host -> controller)"
+STOP = "ActionGroupStop (host -> controller) or ActionGroupStopped (controller -> host)"
 
 
-@pytest.mark.parametrize(("hex_text", "expected"), HINTS)
+@in_turn(
+    "hex_text, expected",
+    lambda: [
+        ("55 55 02 0D", [f"{DIALECT} 13 reads the positions of all six servos"]),
+        ("55 55 02 08", [f"{DIALECT} 8 erases action groups"]),
+        ("55 55 02 63", []),
+        ("12 34", []),
+        (
+            "55 55 02 0F 55 55 02 07",
+            [f"a frame begins at byte 0: {READ}", f"a frame begins at byte 4: {STOP}"],
+        ),
+        # A frame inside a frame's bytes is shown once, and what follows it is looked at again.
+        ("55 55 55 02 0F 55 02", [f"a frame begins at byte 1: {READ}"]),
+        (
+            "55 55 02 0F " * 10,
+            [
+                *(f"a frame begins at byte {at}: {READ}" for at in range(0, 32, 4)),
+                "more frames follow, from byte 32 on",
+            ],
+        ),
+    ],
+)
 def test_a_refused_frame_gets_hints(hex_text: str, expected: list[str]) -> None:
-    assert hints(explained(hex_text)) == expected
-
-
-def test_hints_list_the_first_of_many_frames() -> None:
-    lines = hints(explained("55 55 02 0F " * 10))
-    assert len(lines) == 9
-    assert lines[-2:] == [
-        "a frame begins at byte 28: BatteryVoltageRead (host -> controller)",
-        "more frames follow, from byte 32 on",
-    ]
+    assert hints(hex_text) == expected
 
 
 def test_a_frame_of_the_other_end_is_recognised() -> None:
-    explanation = explain(LAYOUT, bytes.fromhex(BATTERY), [HOST])
-    assert explanation.readings == ()
-    assert hints(explanation) == [
-        "sent the other way, they are BatteryVoltage (controller -> host)"
-    ]
+    found = explain(LAYOUT, bytes.fromhex(BATTERY), [HOST])
+    hint = "sent the other way, they are BatteryVoltage (controller -> host)"
+    assert (found.readings, [each.text for each in found.hints]) == ((), [hint])
 
 
 def test_a_reserved_command_is_recognised() -> None:
-    assert hints(explained("C3 5A A5 13 00 00", GREENHOUSE)) == [
+    assert hints("C3 5A A5 13 00 00", GREENHOUSE) == [
         "19 is reserved: It was VentsOpen with angles of zero until 1.0.0."
     ]
 
@@ -443,124 +403,126 @@ def test_every_example_of_a_lookalike_is_hinted_at() -> None:
     ]
 
 
+# ---------------------------------------------------------------------------- look-alikes
+
+
+@in_turn(
+    "hex_, name, command, meaning",
+    lambda: [
+        ("C3 5A A5 04 02 20 01 D8", "orchard", 0x20, ""),
+        ("C3 5A A5 04 01 20 DA", "orchard", 0x20, ""),
+        ("C3 5A A5 04 02 20 02 D7", "orchard", 0x20, ""),
+        ("C3 5A A5 21 00 00", "old_stations", 0x21, "asks for the firmware"),
+        ("C3 5A A5 22 00 00", None, None, None),  # no code of theirs
+        ("C3 5A A5 04 02 20 01 D9", None, None, None),  # a wrong checksum
+        ("C3 5A A5 04 03 20 01 D7", None, None, None),  # a wrong length
+        ("C3 5A A5 04 02 20 01 D8 00", None, None, None),  # a byte too many
+        ("C3 5A A6 04 02 20 01 D8", None, None, None),  # a wrong preamble
+        ("C3 5A", None, None, None),  # too short for any frame
+        ("", None, None, None),
+    ],
+)
+def test_a_lookalike_is_recognised(
+    hex_: str, name: str | None, command: int | None, meaning: str | None
+) -> None:
+    found = recognise(GREENHOUSE.plain, bytes.fromhex(hex_))
+    row = (None, None, None) if found is None else (found.name, found.command, found.meaning)
+    assert row == (name, command, meaning)
+
+
+@pytest.mark.parametrize(("order", "size"), [("big", "00 01"), ("little", "01 00")])
+def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: str) -> None:
+    model = derive(Spec.model_validate({**data_of(DEMO), "byte_order": order}))
+    data = bytes.fromhex(f"C3 5A A5 21 {size} FF")
+    found = recognise(model.plain, data)
+    assert found is not None
+    assert {placed.path: placed.of(data).hex(" ").upper() for placed in found.parts} == {
+        "preamble": "C3 5A A5",
+        "kind": "21",
+        "size": size,
+        "payload": "FF",
+    }
+
+
 # ---------------------------------------------------------------------------- the command
 
 
-@pytest.mark.parametrize(
-    ("sender", "expected"),
-    [
-        (None, ["ActionGroupStop", "ActionGroupStopped"]),
-        ("host", ["ActionGroupStop"]),
-        ("controller", ["ActionGroupStopped"]),
+@in_turn(
+    "words, expected",
+    lambda: [
+        ([], ["ActionGroupStop", "ActionGroupStopped"]),
+        (["--direction", "host"], ["ActionGroupStop"]),
+        (["--direction", "controller"], ["ActionGroupStopped"]),
     ],
 )
-def test_direction_is_chosen_by_sender(
-    sender: str | None, expected: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
-    chosen = [] if sender is None else ["--direction", sender]
-    assert main(["explain", str(BUSSERVO), "5555", *chosen, "--json", "0207"]) == 0
-    readings = json.loads(capsys.readouterr().out)["readings"]
-    assert [reading["message"] for reading in readings] == expected
+def test_direction_is_chosen_by_sender(words: list[str], expected: list[str]) -> None:
+    status, output, _ = run("explain", BUSSERVO, "5555", *words, "--json", "0207", main=main)
+    readings = json.loads(output)["readings"]
+    assert (status, [reading["message"] for reading in readings]) == (0, expected)
 
 
-def test_an_unknown_sender_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["explain", str(BUSSERVO), "--direction", "hots", "55"]) == 2
-    assert capsys.readouterr().err == (
-        "framegen: error: no endpoint 'hots' sends anything\n  hint: did you mean `host`?\n"
-    )
-
-
-def test_the_spec_may_have_any_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_spec_may_have_any_name(tmp_path: Path) -> None:
     file = tmp_path / "spec without ending"
     file.write_bytes(BUSSERVO.read_bytes())
-    assert main(["explain", str(file), MOVE]) == 0
-    assert capsys.readouterr().out == MOVE_PAGE
+    assert run("explain", file, MOVE, main=main) == (0, MOVE_PAGE, "")
 
 
 def test_hex_longer_than_a_path_can_be_is_hex(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # With two specs, the first word would have to name one.
     shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("lx*"))
     monkeypatch.chdir(tmp_path)
-    servo_ids = list(range(252))
-    frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": servo_ids})
-    assert main(["explain", frame.hex()]) == 0
-    assert "\n   255  FA     servo_ids[250]  250\n" in capsys.readouterr().out
-    assert main(["explain", 20 * frame.hex()]) == 1
-    assert "hint: more frames follow, from byte 2056 on\n" in capsys.readouterr().out
+    frame = codec.encode(LAYOUT.messages["ServoUnload"], {"servo_ids": list(range(252))})
+    status, output, _ = run("explain", frame.hex(), main=main)
+    assert (status, "\n   255  FA     servo_ids[250]  250\n" in output) == (0, True)
+    status, output, _ = run("explain", 20 * frame.hex(), main=main)
+    assert (status, "hint: more frames follow, from byte 2056 on\n" in output) == (1, True)
 
 
-# ---------------------------------------------------------------------------- hex
+NOTHING = ("there are no bytes to explain", "give them in hex, like 55 55 02 07")
+WRITE = "write two digits a byte, like 0A 1B FF"
+LONG = 40 * "55"
 
 
 @in_turn(
-    "text, problem, hint",
+    "words, problem, hint",
     lambda: [
-        ("", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
-        (" , ", "there are no bytes to explain", "give them in hex, like 55 55 02 07"),
-        ("55 5 02", "`5` is half a byte\n  55 5 02\n     ^", "did you mean 05?"),
         (
-            "55 555",
+            ["--direction", "hots", "55"],
+            "no endpoint 'hots' sends anything",
+            "did you mean `host`?",
+        ),
+        ([""], *NOTHING),
+        ([" , "], *NOTHING),
+        (["55 5 02"], "`5` is half a byte\n  55 5 02\n     ^", "did you mean 05?"),
+        (
+            ["55 555"],
             "`555` is 3 digits, which is no whole number of bytes\n  55 555\n     ^^^",
             "look for a digit that was lost or added",
         ),
+        (["0x55,0xO2"], "`O` is no hex digit\n  0x55,0xO2\n         ^", WRITE),
+        (["55 \u0665\u0665"], "`\u0665` is no hex digit\n  55 \u0665\u0665\n     ^", WRITE),
+        (["0x"], "`0x` has no digits after it\n  0x\n  ^^", "write the byte whole, like 0x1B"),
+        (["55\x1b[2J"], "`\ufffd` is no hex digit\n  55\ufffd[2J\n    ^", WRITE),
         (
-            "0x55,0xO2",
-            "`O` is no hex digit\n  0x55,0xO2\n         ^",
-            "write two digits a byte, like 0A 1B FF",
-        ),
-        (
-            "55 \u0665\u0665",
-            "`\u0665` is no hex digit\n  55 \u0665\u0665\n     ^",
-            "write two digits a byte, like 0A 1B FF",
-        ),
-        ("0x", "`0x` has no digits after it\n  0x\n  ^^", "write the byte whole, like 0x1B"),
-        (
-            "55\x1b[2J",
-            "`\ufffd` is no hex digit\n  55\ufffd[2J\n    ^",
-            "write two digits a byte, like 0A 1B FF",
-        ),
-        (
-            40 * "55" + "!" + 40 * "55",
+            [f"{LONG}!{LONG}"],
             f"`!` is no hex digit\n  {15 * '55'}!{'55' * 14}5\n{' ' * 32}^",
-            "write two digits a byte, like 0A 1B FF",
+            WRITE,
         ),
     ],
 )
-def test_what_is_no_hex_is_shown_at_its_place(
-    text: str, problem: str, hint: str, capsys: pytest.CaptureFixture[str]
+def test_what_cannot_be_explained_is_shown_at_its_place(
+    words: list[str], problem: str, hint: str
 ) -> None:
-    assert main(["explain", str(BUSSERVO), text]) == 2
-    assert capsys.readouterr().err == f"framegen: error: {problem}\n  hint: {hint}\n"
+    said = f"framegen: error: {problem}\n  hint: {hint}\n"
+    assert run("explain", BUSSERVO, *words, main=main) == (2, "", said)
 
 
 # ---------------------------------------------------------------------------- any bytes
 
-# Frames with a byte changed, cut, doubled or led in by noise: what people really paste.
-WHOLE = st.sampled_from(
-    [
-        example.hex
-        for layout in (LAYOUT, GREENHOUSE)
-        for message in layout.messages.values()
-        for example in message.message.examples
-    ]
-)
 
-
-@st.composite
-def damaged(draw: st.DrawFn) -> bytes:
-    data = bytearray(draw(WHOLE))
-    if draw(st.booleans()):
-        data[draw(st.integers(0, len(data) - 1))] = draw(st.integers(0, 255))
-    cut = draw(st.integers(1, len(data)))
-    return draw(st.binary(max_size=4)) + bytes(data[:cut]) + draw(st.binary(max_size=4))
-
-
-@given(
-    model=st.sampled_from([LAYOUT, GREENHOUSE]),
-    data=st.one_of(st.binary(min_size=1, max_size=40), damaged()),
-)
+@given(model=st.sampled_from([LAYOUT, GREENHOUSE]), data=st.binary(min_size=1) | damaged_frames())
 def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
     explanation = explain(model, data, model.directions)
     page, values = as_text(explanation), as_json(explanation)
