@@ -1,12 +1,10 @@
 """The verb `answer`: the session in the guide, questions that make no sense, and no waiting."""
 
-from __future__ import annotations
-
 import io
 import re
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import pytest
 from busservo.__main__ import main
@@ -14,9 +12,6 @@ from framewire.command.usage_error import UsageError
 
 from tests.documents import ROOT
 from tests.handed import answers_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 answer = answers_of("busservo")
 GUIDE = (ROOT / "docs" / "command.md").read_text(encoding="utf-8")

@@ -1,11 +1,8 @@
 """The verb `bench-line`: what it measures, and its output for questions without an answer."""
 
-from __future__ import annotations
-
 import json
 import re
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
 from unittest import mock
 
 import pytest
@@ -14,13 +11,10 @@ from busservo.__main__ import main
 from busservo_simulator import Faults, VirtualController
 from framewire.command import bench_line
 
-from tests.commands import called
+from tests.commands import Ended, called
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from tests.commands import Ended
 
 Capture = pytest.CaptureFixture[str]
 

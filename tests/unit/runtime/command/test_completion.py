@@ -1,15 +1,14 @@
 """Completion, for shells: made by shtab where it is installed, and a hint where it is not."""
 
-from __future__ import annotations
-
 import io
 import shutil
 import sys
+from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import busservo.__main__
 import busservo_simulator.cli
@@ -25,10 +24,7 @@ from framegen.targets.table import TARGETS
 from tests.in_turn import in_turn
 from tests.programs import ran
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    Main: TypeAlias = Callable[[Sequence[str]], int]
+Main: TypeAlias = Callable[[Sequence[str]], int]
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 

@@ -1,16 +1,15 @@
 """The verbs that send one message, and those that stop and hold what moves."""
 
-from __future__ import annotations
-
 import argparse
+from collections.abc import Mapping
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 import pytest
 from busservo import (
     ActionGroupRun,
     ActionGroupSpeed,
     ActionGroupStop,
+    Message,
     ServoMove,
     ServoPositionsRead,
     ServoUnload,
@@ -23,19 +22,12 @@ from framegen.language.command_verbs import OF_POSES, VERBS
 from framewire.command.verbs import verb_named
 
 from tests.crowd import Crowd
-from tests.factories import BUSSERVO, data_of, files_of, library
+from tests.factories import BUSSERVO, Data, data_of, files_of, library
 from tests.handed import program_of
 from tests.in_turn import in_turn
 from tests.lines.at_board import received_by
 from tests.mutations.places import GONE, with_
 from tests.timeouts import GENEROUS, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from busservo import Message
-
-    from tests.factories import Data
 
 Capture = pytest.CaptureFixture[str]
 

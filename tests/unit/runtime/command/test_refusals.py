@@ -1,19 +1,13 @@
 """What no verb can do: it is refused in visible words before a port is opened or a file written."""
 
-from __future__ import annotations
+from collections.abc import Iterator
+from pathlib import Path
 
-from typing import TYPE_CHECKING
-
+import pytest
 from busservo.__main__ import main
 
 from tests.commands import called
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    import pytest
 
 POSES = '{"format": "busservo poses", "version": 1, "poses": [{"positions": {"1": 500}}]}'
 # By how a command line begins: how it goes on, and what is said of it.

@@ -1,13 +1,11 @@
 """The verb `replay`: what it sends, what it leaves out, and what it refuses before it sends."""
 
-from __future__ import annotations
-
 import io
 import re
 import socket
 import sys
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 from unittest import mock
 
 import pytest
@@ -27,9 +25,6 @@ from framewire.command import link, playback
 from framewire.command.playback import Playback
 
 from tests.timeouts import GENEROUS, await_that
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 Capture = pytest.CaptureFixture[str]
 

@@ -4,14 +4,13 @@ A transcript is a block of `text` that begins with a command. Numbers with a poi
 rates, and differ; all else must be what is printed, but for lines left out with `...`.
 """
 
-from __future__ import annotations
-
 import argparse
 import io
 import re
 import sys
+from collections.abc import Mapping
 from contextlib import redirect_stderr, redirect_stdout
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from busservo import DisconnectedError
@@ -19,7 +18,9 @@ from busservo.__main__ import main
 from busservo._command import PROGRAM
 from busservo_simulator import VirtualController
 from framewire.command import doctor, monitor
+from framewire.command.checks.check import Check
 from framewire.command.checks.checks import examine
+from framewire.command.checks.result import Result
 from framewire.command.recorder import Recorder
 from framewire.line.serial_port import SerialPortSeen
 
@@ -29,13 +30,6 @@ from tests.timeouts import GENEROUS, await_that
 from tests.unit.runtime.command.checks.test_strangers import CASES, examined
 from tests.unit.runtime.command.test_line_verbs import plugged_in
 from tests.unit.runtime.command.test_monitor import Line
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
-
-    from framewire.command.checks.check import Check
-    from framewire.command.checks.result import Result
 
 Capture = pytest.CaptureFixture[str]
 

@@ -1,10 +1,10 @@
 """Whatever reads a capture takes the same bytes for text, and those of the capture for raw."""
 
-from __future__ import annotations
-
 import io
+from collections.abc import Callable, Iterable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo import recordings, tables
@@ -24,10 +24,6 @@ from tests.factories import BUSSERVO, compiled_file
 from tests.handed import handed_by
 from tests.hex_cases import HEX, NO_HEX
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    from pathlib import Path
 
 MODEL = compiled_file(BUSSERVO).model
 STOP = bytes.fromhex("55 55 02 07")

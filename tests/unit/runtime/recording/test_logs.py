@@ -1,7 +1,5 @@
 """Logs of other programs are read by the library, the commands and framegen, as a table says."""
 
-from __future__ import annotations
-
 import io
 import json
 

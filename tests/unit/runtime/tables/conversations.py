@@ -1,7 +1,5 @@
 """Captures of a line on which a host asks and a board replies, with some noise between."""
 
-from __future__ import annotations
-
 from busservo import ActionGroupRun, BatteryVoltage, BatteryVoltageRead, ServoPositions
 
 UNKNOWN = bytes.fromhex("55 55 04 63 01 02")

@@ -1,16 +1,12 @@
 """Lines on which frames are hard to tell: cut, nested, overlapping, and of unknown command."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 from framewire.explain import checksum
 from hypothesis import strategies as st
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from types import ModuleType
 
 
 def sealing(made: ModuleType) -> Callable[[bytes], bytes]:

@@ -1,17 +1,13 @@
 """What tables hold, and what decoders find, as rows in the order of the capture."""
 
-from __future__ import annotations
-
 import struct
+from collections.abc import Iterable, Iterator
+from datetime import datetime
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from datetime import datetime
-    from types import ModuleType
-
-    from framegen.model.stream import Event as ReferenceEvent
+from framegen.model.stream import Event as ReferenceEvent
 
 
 class Row(NamedTuple):

@@ -1,7 +1,5 @@
 """Which protocols stand for all of them in `make test`; tests/world has the others."""
 
-from __future__ import annotations
-
 from typing import Any
 
 # A CRC; every kind of field; the one that ships; and a checksum of two sums.

@@ -1,9 +1,8 @@
 """One Arrow file of a capture: all events in order, a column of structs for each message."""
 
-from __future__ import annotations
-
 import io
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pytest
@@ -15,9 +14,6 @@ from framewire.tables.files.arrow_file import arrow_written
 from framewire.tables.schema import schemas_of
 
 from tests.unit.runtime.tables.conversations import conversation, recorded
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 CAPTURE = conversation(40)
 EVENT = ["offset", "size", "direction", "time", "clock", "event", "reason"]

@@ -1,18 +1,16 @@
 """The columns of tables: every field as the message has it, with its type and its meaning."""
 
-from __future__ import annotations
-
 import json
 from importlib import import_module
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import busservo
 import pyarrow as pa
 import pytest
 from busservo import strategies, tables
-from framegen.model.slots import Items, Number, Packed, Text
-from framewire.explain import checksum
+from framegen.language.values import Direction
+from framegen.model.slots import Field, Items, Number, Packed, Text
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -26,10 +24,6 @@ from tests.rows import some
 from tests.unit.runtime.tables.hostile import sealing
 from tests.unit.runtime.tables.rows import Row, exact, fields_of, rows_in_tables
 from tests.unit.runtime.tables.shown import is_shown
-
-if TYPE_CHECKING:
-    from framegen.language.values import Direction
-    from framegen.model.slots import Field
 
 EVENT = ["offset", "size", "direction", "time", "clock"]
 
@@ -89,7 +83,7 @@ def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:
         frame = bytearray(plain[:begin] + middle + plain[-3:])
         for at, size in ((29, 2), (58, 2)):
             frame[at : at + size] = plain[at : at + size]
-        sealed = checksum.sealed(envelope, bytes(frame), [3])
+        sealed = envelope.sealed(bytes(frame), [3])
         (row,) = rows_in_tables(made, sealed, made.Direction.ASKER_TO_TELLER)
         assert row.fields == fields_of(made.decode(sealed, made.Direction.ASKER_TO_TELLER))
 

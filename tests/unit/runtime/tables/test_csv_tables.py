@@ -1,7 +1,5 @@
 """CSV files of any protocol hold what its stream decoder finds, written out in another way."""
 
-from __future__ import annotations
-
 import csv
 import io
 import struct
@@ -9,7 +7,8 @@ from importlib import import_module
 from itertools import zip_longest
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -19,12 +18,7 @@ from tests.handed import handed_by
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import model_of
 from tests.protocols.streams import lines
-from tests.unit.runtime.tables.rows import rows_of_decoder
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from tests.unit.runtime.tables.rows import Row
+from tests.unit.runtime.tables.rows import Row, rows_of_decoder
 
 
 def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, dict[str, str]]]:

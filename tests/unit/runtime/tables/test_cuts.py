@@ -1,12 +1,18 @@
 """Places where captures are cut: found locally, and right wherever a decoder began."""
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
-from busservo import ActionGroupStop, Direction, Noise, ServoMove, ServoUnload, StreamDecoder
+from busservo import (
+    ActionGroupStop,
+    Direction,
+    Message,
+    Noise,
+    ServoMove,
+    ServoUnload,
+    StreamDecoder,
+)
 from busservo.tables import safe_cuts
 from framewire.tables.archive import cuts
 from hypothesis import given
@@ -14,11 +20,6 @@ from hypothesis import strategies as st
 
 from tests.strategies import DIRECTIONS, directions, joined, lines, read
 from tests.unit.runtime.tables.conversations import conversation
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from busservo import Message
 
 LARGEST = 257
 STOP = ActionGroupStop().encode()

@@ -1,16 +1,15 @@
 """A dataset of archived captures: the tables of each, whatever stopped or disturbed the work."""
 
-from __future__ import annotations
-
 import errno
 import json
 import os
 import shutil
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import quote
 
 import lxservo.tables
@@ -22,11 +21,9 @@ from framewire.tables.archive import dataset, manifest
 from framewire.tables.archive.manifest import Manifest
 from framewire.tables.files.parquet import ParquetFiles
 
+from tests.in_turn import in_turn
 from tests.rows import Rows
 from tests.unit.runtime.tables.conversations import conversation, recorded
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 SIZE = 1000
 
@@ -41,6 +38,19 @@ def captures(tmp_path: Path) -> Path:
     (folder / "line 1.hex").write_text(recorded(20), encoding="utf-8")
     (folder / "empty.bin").write_bytes(b"")
     return folder
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return tmp_path / "dataset"
+
+
+@pytest.fixture
+def line(tmp_path: Path) -> Path:
+    """Return a short capture beside the dataset, which is one piece."""
+    file = tmp_path / "line.bin"
+    file.write_bytes(conversation(3))
+    return file
 
 
 def archived(captures: Path, folder: Path, size: int = SIZE) -> list[Report]:
@@ -73,196 +83,179 @@ def files_in(folder: Path) -> list[str]:
     )
 
 
-def test_it_holds_the_tables_of_all_captures(captures: Path, tmp_path: Path) -> None:
-    reports = archived(captures, tmp_path / "dataset")
+def test_it_holds_the_tables_of_all_captures(captures: Path, folder: Path) -> None:
+    reports = archived(captures, folder)
     assert len(reports) > 5
-    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+    assert rows_in(folder) == rows_of(captures)
     total = sum(len(rows) for rows in rows_of(captures).values())
     assert sum(sum(report.rows.values()) for report in reports) == total
     assert {(report.is_new, report.error) for report in reports} == {(True, None)}
 
 
 def test_what_is_done_is_not_done_again(
-    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    captures: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = archived(captures, tmp_path / "dataset")
-    before = files_in(tmp_path / "dataset")
+    first, before = archived(captures, folder), files_in(folder)
     monkeypatch.setattr(dataset, "_written", lambda *_: pytest.fail("it is written again"))
-    again = archived(captures, tmp_path / "dataset")
+    again = archived(captures, folder)
     assert [report.rows for report in again] == [report.rows for report in first]
     assert not any(report.is_new for report in again)
-    assert files_in(tmp_path / "dataset") == before
+    assert files_in(folder) == before
 
 
 # --- What changes --------------------------------------------------------------------------------
 
 
 def test_a_capture_that_has_changed_takes_the_place_of_what_it_was(
-    captures: Path, tmp_path: Path
+    captures: Path, folder: Path
 ) -> None:
-    archived(captures, tmp_path / "dataset")
+    archived(captures, folder)
     (captures / "line.bin").write_bytes(conversation(15)[100:])
-    reports = archived(captures, tmp_path / "dataset")
+    reports = archived(captures, folder)
     assert {report.piece.capture for report in reports if report.is_new} == {"line.bin"}
-    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+    assert rows_in(folder) == rows_of(captures)
 
 
 def test_pieces_of_another_size_take_the_place_of_those_that_they_overlap(
-    captures: Path, tmp_path: Path
+    captures: Path, folder: Path
 ) -> None:
     for size in (SIZE, 700, 4000):
-        archived(captures, tmp_path / "dataset", size)
-        assert rows_in(tmp_path / "dataset") == rows_of(captures)
+        archived(captures, folder, size)
+        assert rows_in(folder) == rows_of(captures)
 
 
-def test_a_piece_of_what_a_file_was_is_refused(captures: Path, tmp_path: Path) -> None:
-    pieces = scan(captures / "line.bin", size=SIZE)
-    (captures / "line.bin").write_bytes(b"")
-    errors = {archive(piece, tmp_path / "dataset").error for piece in pieces}
+def test_a_piece_of_what_a_file_was_is_refused(captures: Path, folder: Path) -> None:
     file = captures / "line.bin"
+    pieces = scan(file, size=SIZE)
+    file.write_bytes(b"")
+    errors = {archive(piece, folder).error for piece in pieces}
     assert errors == {f"{file}: the file has changed since it was scanned: scan again"}
 
 
-def test_a_capture_that_is_removed_stays_in_the_dataset(captures: Path, tmp_path: Path) -> None:
-    archived(captures, tmp_path / "dataset")
+def test_a_capture_that_is_removed_stays_in_the_dataset(captures: Path, folder: Path) -> None:
+    archived(captures, folder)
     expected = rows_of(captures)
     (captures / "line.bin").unlink()
-    archived(captures, tmp_path / "dataset")
-    assert rows_in(tmp_path / "dataset") == expected
+    archived(captures, folder)
+    assert rows_in(folder) == expected
 
 
 def test_what_was_written_with_other_tables_is_written_again(
-    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    captures: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    archived(captures, tmp_path / "dataset")
+    archived(captures, folder)
     monkeypatch.setattr(manifest, "_tables", lambda _codec: "those of another version")
-    assert all(report.is_new for report in archived(captures, tmp_path / "dataset"))
-    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+    assert all(report.is_new for report in archived(captures, folder))
+    assert rows_in(folder) == rows_of(captures)
 
 
 # --- What is broken ------------------------------------------------------------------------------
 
 
-def test_a_broken_capture_is_reported_and_the_others_are_done(
-    captures: Path, tmp_path: Path
-) -> None:
+def test_a_broken_capture_is_reported_and_the_others_are_done(captures: Path, folder: Path) -> None:
     expected = rows_of(captures)
-    (captures / "broken.hex").write_text("55 55 02 07\n55 5Z\n", encoding="utf-8")
-    (captures / "gone.bin").symlink_to(captures / "absent.bin")
-    reports = archived(captures, tmp_path / "dataset")
+    broken, gone = captures / "broken.hex", captures / "gone.bin"
+    broken.write_text("55 55 02 07\n55 5Z\n", encoding="utf-8")
+    gone.symlink_to(captures / "absent.bin")
+    reports = archived(captures, folder)
     errors = {report.piece.capture: report.error for report in reports if report.error}
-    assert set(errors) == {"broken.hex", "gone.bin"}
-    assert str(errors["broken.hex"]).startswith(f"{captures / 'broken.hex'}: line 2: no hex")
-    assert errors["gone.bin"] == f"{captures / 'gone.bin'}: No such file or directory"
-    assert rows_in(tmp_path / "dataset") == expected
-
-
-def test_a_file_that_vanishes_is_reported(captures: Path, tmp_path: Path) -> None:
-    (piece,) = scan(captures / "line 1.hex")
-    (captures / "line 1.hex").unlink()
-    report = archive(piece, tmp_path / "dataset")
-    assert report.error == f"{captures / 'line 1.hex'}: No such file or directory"
+    assert str(errors.pop("broken.hex")).startswith(f"{broken}: line 2: no hex")
+    assert errors == {"gone.bin": f"{gone}: No such file or directory"}
+    assert rows_in(folder) == expected
 
 
 def test_a_full_disk_is_reported_with_the_place_and_leaves_nothing(
-    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    line: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(_writer: object, _table: object) -> None:
         raise OSError(errno.ENOSPC, "Error writing bytes to file")
 
-    (piece, *_) = scan(captures / "line.bin", size=SIZE)
+    (piece,) = scan(line)
     with monkeypatch.context() as patch:
         patch.setattr(pq.ParquetWriter, "write_table", full)
-        report = archive(piece, tmp_path / "dataset")
-    assert str(report.error).startswith(str(tmp_path / "dataset" / "_pieces"))
-    assert str(report.error).endswith(".parquet: No space left on device")
-    (left,) = (tmp_path / "dataset" / "_pieces").glob("*/*")
+        error = str(archive(piece, folder).error)
+    assert error.startswith(str(folder / "_pieces"))
+    assert error.endswith(".parquet: No space left on device")
+    (left,) = (folder / "_pieces").glob("*/*")
     assert left.suffix == ".json"
-    assert archive(piece, tmp_path / "dataset").is_new
+    assert archive(piece, folder).is_new
 
 
-def test_a_dataset_that_cannot_be_written_is_reported(captures: Path, tmp_path: Path) -> None:
-    (tmp_path / "dataset").write_bytes(b"")
-    (piece, *_) = scan(captures / "line.bin", size=SIZE)
-    report = archive(piece, tmp_path / "dataset")
-    assert str(report.error).startswith(f"{tmp_path / 'dataset'}")
+def test_a_dataset_that_cannot_be_written_is_reported(line: Path, folder: Path) -> None:
+    folder.write_bytes(b"")
+    (report,) = archived(line, folder)
+    assert str(report.error).startswith(f"{folder}")
     assert not report.rows
 
 
 def test_what_cannot_even_be_begun_leaves_nothing(
-    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    captures: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(path: Path, *_: object, **__: object) -> int:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
 
     monkeypatch.setattr(Path, "write_text", full)
-    reports = archived(captures, tmp_path / "dataset")
-    assert {report.error is None for report in reports} == {False}
-    assert not [*tmp_path.glob("dataset/*/*/*")]
+    assert all(report.error for report in archived(captures, folder))
+    assert not [*folder.glob("*/*/*")]
 
 
-@pytest.mark.parametrize("data", [None, b""])
-def test_files_that_were_lost_are_written_again(
-    data: bytes | None, captures: Path, tmp_path: Path
-) -> None:
-    archived(captures, tmp_path / "dataset")
-    (lost, *_) = sorted(tmp_path.glob("dataset/BatteryVoltage/*/*.parquet"))
-    lost.unlink()
-    if data is not None:
-        lost.write_bytes(data)
-    reports = archived(captures, tmp_path / "dataset")
-    assert [report.is_new for report in reports].count(True) == 1
-    assert rows_in(tmp_path / "dataset") == rows_of(captures)
-
-
-def test_a_dataset_of_another_protocol_is_refused(captures: Path, tmp_path: Path) -> None:
-    archived(captures, tmp_path / "dataset")
+def test_a_dataset_of_another_protocol_is_refused(captures: Path, folder: Path) -> None:
+    archived(captures, folder)
     for piece in lxservo.tables.scan(captures):
-        report = lxservo.tables.archive(piece, tmp_path / "dataset")
-        said = "it holds captures of busservo: name another folder"
-        assert report.error == f"{tmp_path / 'dataset'}: {said}"
-    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+        report = lxservo.tables.archive(piece, folder)
+        assert report.error == f"{folder}: it holds captures of busservo: name another folder"
+    assert rows_in(folder) == rows_of(captures)
 
 
-def test_a_manifest_that_makes_no_sense_is_none(captures: Path, tmp_path: Path) -> None:
-    archived(captures, tmp_path / "dataset")
-    for path in (tmp_path / "dataset" / "_pieces").rglob("*.json"):
-        path.write_text("{", encoding="utf-8")
-    assert all(report.is_new for report in archived(captures, tmp_path / "dataset"))
-    assert rows_in(tmp_path / "dataset") == rows_of(captures)
+def manifests_of(folder: Path, capture: str = "*") -> list[Path]:
+    return [*(folder / "_pieces").glob(f"capture={capture}/*.json")]
+
+
+# One file that is lost or damaged, of those that a pattern fits; what it holds then.
+LOST = [
+    ("BatteryVoltage/*/*.parquet", None),
+    ("BatteryVoltage/*/*.parquet", ""),
+    ("_pieces/*/*.json", "{"),
+    ("_pieces/*/*.json", "[" * 100_000),
+]
+
+
+@in_turn("pattern, text", lambda: LOST)
+def test_what_was_lost_is_written_again(
+    pattern: str, text: str | None, captures: Path, folder: Path
+) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    archived(captures, folder)
+    lost = min(folder.glob(pattern))
+    lost.unlink()
+    if text is not None:
+        lost.write_text(text)
+    reports = archived(captures, folder)
+    assert [report.is_new for report in reports].count(True) == 1
+    assert rows_in(folder) == rows_of(captures)
 
 
 # JSON that is no manifest of a piece, and what a manifest may be changed to.
 NO_MANIFESTS: list[Any] = ["", 7, True, [], [[]], {}, {"rows": {}}, {"library": 7}]
-CHANGES = [
-    {"rows": 5},
-    {"rows": []},
-    {"rows": {"BatteryVoltage": "3"}},
-    {"rows": {"BatteryVoltage": True}},
-    {"sizes": None},
-    {"sizes": 7},
-    {"capture": 7},
-    {"start": "0"},
-    {"end": None},
-    {"stamp": "now"},
-    {"direction": 1},
+CHANGES: list[dict[str, Any]] = [
+    *({"rows": rows} for rows in (5, [], {"BatteryVoltage": "3"}, {"BatteryVoltage": True})),
+    *({"sizes": sizes} for sizes in (None, 7)),
+    *({"capture": 7}, {"start": "0"}, {"end": None}, {"stamp": "now"}, {"direction": 1}),
 ]
 
 
-@pytest.mark.parametrize("wrong", [*NO_MANIFESTS, *CHANGES], ids=str)
-def test_a_damaged_manifest_is_a_broken_piece(wrong: Any, tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(conversation(3))
-    (tmp_path / "other.bin").write_bytes(conversation(3))
-    folder = tmp_path / "dataset"
-    pieces = scan([tmp_path / "line.bin", tmp_path / "other.bin"])
+@in_turn("wrong", lambda: [*NO_MANIFESTS, *CHANGES])
+def test_a_damaged_manifest_is_a_broken_piece(wrong: Any, line: Path, folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copy(line, line.with_name("other.bin"))
+    pieces = scan([line, line.with_name("other.bin")])
     done = [archive(piece, folder) for piece in pieces]
-    (file,) = (folder / "_pieces" / "capture=line.bin").glob("*.json")
+    (file,) = manifests_of(folder, "line.bin")
     said = json.loads(file.read_text(encoding="utf-8"))
     file.write_text(json.dumps({**said, **wrong} if wrong in CHANGES else wrong), encoding="utf-8")
     broken, whole = (archive(piece, folder) for piece in pieces)
-    assert broken.error is not None
-    assert broken.error.startswith(f"{file}: it is damaged")
-    assert broken.error.endswith("remove it, and the piece is done again")
+    assert str(broken.error).startswith(f"{file}: it is damaged")
+    assert str(broken.error).endswith("remove it, and the piece is done again")
     assert whole.rows == done[1].rows
     # The way out that it names.
     file.unlink()
@@ -270,41 +263,30 @@ def test_a_damaged_manifest_is_a_broken_piece(wrong: Any, tmp_path: Path) -> Non
     assert len(files_in(folder / "BatteryVoltage")) == 2
 
 
-def test_a_damaged_manifest_of_another_piece_is_replaced(tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(conversation(60))
-    folder = tmp_path / "dataset"
-    archived(tmp_path / "line.bin", folder)
-    for file in (folder / "_pieces" / "capture=line.bin").glob("*.json"):
+def test_a_damaged_manifest_of_another_piece_is_replaced(line: Path, folder: Path) -> None:
+    line.write_bytes(conversation(60))
+    archived(line, folder)
+    for file in manifests_of(folder, "line.bin"):
         file.write_text("[]", encoding="utf-8")
-    (whole,) = archived(tmp_path / "line.bin", folder, size=1 << 20)
+    (whole,) = archived(line, folder, size=1 << 20)
     assert whole.error is None
-    assert rows_in(folder) == {
-        (name, "line.bin"): table.to_pylist()
-        for name, table in read(tmp_path / "line.bin").filled.items()
-    }
+    tables = read(line).filled
+    assert rows_in(folder) == {(name, "line.bin"): tables[name].to_pylist() for name in tables}
 
 
-@pytest.mark.parametrize("wrong", NO_MANIFESTS, ids=str)
-def test_a_dataset_that_does_not_tell_its_protocol_is_refused(wrong: Any, tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(conversation(3))
-    (piece,) = scan(tmp_path / "line.bin")
-    file = tmp_path / "dataset" / "_pieces" / "library.json"
+@in_turn("wrong", lambda: NO_MANIFESTS)
+def test_a_dataset_that_does_not_tell_its_protocol_is_refused(
+    wrong: Any, line: Path, folder: Path
+) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    (piece,) = scan(line)
+    file = folder / "_pieces" / "library.json"
     file.parent.mkdir(parents=True)
     file.write_text(json.dumps(wrong), encoding="utf-8")
-    report = archive(piece, tmp_path / "dataset")
     problem = "it is damaged, and does not tell whose captures the dataset holds"
-    assert report.error == f"{file}: {problem}: remove it if they are of busservo"
+    assert archive(piece, folder).error == f"{file}: {problem}: remove it if they are of busservo"
     file.unlink()
-    assert archive(piece, tmp_path / "dataset").is_new
-
-
-def test_a_manifest_without_end_is_none(tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(conversation(3))
-    archived(tmp_path / "line.bin", tmp_path / "dataset")
-    (file,) = (tmp_path / "dataset" / "_pieces" / "capture=line.bin").glob("*.json")
-    file.write_text("[" * 100_000, encoding="utf-8")
-    (report,) = archived(tmp_path / "line.bin", tmp_path / "dataset")
-    assert report.is_new
+    assert archive(piece, folder).is_new
 
 
 # --- What is stopped -----------------------------------------------------------------------------
@@ -341,17 +323,17 @@ def killed_at(number: int) -> Iterator[None]:
 @pytest.mark.parametrize("step", Rows([8], others=[1]))
 @pytest.mark.parametrize("is_second", [False, True])
 def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
-    captures: Path, tmp_path: Path, step: int, *, is_second: bool
+    tmp_path: Path, step: int, *, is_second: bool
 ) -> None:
-    shutil.rmtree(captures)
+    captures, folder = tmp_path / "captures", tmp_path / "dataset"
     captures.mkdir()
-    folder = tmp_path / "dataset"
+    line = captures / "line.bin"
     for number in count(0, step):
         shutil.rmtree(folder, ignore_errors=True)
-        (captures / "line.bin").write_bytes(conversation(8)[number:])
+        line.write_bytes(conversation(8)[number:])
         if is_second:
             archived(captures, folder, 200)
-            (captures / "line.bin").write_bytes(conversation(8)[number + 1 :])
+            line.write_bytes(conversation(8)[number + 1 :])
         try:
             with killed_at(number):
                 archived(captures, folder, 250)
@@ -364,16 +346,15 @@ def test_work_that_was_stopped_anywhere_is_done_by_doing_it_again(
             if path.parent.parent.name != "_pieces":
                 assert pq.read_metadata(path).num_rows
         if is_second:
-            (captures / "line.bin").write_bytes(conversation(8)[number + 2 :])
+            line.write_bytes(conversation(8)[number + 2 :])
         archived(captures, folder, 250)
         assert rows_in(folder) == rows_of(captures)
     assert number > 20
 
 
 def test_two_workers_at_one_piece_do_no_harm(
-    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    captures: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    folder = tmp_path / "dataset"
     (piece, *others) = scan(captures / "line.bin", size=SIZE)
     begun = Manifest.begin
     reports: list[Report] = []
@@ -401,61 +382,54 @@ def test_two_workers_at_one_piece_do_no_harm(
 def test_a_report_says_what_became_of_a_piece() -> None:
     piece = Piece("/c/line.bin", "line.bin", 0, 1_500_000, "raw", None, (1_500_000, 1))
     rows = {"BatteryVoltage": 3, "noise": 1}
-    said = [
-        str(Report(piece, rows, 0.5, is_new=True)),
-        str(Report(piece, rows)),
-        str(Report(piece, error="/c/line.bin: No such file or directory")),
-    ]
-    assert said == [
-        "line.bin[0:1500000]: 4 rows, 1.5 MB in 0.5 s",
-        "line.bin[0:1500000]: 4 rows, done before",
-        "line.bin[0:1500000]: error: /c/line.bin: No such file or directory",
-    ]
-
-
-def test_a_name_that_controls_the_screen_is_escaped_when_it_is_printed(tmp_path: Path) -> None:
-    names = {
-        "a\x1b[31m.bin": r"a\x1b[31m.bin",
-        "a\nb.bin": r"a\nb.bin",
-        "\u202ea.bin": r"\u202ea.bin",
+    error = "/c/line.bin: No such file or directory"
+    said = {
+        "4 rows, 1.5 MB in 0.5 s": Report(piece, rows, 0.5, is_new=True),
+        "4 rows, done before": Report(piece, rows),
+        f"error: {error}": Report(piece, error=error),
     }
-    for name, shown in names.items():
-        piece = Piece(f"/c/{name}", name, 0, 7, "raw", None, (7, 1))
-        report = archive(piece, tmp_path / "dataset")
-        assert str(piece) == f"{shown}[0:7]"
-        assert str(report) == f"{shown}[0:7]: error: /c/{shown}: No such file or directory"
-        assert report.error == f"/c/{name}: No such file or directory"
+    for text, report in said.items():
+        assert str(report) == f"line.bin[0:1500000]: {text}"
+
+
+@in_turn("name", lambda: ["a\x1b[31m.bin", "a\nb.bin", "\u202ea.bin"])
+def test_a_name_that_controls_the_screen_is_escaped_when_it_is_printed(
+    name: str, folder: Path
+) -> None:
+    piece = Piece(f"/c/{name}", name, 0, 7, "raw", None, (7, 1))
+    report, shown = archive(piece, folder), name.encode("unicode_escape").decode()
+    assert str(piece) == f"{shown}[0:7]"
+    assert str(report) == f"{shown}[0:7]: error: /c/{shown}: No such file or directory"
+    assert report.error == f"/c/{name}: No such file or directory"
 
 
 NAMES = ["ü ß.bin", "a=b&c%20.bin", "x" * 120 + "ö" * 60, "x" * 121 + "線" * 40, "a\udcff.bin"]
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_capture_may_have_any_name(name: str, tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(conversation(3))
-    (piece,) = scan(tmp_path / "line.bin")
-    assert archive(replace(piece, capture=name), tmp_path / "dataset").is_new
-    ((_, capture), *_) = rows_in(tmp_path / "dataset")
+@in_turn("name", lambda: NAMES)
+def test_a_capture_may_have_any_name(name: str, line: Path, folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    (piece,) = scan(line)
+    assert archive(replace(piece, capture=name), folder).is_new
+    ((_, capture), *_) = rows_in(folder)
     seen = name.replace("\udcff", "\\udcff")
     assert capture == seen or (capture.startswith(seen[:120]) and len(quote(name, "")) > 200)
 
 
 def test_captures_that_share_a_folder_keep_their_pieces(
-    captures: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    captures: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # As on a disk on which small letters are large ones.
     monkeypatch.setattr(manifest, "_file_name", str.lower)
     (captures / "LINE.bin").write_bytes(conversation(45))
-    for _ in range(2):
-        reports = archived(captures, tmp_path / "dataset")
-    assert not any(report.is_new for report in reports)
+    archived(captures, folder)
+    assert not any(report.is_new for report in archived(captures, folder))
 
 
-def test_long_names_that_begin_alike_are_told_apart(tmp_path: Path) -> None:
-    folder = tmp_path / "captures" / ("long" * 30)
-    folder.mkdir(parents=True)
+def test_long_names_that_begin_alike_are_told_apart(tmp_path: Path, folder: Path) -> None:
+    captures = tmp_path / "captures" / ("long" * 30)
+    captures.mkdir(parents=True)
     for name in ("first", "second"):
-        (folder / f"{'name' * 30}{name}.bin").write_bytes(conversation(1))
-    archived(tmp_path / "captures", tmp_path / "dataset")
-    captures = {capture for _, capture in rows_in(tmp_path / "dataset")}
-    assert len(captures) == 2
+        (captures / f"{'name' * 30}{name}.bin").write_bytes(conversation(1))
+    archived(tmp_path / "captures", folder)
+    assert len({capture for _, capture in rows_in(folder)}) == 2

@@ -1,22 +1,16 @@
 """Recordings behind each other, the gaps in them, and what is counted of noise along them."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
+import pytest
 from busservo import BatteryVoltage
 from busservo._library import CODEC
 from framewire.tables.stats import statistics
 from framewire.tables.stats.timeline import Intervals, Moments
 from hypothesis import given
 from hypothesis import strategies as st
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import pytest
-    from numpy.typing import NDArray
+from numpy.typing import NDArray
 
 READING = BatteryVoltage(7000).encode()
 

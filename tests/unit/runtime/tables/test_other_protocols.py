@@ -1,12 +1,12 @@
 """Tables of every protocol hold the events of its decoder, vectorised or not."""
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import pytest
+from framegen.language.values import Direction
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
@@ -19,11 +19,6 @@ from tests.rows import some
 from tests.unit.runtime.tables.hostile import hostile_lines, sealing
 from tests.unit.runtime.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
 from tests.unit.runtime.tables.shown import is_shown
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from framegen.language.values import Direction
 
 # Which protocols are searched at many places at once, by the sender, `any` for all of them; and
 # why the others are not. What is searched in order is right as well, and slower.

@@ -1,11 +1,10 @@
 """Parquet files of a capture: its tables, whole or not at all."""
 
-from __future__ import annotations
-
 import errno
 import io
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -16,9 +15,6 @@ from busservo.tables import read, schemas, write_parquet
 from framewire.tables.files import parquet
 
 from tests.unit.runtime.tables.conversations import conversation, recorded
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 CAPTURE = conversation(40)
 WAYS: dict[str, tuple[Any, dict[str, Any]]] = {

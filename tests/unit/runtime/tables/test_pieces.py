@@ -1,10 +1,9 @@
 """Pieces of captures: found by names, patterns and folders, and read one by one."""
 
-from __future__ import annotations
-
 import os
 import pickle
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from pathlib import Path
 
 import pyarrow as pa
 import pytest
@@ -13,10 +12,6 @@ from busservo.recordings import RecordingError
 from busservo.tables import NOISE, Piece, read, read_batches, scan
 
 from tests.unit.runtime.tables.conversations import conversation, recorded
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
 
 CAPTURE = conversation(100)
 

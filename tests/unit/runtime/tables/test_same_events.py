@@ -1,7 +1,5 @@
 """Tables hold exactly the events of the stream decoder, however hostile the line is."""
 
-from __future__ import annotations
-
 import busservo
 import pytest
 from busservo import Direction, strategies

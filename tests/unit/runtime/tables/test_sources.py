@@ -1,12 +1,12 @@
 """Whatever holds a capture, its tables are the same: files, bytes, streams and recordings."""
 
-from __future__ import annotations
-
 import io
 import mmap
 import re
+from collections.abc import Iterable, Iterator
 from datetime import datetime, timedelta, timezone
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import busservo
 import numpy as np
@@ -26,10 +26,6 @@ from tests.unit.runtime.tables.rows import (
     rows_in_tables,
     rows_of_decoder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
 STOP, VOLTAGE = bytes.fromhex("55 55 02 07"), bytes.fromhex("55 55 04 0F 4C 1D")
 LINE = STOP + b"\0\0" + VOLTAGE + bytes.fromhex("55 55 03 63 2A") + STOP + bytes(900) + STOP

@@ -1,14 +1,15 @@
 """Statistics of every protocol are those of its decoder's events, however a capture is cut."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
+from collections.abc import Iterator
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import busservo
 import pytest
+from framegen.language.values import Direction
 from framewire.command import statistics_sheet
 from framewire.explain.words import scaled
 from framewire.tables.stats.statistics import statistics
@@ -23,12 +24,6 @@ from tests.protocols.specs import FILES
 from tests.rows import some
 from tests.unit.runtime.tables.rows import joined, rows_of_decoder
 from tests.unit.runtime.tables.test_other_protocols import lines_of, ways_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
-
-    from framegen.language.values import Direction
 
 QUICK = {"lxservo", "everything"}
 CASES = some(

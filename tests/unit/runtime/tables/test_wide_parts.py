@@ -1,10 +1,9 @@
 """Ids and addresses of any width: of messages and of unknown frames, to their highest values."""
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import pyarrow as pa
 import pytest
@@ -16,9 +15,6 @@ from hypothesis import strategies as st
 from tests.factories import compiled_of, library, library_files
 from tests.few_each import few_each
 from tests.unit.runtime.tables.rows import rows_in_tables, rows_of_decoder
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 WIDTHS = [8, 16, 24, 32, 64]
 

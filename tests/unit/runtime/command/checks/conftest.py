@@ -1,8 +1,6 @@
 """What holds for tests that start boards, what shortens those in real time, and libraries."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import pytest
 from framewire.command.checks import silence
@@ -10,9 +8,6 @@ from framewire.command.checks import silence
 from tests.contract.protocols.conftest import libraries
 from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.timeouts import undoubted
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["libraries", "no_board_refuses_anything", "pytest_runtest_makereport"]
 

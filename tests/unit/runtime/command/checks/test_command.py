@@ -1,10 +1,7 @@
 """The verb `doctor`: what it prints, how it ends, and the report that it writes."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from busservo.__main__ import main
@@ -13,16 +10,13 @@ from framewire.command import doctor
 from framewire.command.checks import reply
 from framewire.command.checks.check import Check
 from framewire.command.checks.checks import examine
+from framewire.command.checks.diagnosis import Diagnosis
 from framewire.command.checks.report import Report
-from framewire.command.checks.result import PASSED, passed
+from framewire.command.checks.result import PASSED, Result, passed
 from framewire.line.link_errors import DisconnectedError
 
 from tests.lines.patient import ADAPTER, CHECKS, PORT, board_with, diagnosis_of, examined
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from framewire.command.checks.diagnosis import Diagnosis
-    from framewire.command.checks.result import Result
 
 Capture = pytest.CaptureFixture[str]
 

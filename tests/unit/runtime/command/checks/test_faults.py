@@ -1,25 +1,19 @@
 """The doctor's results for each fault of the virtual board, in virtual time."""
 
-from __future__ import annotations
-
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo import ActionGroupStarted
-from busservo_simulator import Faults
+from busservo_simulator import Faults, VirtualController
 from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 from tests.lines.patient import CHECKS, LONGEST, board_with, diagnosis_of, examined
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from busservo_simulator import VirtualController
 
 
 @dataclass

@@ -1,7 +1,5 @@
 """What came over a line in pieces: its events with their times, and noise apart at each silence."""
 
-from __future__ import annotations
-
 from busservo._library import CODEC
 from framewire.codec.event_bytes import bytes_of
 from framewire.command.checks.heard import PAUSE, Heard

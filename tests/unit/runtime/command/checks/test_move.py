@@ -1,9 +1,6 @@
 """The one check that moves something: a servo, a little, and back."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import pytest
 from busservo.__main__ import main
@@ -15,13 +12,10 @@ from framewire.command import doctor
 from framewire.command.checks import move
 from framewire.command.checks.checks import examine
 from framewire.command.checks.move import move_check
-from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN, Result
 
 from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from framewire.command.checks.result import Result
 
 OPENING = [check for check in CHECKS if check.id in {"port", "permission", "busy", "opening"}]
 

@@ -1,11 +1,11 @@
 """The doctor's checks of ports: which there are, who may use them, and their rates."""
 
-from __future__ import annotations
-
 import os
 import socket
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo import (
@@ -14,6 +14,7 @@ from busservo import (
     PortBusyError,
     PortNotFoundError,
     PortPermissionError,
+    TransportError,
 )
 from busservo_simulator import VirtualController
 from framewire.command.checks import port_listed, rate
@@ -25,12 +26,6 @@ from framewire.line.serial_port import SerialPortSeen
 from tests.in_turn import in_turn
 from tests.lines.patient import CHECKS, board_with, diagnosis_at, diagnosis_of, examined
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from busservo import TransportError
 
 BUILT_IN = SerialPortSeen("/dev/ttyS0", "", "")
 ONE = SerialPortSeen("/dev/ttyUSB0", "1A86:7523", "USB Serial", "A50285BI")

@@ -1,10 +1,9 @@
 """The doctor before devices that are not the board, and a board that stumbles: what it affirms."""
 
-from __future__ import annotations
-
 import dataclasses
+from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
@@ -21,14 +20,9 @@ from tests.contract.independent.strangers import BANNER, GPS, MODEM, SKETCH, Pri
 from tests.handed import program_of
 from tests.in_turn import in_turn
 from tests.lines.servo_bus import frame
+from tests.protocols.libraries import Libraries
 from tests.protocols.specs import FILES
 from tests.rows import some
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.contract.independent.faults import Script
-    from tests.protocols.libraries import Libraries
 
 # What the doctor takes at most of the device's time, whatever comes.
 LONGEST = 60.0
