@@ -1,23 +1,42 @@
-"""Tables of every protocol hold the events of its decoder, vectorised or not."""
+"""Tables of every protocol hold the events of its decoder: vectorised or not, in CSV as well."""
 
+import csv
+import io
+import struct
 from functools import cache
 from importlib import import_module
+from itertools import zip_longest
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import ModuleType
 from typing import Any
 
+import pyarrow as pa
 import pytest
 from framegen.language.values import Direction
+from framegen.model.checksums import CHECKSUMS
 from framegen.model.stream import ReferenceDecoder
-from hypothesis import given
+from framewire.command.csv_tables import csv_written
+from framewire.recording.layout import layouts_of
+from framewire.tables.search.searchable import is_searchable
+from framewire.tables.stats.statistics import statistics
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from tests.factories import compiled_of, data_in, library, library_files
 from tests.few_each import few_each
+from tests.handed import handed_by
 from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
 from tests.rows import some
 from tests.unit.runtime.tables.hostile import hostile_lines, sealing
-from tests.unit.runtime.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
+from tests.unit.runtime.tables.rows import (
+    Row,
+    places_of_reference,
+    rows_in_tables,
+    rows_of_decoder,
+)
 from tests.unit.runtime.tables.shown import is_shown
 
 # Which protocols are searched at many places at once, by the sender, `any` for all of them; and
@@ -28,50 +47,23 @@ NO_LENGTH = "no frame says how long it is"
 SEVERAL = "frames differ in their parts"
 UNSENT = "the checksum covers what is not sent"
 END = "a constant ends each frame"
-VECTORISED: dict[tuple[str, str], str | None] = {
-    ("crsf", "controller"): None,
-    ("crsf", "receiver"): None,
-    ("crsf", "any"): None,
-    ("dynamixel1", "controller"): None,
-    ("dynamixel1", "actuator"): NO_ID,
-    ("dynamixel1", "any"): SEVERAL,
-    ("ibus", "changer"): NO_HEADER,
-    ("ibus", "radio"): NO_HEADER,
-    ("ibus", "any"): NO_HEADER,
-    ("mavlink1", "ground"): UNSENT,
-    ("mavlink1", "vehicle"): UNSENT,
-    ("mavlink1", "any"): UNSENT,
-    ("mhz19", "host"): NO_LENGTH,
-    ("mhz19", "sensor"): NO_LENGTH,
-    ("mhz19", "any"): SEVERAL,
-    ("modbus", "client"): NO_HEADER,
-    ("modbus", "device"): NO_HEADER,
-    ("modbus", "any"): NO_HEADER,
-    ("msp", "host"): None,
-    ("msp", "controller"): SEVERAL,
-    ("msp", "any"): SEVERAL,
-    ("roboclaw", "host"): NO_LENGTH,
-    ("roboclaw", "controller"): NO_HEADER,
-    ("roboclaw", "any"): SEVERAL,
-    ("sbus", "receiver"): NO_ID,
-    ("sbus", "any"): NO_ID,
-    ("tfmini", "sensor"): NO_ID,
-    ("tfmini", "any"): NO_ID,
-    ("ubx", "host"): None,
-    ("ubx", "receiver"): None,
-    ("ubx", "any"): None,
-    ("visca", "controller"): SEVERAL,
-    ("visca", "camera"): END,
-    ("visca", "any"): SEVERAL,
-    ("lxservo", "host"): None,
-    ("lxservo", "servo"): None,
-    ("lxservo", "any"): None,
-    ("everything", "asker"): UNSENT,
-    ("everything", "teller"): None,
-    ("everything", "any"): SEVERAL,
-    ("gauges", "panel"): NO_LENGTH,
-    ("gauges", "gauge"): NO_ID,
-    ("gauges", "any"): SEVERAL,
+VECTORISED: dict[str, dict[str, str | None]] = {
+    "crsf": {"controller": None, "receiver": None, "any": None},
+    "dynamixel1": {"controller": None, "actuator": NO_ID, "any": SEVERAL},
+    "ibus": {"changer": NO_HEADER, "radio": NO_HEADER, "any": NO_HEADER},
+    "learm": {"host": None, "controller": None, "any": None},
+    "mavlink1": {"ground": UNSENT, "vehicle": UNSENT, "any": UNSENT},
+    "mhz19": {"host": NO_LENGTH, "sensor": NO_LENGTH, "any": SEVERAL},
+    "modbus": {"client": NO_HEADER, "device": NO_HEADER, "any": NO_HEADER},
+    "msp": {"host": None, "controller": SEVERAL, "any": SEVERAL},
+    "roboclaw": {"host": NO_LENGTH, "controller": NO_HEADER, "any": SEVERAL},
+    "sbus": {"receiver": NO_ID, "any": NO_ID},
+    "tfmini": {"sensor": NO_ID, "any": NO_ID},
+    "ubx": {"host": None, "receiver": None, "any": None},
+    "visca": {"controller": SEVERAL, "camera": END, "any": SEVERAL},
+    "lxservo": {"host": None, "servo": None, "any": None},
+    "everything": {"asker": UNSENT, "teller": None, "any": SEVERAL},
+    "gauges": {"panel": NO_LENGTH, "gauge": NO_ID, "any": SEVERAL},
 }
 
 
@@ -85,15 +77,10 @@ def sender(way: Direction | None) -> str:
     return "any" if way is None else way.sender
 
 
-CASES = some(
-    [
-        pytest.param(name, way, id=f"{name}-{sender(way)}")
-        for name in FILES
-        for way in ways_of(name)
-    ],
-    is_shown,
-)
-each_way = pytest.mark.parametrize(("name", "way"), CASES)
+CASES = [
+    pytest.param(name, way, id=f"{name}-{sender(way)}") for name in FILES for way in ways_of(name)
+]
+each_way = pytest.mark.parametrize(("name", "way"), some(CASES, is_shown))
 
 
 @cache
@@ -112,22 +99,14 @@ def filler(name: str) -> bytes:
     return bytes([byte]) * (2 * model.largest(model.directions) + 1)
 
 
-def is_vectorised(made: ModuleType, direction: Any) -> bool:
-    """Tell whether a library searches at many places at once."""
-    layout: Any = import_module("framewire.recording.layout")
-    searchable: Any = import_module("framewire.tables.search.searchable")
-    library: Any = import_module(f"{made.__name__}._library")
-    return bool(searchable.is_searchable(layout.layouts_of(library.CODEC).on(direction)))
-
-
 @pytest.mark.parametrize("name", some(FILES, is_shown))
 def test_what_is_vectorised_stays_so(libraries: Libraries, name: str) -> None:
     made = libraries[name]
-    found = {
-        (name, sender(way)): is_vectorised(made, None if way is None else direction_of(made, way))
-        for way in ways_of(name)
-    }
-    assert found == {key: why is None for key, why in VECTORISED.items() if key[0] == name}
+    layouts = layouts_of(handed_by(made.__name__).codec)
+    for way in ways_of(name):
+        direction = None if way is None else direction_of(made, way)
+        found = is_searchable(layouts.on(direction))
+        assert bool(found) == (VECTORISED[name][sender(way)] is None), sender(way)
 
 
 @each_way
@@ -140,7 +119,7 @@ def test_tables_hold_what_the_decoder_and_the_reference_find(
     line = data.draw(lines_of(name, made))
     block = data.draw(st.sampled_from([1, 7, 64, 600, None]))
     # Kilobytes in stretches of a few bytes show nothing that a short line does not.
-    if VECTORISED[name, sender(way)] is None and (block is None or block > 7):
+    if VECTORISED[name][sender(way)] is None and (block is None or block > 7):
         line += data.draw(st.sampled_from([b"", filler(name)]))
     direction = None if way is None else direction_of(made, way)
     found = rows_in_tables(made, line, direction, block=block)
@@ -182,3 +161,151 @@ def test_a_character_that_is_none_and_an_address_that_is_none_are_refused(
     line = sealing(servo)(bytes(frame)) + filler("lxservo")
     first, *_ = rows_in_tables(servo, line, servo.Direction.HOST_TO_SERVO)
     assert (first.table, first.offset, first.reason) == ("noise", 0, "out of range")
+
+
+# --- CSV -----------------------------------------------------------------------------------------
+
+
+def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, dict[str, str]]]:
+    """Return the rows of all CSV files, in the order of the capture, as they are read back."""
+    recordings: Any = import_module(f"{made.__name__}.recordings")
+    entries = recordings.read(io.BytesIO(line), form="raw", direction=direction)
+    found = []
+    with TemporaryDirectory() as folder:
+        counts = csv_written(entries, Path(folder) / "tables", handed_by(made.__name__).codec)
+        for file in Path(folder, "tables").iterdir():
+            with file.open(encoding="utf-8", newline="") as stream:
+                rows = [*csv.DictReader(stream, strict=True)]
+            assert counts.pop(file.stem) == len(rows)
+            assert not any(None in row or None in row.values() for row in rows)
+            found += [(file.stem, row) for row in rows]
+    assert counts == {}
+    return sorted(found, key=lambda pair: int(pair[1]["offset"]))
+
+
+def expected(row: Row) -> list[tuple[str, dict[str, str]]]:
+    """Return the rows of one event, from the fields that the decoder names."""
+    begin = {"offset": str(row.offset), "size": str(row.size), "direction": row.direction or ""}
+    fields = dict(row.fields or {})
+    if row.table in ("noise", "unknown"):
+        begin |= {"reason": str(row.reason), "unknown": str(row.table == "unknown").lower()}
+        parameters = fields.pop("parameters", b"").hex(" ").upper()
+        numbers = {name: text(value) for name, value in fields.items()}
+        return [("noise", {**begin, **numbers, "parameters": parameters})]
+    lists = {name: value for name, value in fields.items() if isinstance(value, list)}
+    begin |= {name: text(fields[name]) for name in fields if name not in lists}
+    if not lists:
+        return [(row.table, begin)]
+    flat = [flattened(name, value) for name, value in lists.items()]
+    made = []
+    for index, elements in enumerate(zip_longest(*flat, fillvalue={})):
+        one = {name: value for each in elements for name, value in each.items()}
+        made.append((row.table, {**begin, "index": str(index), **one}))
+    return made or [(row.table, {**begin, "index": ""})]
+
+
+def flattened(name: str, values: list[Any]) -> list[dict[str, str]]:
+    return [
+        {f"{name}.{each}": text(value) for each, value in element.items()}
+        if isinstance(element, dict)
+        else {name: text(element)}
+        for element in values
+    ]
+
+
+def text(value: Any) -> str:
+    if isinstance(value, bytes):  # a float, as its bits
+        return str(struct.unpack(">d", value)[0])
+    return "" if value is None else str(value)
+
+
+@pytest.mark.parametrize("name", ["everything", "sbus", "ubx"])
+@settings(max_examples=12)
+@given(data=st.data())
+def test_csv_files_hold_what_the_decoder_finds(
+    libraries: Libraries, name: str, data: st.DataObject
+) -> None:
+    made, model = libraries[name], model_of(name)
+    way = data.draw(st.sampled_from([*model.directions]))
+    line = data.draw(lines(name, way))
+    direction = direction_of(made, way)
+    found = written(made, line, direction)
+    rows = [each for row in rows_of_decoder(made, line, direction) for each in expected(row)]
+    # What is empty in a file may be absent in what is expected.
+    assert [*map(filled, found)] == [*map(filled, rows)]
+
+
+def filled(row: tuple[str, dict[str, str]]) -> tuple[str, dict[str, str]]:
+    return row[0], {name: cell for name, cell in row[1].items() if cell}
+
+
+# --- Any width -----------------------------------------------------------------------------------
+
+WIDE = """
+framegen: 2
+protocol: {{name: wide, title: Wide, version: 1.0.0, authority: nobody, summary: Wide numbers.}}
+sources: {{nobody: {{title: Made up, kind: document}}}}
+endpoints: {{host: A host., device: A device.}}
+link: {{baud: 9600}}
+byte_order: big
+frame:
+  header: {{is: constant, bytes: A5 5A, about: The start.}}
+  station: {{is: address, range: 0..{most}, type: u{bits}, about: A number.}}
+  length: {{is: length, type: u8, counts: [parameters], about: How long.}}
+  command: {{is: id, type: u{bits}, about: A number.}}
+  parameters: {{is: body, about: The fields.}}
+  check: {{is: checksum, type: u8, method: sum, covers: {covers}, about: A check.}}
+messages: {{Low: {low}, High: {high}}}
+"""
+MESSAGE = """{{
+  direction: host -> device, summary: A message., cite: nobody, id: {number}, length: 1,
+  fields: {{level: {{type: u8, about: A level.}}}},
+  examples: [{{title: One, hex: {frame}, values: {{station: 1, level: 7}}, cite: nobody}}],
+}}"""
+
+
+def wide_frame(bits: int, station: int, command: int, parameters: bytes) -> bytes:
+    size = bits // 8
+    covered = station.to_bytes(size, "big") + bytes([len(parameters)])
+    covered += command.to_bytes(size, "big") + parameters
+    return b"\xa5\x5a" + covered + bytes([CHECKSUMS["sum"].of(covered, 8)])
+
+
+@cache
+def wide_library(bits: int) -> dict[str, str]:
+    """Return a library whose devices and messages have numbers of so many bits."""
+    highest = (1 << bits) - 1
+    low, high = (
+        MESSAGE.format(number=number, frame=wide_frame(bits, 1, number, b"\x07").hex(" ").upper())
+        for number in (1, highest)
+    )
+    covers = "[station, length, command, parameters]"
+    text = WIDE.format(bits=bits, most=highest - 1, covers=covers, low=low, high=high)
+    return library_files(compiled_of(data_in(text)))
+
+
+@pytest.mark.parametrize("bits", [8, 16, 24, 32, 64])
+def test_ids_and_addresses_of_any_width_are_in_the_tables_and_statistics(bits: int) -> None:
+    highest = (1 << bits) - 1
+    numbers = st.integers(0, highest) | st.sampled_from([0, 1, highest // 2, highest // 2 + 1])
+    messages = st.tuples(numbers, numbers | st.sampled_from([1, highest]), st.binary(max_size=3))
+
+    with library(wide_library(bits)) as made:
+
+        @few_each
+        @given(given=st.lists(messages, max_size=5))
+        @example(given=[(highest - 1, highest - 1, b"\x07"), (highest - 1, highest, b"\x07")])
+        def check(given: list[tuple[int, int, bytes]]) -> None:
+            line = b"".join(wide_frame(bits, *each) for each in given)
+            rows = rows_in_tables(made, line)
+            assert rows == rows_of_decoder(made, line)
+            found = statistics(handed_by(made.__name__).codec, line, form="raw")
+            unknown = [row for row in rows if row.table == "unknown"]
+            assert sum(each.count for each in found.unknown) == len(unknown)
+            stations = {row.fields["station"] for row in rows if row.table in ("Low", "High")}
+            assert {each.key for each in found.ranges} == stations
+
+        check()
+        noise = import_module(f"{made.__name__}.tables").schemas()["noise"]
+        kind = pa.uint64() if bits == 64 else pa.int64()
+        assert noise.field("station").type == noise.field("command").type == kind
