@@ -1,20 +1,32 @@
-"""Tables hold exactly the events of the stream decoder, however hostile the line is."""
+"""Tables hold exactly the events of the stream decoder, on whatever line, and whatever holds it."""
+
+import io
+import mmap
+import re
+from collections.abc import Iterable, Iterator
+from datetime import datetime, timedelta, timezone
+from pathlib import Path
+from typing import Any
 
 import busservo
+import numpy as np
 import pytest
-from busservo import Direction, strategies
-from framegen.model.stream import ReferenceDecoder
+from busservo import Direction, Message, Noise, strategies, tables
+from busservo.recordings import Entry, RecordingError, read
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tests import oracle
-from tests.factories import BUSSERVO, compiled_file
 from tests.in_turn import in_turn
-from tests.protocols.libraries import direction_of
-from tests.strategies import DIRECTIONS, directions, oracles, pieces
-from tests.strategies import lines as servo_lines
+from tests.strategies import DIRECTIONS, HEADS, damaged_frames, directions, lines, unknown_frames
 from tests.unit.runtime.tables.hostile import hostile_lines
-from tests.unit.runtime.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
+from tests.unit.runtime.tables.rows import (
+    Row,
+    fields_of,
+    joined,
+    noise_row,
+    rows_in_tables,
+    rows_of_decoder,
+)
 
 # What no frame begins with, and enough of it: behind it, a line is decided without its end.
 FILLER = bytes(600)
@@ -45,7 +57,7 @@ nests = st.recursive(
 )
 
 servo_frames = strategies.messages().map(busservo.Message.encode)
-hostile = servo_lines | hostile_lines(busservo, servo_frames) | nests
+hostile = lines | hostile_lines(busservo, servo_frames) | nests
 tails = st.sampled_from([b"", FILLER])
 
 
@@ -62,132 +74,69 @@ def test_tables_hold_what_the_decoder_finds(
     assert found == rows_of_decoder(busservo, line, direction)
 
 
-@given(hostile, directions, st.data())
-def test_they_hold_it_however_the_decoder_is_fed(
-    line: bytes, direction: Direction | None, data: st.DataObject
-) -> None:
-    line += FILLER
-    chunks = data.draw(pieces(line))
-    expected = rows_of_decoder(busservo, line, direction, chunks)
-    assert rows_in_tables(busservo, line, direction, block=600) == expected
-
-
-@given(hostile, tails, directions)
-def test_they_hold_what_the_reference_finds(
-    line: bytes, tail: bytes, direction: Direction | None
-) -> None:
-    line += tail
-    model = compiled_file(BUSSERVO).model
-    ways = [each for each in model.directions if direction in (None, direction_of(busservo, each))]
-    found = [row.place for row in rows_in_tables(busservo, line, direction, block=100)]
-    assert found == places_of_reference(ReferenceDecoder(model, ways).decode(line))
-
-
-@given(hostile, tails, directions)
-def test_they_hold_the_messages_of_the_oracle(
-    line: bytes, tail: bytes, direction: Direction | None
-) -> None:
-    rows = rows_in_tables(busservo, line + tail, direction)
-    at, expected = 0, []
-    for event in oracle.scan(line + tail, oracles(direction)):
-        if isinstance(event, bytes):
-            at += len(event)
-            continue
-        name, fields = event
-        size = len(oracle.build(name, fields))
-        expected.append((name, at, size, fields))
-        at += size
-    messages = [row for row in rows if row.table not in ("noise", "unknown")]
-    assert [(row.table, row.offset, row.size, row.fields) for row in messages] == expected
-
-
 STOP, RUN = bytes.fromhex("55 55 02 07"), bytes.fromhex("55 55 05 06 08 01 00")
 UNKNOWN = bytes.fromhex("55 55 03 63 2A")
 HOST = Direction.HOST_TO_CONTROLLER
-SAID = HOST.value
-# Typed in by hand: a line with the filler behind it, and what the tables hold in front of that.
-WORKED_OUT: list[tuple[bytes, list[tuple[str, int, int, str | None, str | None]]]] = [
-    (STOP, [("ActionGroupStop", 0, 4, SAID, None)]),
-    (b"\0" + STOP, [("noise", 0, 1, SAID, "bad header"), ("ActionGroupStop", 1, 4, SAID, None)]),
-    # The byte in front of the header is one of a header that is refused.
-    (
-        b"\x55" + STOP,
-        [("noise", 0, 1, SAID, "unknown command"), ("ActionGroupStop", 1, 4, SAID, None)],
-    ),
-    (
-        UNKNOWN + STOP,
-        [("unknown", 0, 5, SAID, "unknown command"), ("ActionGroupStop", 5, 4, SAID, None)],
-    ),
-    # A claim in which a message begins is none.
-    (
-        bytes.fromhex("55 55 06 63") + STOP,
-        [("noise", 0, 4, SAID, "unknown command"), ("ActionGroupStop", 4, 4, SAID, None)],
-    ),
-    (
-        bytes.fromhex("55 55 09 03") + RUN,
-        [("noise", 0, 4, SAID, "length mismatch"), ("ActionGroupRun", 4, 7, SAID, None)],
-    ),
-]
-
-
 HELD = holding(b"\0\0" + STOP + RUN + STOP)
 # The head of a move stands at the end of another one, and what it would hold behind that.
 REACHING = holding(b"\0\0\0" + bytes.fromhex("55 55 0B 03 02"))
-WORKED_OUT += [
+# Typed in by hand: a line with the filler behind it, and what the tables hold in front of that.
+WORKED_OUT: list[tuple[bytes, list[tuple[str, int] | tuple[str, int, str]]]] = [
+    (STOP, [("ActionGroupStop", 4)]),
+    (b"\0" + STOP, [("noise", 1, "bad header"), ("ActionGroupStop", 4)]),
+    # The byte in front of the header is one of a header that is refused.
+    (b"\x55" + STOP, [("noise", 1, "unknown command"), ("ActionGroupStop", 4)]),
+    (UNKNOWN + STOP, [("unknown", 5, "unknown command"), ("ActionGroupStop", 4)]),
+    # A claim in which a message begins is none.
+    (
+        bytes.fromhex("55 55 06 63") + STOP,
+        [("noise", 4, "unknown command"), ("ActionGroupStop", 4)],
+    ),
+    (bytes.fromhex("55 55 09 03") + RUN, [("noise", 4, "length mismatch"), ("ActionGroupRun", 7)]),
     # A header begins at the end of what is claimed, though nothing comes of it.
     (
         bytes.fromhex("55 55 03 63 55 00") + STOP,
-        [("noise", 0, 6, SAID, "unknown command"), ("ActionGroupStop", 6, 4, SAID, None)],
+        [("noise", 6, "unknown command"), ("ActionGroupStop", 4)],
     ),
     # What a frame holds is no event.
-    (
-        HELD + STOP,
-        [
-            ("ServoMove", 0, len(HELD), SAID, None),
-            ("ActionGroupStop", len(HELD), 4, SAID, None),
-        ],
-    ),
+    (HELD + STOP, [("ServoMove", len(HELD)), ("ActionGroupStop", 4)]),
     (
         REACHING + STOP + STOP,
-        [
-            ("ServoMove", 0, len(REACHING), SAID, None),
-            ("ActionGroupStop", len(REACHING), 4, SAID, None),
-            ("ActionGroupStop", len(REACHING) + 4, 4, SAID, None),
-        ],
+        [("ServoMove", len(REACHING)), ("ActionGroupStop", 4), ("ActionGroupStop", 4)],
     ),
     # Behind the first claim begins the second, within which nothing does; it reaches further.
     (
-        bytes.fromhex("55 55 07 63 00 55 55 04 63") + bytes.fromhex("00 00") + STOP,
-        [
-            ("unknown", 0, 9, SAID, "unknown command"),
-            ("noise", 9, 2, SAID, "bad header"),
-            ("ActionGroupStop", 11, 4, SAID, None),
-        ],
+        bytes.fromhex("55 55 07 63 00 55 55 04 63 00 00") + STOP,
+        [("unknown", 9, "unknown command"), ("noise", 2, "bad header"), ("ActionGroupStop", 4)],
     ),
 ]
+
+
+def events_of(rows: Iterable[Row]) -> list[tuple[Any, ...]]:
+    """Return table, size and reason, if there is one, of rows that leave nothing out."""
+    events, end = [], 0
+    for row in rows:
+        assert (row.offset, row.direction) == (end, HOST.value)
+        events.append((row.table, row.size, row.reason)[: 3 if row.reason else 2])
+        end += row.size
+    return events
 
 
 @in_turn("block", lambda: [1, 5, 600, None])
 @in_turn("line, expected", lambda: WORKED_OUT)
 def test_they_hold_what_was_worked_out_by_hand(
-    line: bytes, expected: list[tuple[str, int, int, str | None, str | None]], block: int | None
+    line: bytes, expected: list[tuple[Any, ...]], block: int | None
 ) -> None:
     rows = rows_in_tables(busservo, line + FILLER, HOST, block=block)
-    *before, last = [row[:5] for row in rows]
-    assert before == expected
-    assert last == ("noise", len(line), len(FILLER), SAID, "bad header")
+    assert events_of(rows) == [*expected, ("noise", len(FILLER), "bad header")]
 
 
 def test_a_frame_is_whole_wherever_a_block_ends() -> None:
     frame = busservo.ServoPositions([(servo, 500 + servo) for servo in range(20)]).encode()
     line = UNKNOWN + frame + RUN + STOP + b"\x55\x55" + frame[:-1] + FILLER
     expected = rows_of_decoder(busservo, line, None)
-    assert [row.table for row in expected][:4] == [
-        "unknown",
-        "ServoPositions",
-        "ActionGroupRun",
-        "ActionGroupStop",
-    ]
+    first = ["unknown", "ServoPositions", "ActionGroupRun", "ActionGroupStop"]
+    assert [row.table for row in expected][:4] == first
     for block in (1, 2, 3, 5, 7, *range(60, 75), 119):
         assert rows_in_tables(busservo, line, None, block=block) == expected
 
@@ -196,23 +145,15 @@ def test_a_frame_is_whole_wherever_a_block_ends() -> None:
 def test_a_claim_that_holds_a_frame_is_none_wherever_a_block_ends(before: int) -> None:
     claim = bytes.fromhex("55 55 C6 63") + bytes(192) + STOP
     line = bytes(before) + claim + FILLER
-    rows = rows_in_tables(busservo, line, HOST, block=900)
-    *head, stop, tail = [row[:3] for row in rows]
-    assert (stop, tail) == (
-        ("ActionGroupStop", before + 196, 4),
-        ("noise", before + 200, len(FILLER)),
-    )
+    *head, stop, tail = events_of(rows_in_tables(busservo, line, HOST, block=900))
+    assert (stop, tail[:2]) == (("ActionGroupStop", 4), ("noise", len(FILLER)))
     assert {table for table, *_ in head} == {"noise"}
 
 
 def test_noise_goes_on_behind_a_last_block_that_is_whole() -> None:
     # The block behind it is empty.
-    line = STOP + b"\x55\x55\0" + bytes(1193)
-    rows = [row[:5] for row in rows_in_tables(busservo, line, HOST, block=600)]
-    assert rows == [
-        ("ActionGroupStop", 0, 4, SAID, None),
-        ("noise", 4, 1196, SAID, "length mismatch"),
-    ]
+    rows = rows_in_tables(busservo, STOP + b"\x55\x55\0" + bytes(1193), HOST, block=600)
+    assert events_of(rows) == [("ActionGroupStop", 4), ("noise", 1196, "length mismatch")]
 
 
 @pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
@@ -225,3 +166,178 @@ def test_long_noise_is_one_row_of_each_reason(direction: Direction | None) -> No
         ("noise", 300_000, 300_000, said, "length mismatch"),
     ]
     assert sum(row.size for row in rows) == len(noise) + len(STOP)
+
+
+# --- What holds a line ----------------------------------------------------------------------------
+
+VOLTAGE = bytes.fromhex("55 55 04 0F 4C 1D")
+LINE = STOP + b"\0\0" + VOLTAGE + UNKNOWN + STOP + bytes(900) + STOP
+
+
+class Pieces:
+    """A stream that brings a few bytes at once."""
+
+    def __init__(self, data: bytes, size: int) -> None:
+        self._held = io.BytesIO(data)
+        self._size = size
+
+    def read(self, size: int, /) -> bytes:
+        return self._held.read(min(self._size, size))
+
+
+@in_turn(
+    "source, problem",
+    lambda: [
+        (None, "a file name, bytes or a stream of bytes expected, not NoneType"),
+        ([0x55, 0x55], "a file name, bytes or a stream of bytes expected, not list"),
+        (iter([LINE]), "a file name, bytes or a stream of bytes expected, not list_iterator"),
+        (io.StringIO("55 55"), "a stream of bytes expected, not of text: open the file with 'rb'"),
+        (np.zeros((3, 4), np.uint8)[:, :2], "the array is no run of bytes as it lies in memory"),
+    ],
+)
+@in_turn("use", lambda: [tables.read, tables.write_parquet, tables.write_arrow])
+def test_what_is_no_capture_is_refused_by_its_type(
+    tmp_path: Path, use: Any, source: Any, problem: str
+) -> None:
+    target = () if use is tables.read else (tmp_path / "out",)
+    with pytest.raises(TypeError, match=re.escape(problem)):
+        use(source, *target)
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_a_notebook_shows_the_tables_that_have_rows() -> None:
+    shown = tables.read(LINE)._repr_html_()
+    assert "<tr><td>BatteryVoltage</td><td>1</td></tr>" in shown
+    assert shown.count("<tr>") == 1 + len(tables.read(LINE).filled)
+
+
+HOLDERS: list[Any] = [
+    *(bytes, bytearray, memoryview, io.BytesIO, lambda data: np.frombuffer(data, np.uint8)),
+    *(lambda data: Pieces(data, 1), lambda data: Pieces(data, 700)),
+    lambda data: io.BufferedReader(io.BytesIO(data)),
+]
+
+
+@in_turn("block", lambda: [7, None])
+@in_turn("hold", lambda: HOLDERS)
+def test_a_capture_may_be_held_by_anything(hold: Any, block: int | None) -> None:
+    expected = rows_of_decoder(busservo, LINE)
+    for form in ("raw", "auto"):
+        assert rows_in_tables(busservo, hold(LINE), block=block, form=form) == expected
+
+
+def test_a_capture_may_be_a_file_or_a_map_of_one(tmp_path: Path) -> None:
+    file = tmp_path / "line.bin"
+    file.write_bytes(LINE)
+    expected = rows_of_decoder(busservo, LINE)
+    assert rows_in_tables(busservo, file) == expected
+    assert rows_in_tables(busservo, str(file), form="auto") == expected
+    with file.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as held:
+        assert rows_in_tables(busservo, held, block=600) == expected
+
+
+def test_batches_are_never_larger_than_their_stretch() -> None:
+    line = STOP * 5000
+    batches = [*tables.read_batches(line, form="raw", block=1000)]
+    rows = [batch.num_rows for found in batches for batch in found.values()]
+    assert sum(rows) == 5000
+    # A block, and what the one before it held back.
+    assert max(rows) <= (1000 + 2 * 265) // len(STOP)
+
+
+def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        tables.read(tmp_path / "none.bin")
+    with pytest.raises(ValueError, match="'table' is none of the forms auto, hex, raw"):
+        tables.read(b"", form="table")
+    with pytest.raises(RecordingError, match="line 1"):
+        tables.read(b"55 5G", form="hex")
+    for block in (0, -1):
+        with pytest.raises(ValueError, match=f"block: {block} is below 1"):
+            tables.read_batches(LINE, block=block)
+
+
+# --- Text ----------------------------------------------------------------------------------------
+
+chunks = st.one_of(
+    strategies.messages().map(Message.encode),
+    damaged_frames(),
+    unknown_frames(),
+    st.sampled_from(HEADS),
+    st.binary(min_size=1, max_size=6),
+)
+
+
+def rows_of(entries: Iterable[Entry]) -> Iterator[Row]:
+    """Yield the entries of a recording as rows."""
+    for entry in entries:
+        direction = None if entry.direction is None else entry.direction.value
+        if isinstance(entry.event, Noise):
+            row = noise_row(busservo, entry.event, entry.offset, direction)
+        else:
+            name, size = type(entry.event).__name__, len(entry.event.encode())
+            row = Row(name, entry.offset, size, direction, fields=fields_of(entry.event))
+        clock = None
+        if entry.began is not None and entry.time is not None:
+            clock = datetime.fromtimestamp(round(entry.began + entry.time, 6), timezone.utc)
+        yield row._replace(time=entry.time, clock=clock)
+
+
+@given(st.lists(lines, max_size=4), directions)
+def test_hex_is_one_stream_but_for_quiet(parts: list[bytes], direction: Direction | None) -> None:
+    text = "# quiet\n".join(part.hex(" ") + "  # said\n" for part in parts).encode()
+    found = rows_in_tables(busservo, text, direction, form="hex")
+    # Noise on both sides of a silence is joined as well: nothing is between it.
+    assert found == joined(rows_of(read(io.BytesIO(text), form="hex", direction=direction)))
+
+
+@st.composite
+def recordings(draw: st.DrawFn) -> str:
+    """Return a recording as `monitor` writes it, of messages and of what is none."""
+    who = st.sampled_from(["host", "controller", "either", "host noise", "noise"])
+    began = "# recorded of line by busservo from 2024-02-29 23:59:59.123456 +0130 on\n"
+    written = draw(st.sampled_from(["", began]))
+    for at in sorted(draw(st.lists(st.integers(0, 10**9), max_size=8))):
+        data = draw(chunks)
+        written += f"{data.hex(' ')}  # {at / 10**6:.6f} s, {draw(who)}: what it was\n"
+    return written
+
+
+@given(recordings(), directions)
+def test_a_recording_says_when_and_from_whom(text: str, direction: Direction | None) -> None:
+    found = rows_in_tables(busservo, text.encode(), direction, form="hex")
+    expected = [*rows_of(read(io.BytesIO(text.encode()), form="hex", direction=direction))]
+    assert found == expected
+
+
+def test_a_recording_in_all_its_columns() -> None:
+    text = (
+        b"# recorded of COM3 from 2024-01-02 03:04:05.500000 +0100 on\n"
+        b"55 55 02 07  # 0.250000 s, host: ActionGroupStop()\n"
+        b"55 55 04 0F 4C 1D  # 1.500000 s, controller: BatteryVoltage(voltage_mv=7500)\n"
+        b"00 01  # 2.000000 s, noise: bad header\n"
+        b"00 02  # 3.000000 s, noise: bad header\n"
+    )
+
+    at = datetime(2024, 1, 2, 2, 4, 5, 500_000, timezone.utc)
+    clocks = {after: at + timedelta(seconds=after) for after in (0.25, 1.5, 2.0, 3.0)}
+    to_board, to_host = "host_to_controller", "controller_to_host"
+    said = {"direction": to_host, "reason": "bad header"}
+    assert rows_in_tables(busservo, text, form="auto") == [
+        Row("ActionGroupStop", 0, 4, to_board, None, 0.25, {}, clocks[0.25]),
+        Row("BatteryVoltage", 4, 6, to_host, None, 1.5, {"voltage_mv": 7500}, clocks[1.5]),
+        # Of two lines, which may be far from each other.
+        Row("noise", 10, 2, **said, time=2.0, clock=clocks[2.0]),
+        Row("noise", 12, 2, **said, time=3.0, clock=clocks[3.0]),
+    ]
+
+
+@given(st.integers(0, 10**11))
+def test_the_time_of_day_is_right_to_the_microsecond(microseconds: int) -> None:
+    text = (
+        "# recorded of COM3 from 2024-01-02 03:04:05.500000 +0000 on\n"
+        f"55 55 02 07  # {microseconds // 10**6}.{microseconds % 10**6:06} s, host: a stop\n"
+    )
+    (row,) = rows_in_tables(busservo, text.encode(), form="hex")
+    began = datetime(2024, 1, 2, 3, 4, 5, 500_000, timezone.utc)
+    assert row.clock == began + timedelta(microseconds=microseconds)

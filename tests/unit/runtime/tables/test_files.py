@@ -1,4 +1,4 @@
-"""Parquet files of a capture: its tables, whole or not at all."""
+"""Files of a capture, Parquet and Arrow: all its tables, whole or not at all."""
 
 import errno
 import io
@@ -10,36 +10,72 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from busservo import Direction
+from busservo._library import CODEC
 from busservo.recordings import RecordingError
-from busservo.tables import read, schemas, write_parquet
+from busservo.tables import NOISE, read, read_batches, schemas, write_arrow, write_parquet
 from framewire.tables.files import parquet
+from framewire.tables.files.arrow_file import arrow_written
+from framewire.tables.schema import schemas_of
 
+from tests.in_turn import in_turn
 from tests.unit.runtime.tables.conversations import conversation, recorded
 
 CAPTURE = conversation(40)
 WAYS: dict[str, tuple[Any, dict[str, Any]]] = {
     "both ends": (CAPTURE, {}),
     "of the board": (CAPTURE, {"direction": Direction.CONTROLLER_TO_HOST}),
+    "of the host": (CAPTURE, {"direction": Direction.HOST_TO_CONTROLLER}),
     "hex": (CAPTURE.hex(" ").encode(), {"form": "hex"}),
     "with times": (recorded(20).encode(), {}),
     "nothing": (b"", {"form": "raw"}),
 }
+EVENT = ["offset", "size", "direction", "time", "clock", "event", "reason"]
 
 
 def files_in(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_each_table_with_rows_is_a_file(way: str, tmp_path: Path) -> None:
+def events_in(file: Path) -> list[dict[str, Any]]:
+    """Return the events in an Arrow file, with the columns that they need and no other."""
+    with pa.ipc.open_file(file) as opened:
+        events: list[dict[str, Any]] = opened.read_all().to_pylist()
+    return [
+        {name: value for name, value in event.items() if name in EVENT or value is not None}
+        for event in events
+    ]
+
+
+def events_of(source: bytes, **how: Any) -> list[dict[str, Any]]:
+    """Return the same events out of the tables."""
+    events = []
+    for name, table in read(source, **how).items():
+        for row in table.to_pylist():
+            event = {column: row.pop(column, None) for column in EVENT}
+            fields = {"event": name}
+            if name == NOISE and row.pop("unknown"):
+                fields = {"event": "unknown", "unknown": row}
+            elif name != NOISE and row:
+                fields[name] = row
+            events.append({**event, **fields})
+    return sorted(events, key=lambda event: event["offset"])
+
+
+@in_turn("way", lambda: WAYS)
+def test_files_hold_the_tables_of_a_capture(way: str, tmp_path: Path) -> None:
     source, how = WAYS[way]
+    folder, file = tmp_path / way / "tables", tmp_path / "line.arrow"
     tables = read(source, **how).filled
-    rows = write_parquet(source, tmp_path / "new" / "tables", **how)
-    assert rows == {name: table.num_rows for name, table in tables.items()}
-    assert files_in(tmp_path / "new" / "tables") == sorted(f"{name}.parquet" for name in tables)
+    rows = {name: table.num_rows for name, table in tables.items()}
+    assert write_parquet(source, folder, **how) == rows
+    assert files_in(folder) == sorted(f"{name}.parquet" for name in tables)
     for name, table in tables.items():
-        file = pq.read_table(tmp_path / "new" / "tables" / f"{name}.parquet")
-        assert file.to_pylist() == table.to_pylist()
+        assert pq.read_table(folder / f"{name}.parquet").to_pylist() == table.to_pylist()
+    assert write_arrow(source, file, **how) == rows
+    assert events_in(file) == events_of(source, **how)
+
+
+# --- Parquet -------------------------------------------------------------------------------------
 
 
 def test_names_and_units_are_kept(tmp_path: Path) -> None:
@@ -96,37 +132,22 @@ def test_files_of_an_earlier_capture_are_replaced(tmp_path: Path) -> None:
     assert rows == {"BatteryVoltageRead": 3, "BatteryVoltage": 3}
 
 
-def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> None:
-    (tmp_path / "thesis.txt").write_text("years of work", encoding="utf-8")
-    with pytest.raises(FileExistsError, match=r"holds 'thesis\.txt'.*name another folder") as error:
-        write_parquet(CAPTURE, tmp_path)
-    assert error.value.filename == str(tmp_path)
-    assert files_in(tmp_path) == ["thesis.txt"]
+class Interrupted(io.BytesIO):
+    """A stream that ends with Ctrl-C."""
 
-
-def test_a_file_is_no_folder(tmp_path: Path) -> None:
-    (tmp_path / "tables").write_bytes(b"")
-    with pytest.raises(NotADirectoryError):
-        write_parquet(CAPTURE, tmp_path / "tables")
-
-
-def _broken_text() -> Any:
-    return io.BytesIO(b"55 55 02 07\n" * 10000 + b"55 5Z")
-
-
-def _interrupted() -> Any:
-    class Stream(io.BytesIO):
-        def read1(self, size: int | None = -1, /) -> bytes:
-            if self.tell() > len(CAPTURE):
-                raise KeyboardInterrupt
-            return super().read1(size)
-
-    return Stream(CAPTURE * 2000)
+    def read1(self, size: int | None = -1, /) -> bytes:
+        if self.tell() > len(CAPTURE):
+            raise KeyboardInterrupt
+        return super().read1(size)
 
 
 @pytest.mark.parametrize("is_new", [True, False])
 @pytest.mark.parametrize(
-    ("source", "error"), [(_broken_text, RecordingError), (_interrupted, KeyboardInterrupt)]
+    ("source", "error"),
+    [
+        (lambda: io.BytesIO(b"55 55 02 07\n" * 10000 + b"55 5Z"), RecordingError),
+        (lambda: Interrupted(CAPTURE * 2000), KeyboardInterrupt),
+    ],
 )
 def test_nothing_is_half_written(
     source: Callable[[], Any], error: type[BaseException], tmp_path: Path, *, is_new: bool
@@ -151,3 +172,34 @@ def test_a_full_disk_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         write_parquet(CAPTURE, tmp_path / "tables")
     assert Path(error.value.filename).parent == tmp_path / "tables"
     assert files_in(tmp_path) == []
+
+
+# --- Arrow ---------------------------------------------------------------------------------------
+
+
+def test_events_of_many_blocks_are_in_order(tmp_path: Path) -> None:
+    batches = read_batches(CAPTURE * 10, form="raw", block=1000)
+    arrow_written(schemas_of(CODEC), batches, tmp_path / "line.arrow", schemas())
+    with pa.ipc.open_file(tmp_path / "line.arrow") as opened:
+        assert opened.num_record_batches > 1
+        table = opened.read_all()
+    offsets, sizes = table["offset"].to_numpy(), table["size"].to_numpy()
+    assert (offsets[1:] == offsets[:-1] + sizes[:-1]).all()
+
+
+def test_the_messages_that_occur_have_columns_in_the_order_of_the_spec(tmp_path: Path) -> None:
+    write_arrow(CAPTURE, tmp_path / "line.arrow")
+    with pa.ipc.open_file(tmp_path / "line.arrow") as opened:
+        schema = opened.schema
+    there = {"ActionGroupRun", "BatteryVoltage", "ServoPositions"}
+    assert schema.names == [*EVENT, *(name for name in schemas() if name in there), "unknown"]
+    voltage = schema.field("BatteryVoltage")
+    assert voltage.type[0].metadata == schemas()["BatteryVoltage"].field("voltage_mv").metadata
+    assert voltage.metadata[b"about"] == schemas()["BatteryVoltage"].metadata[b"summary"]
+
+
+def test_what_comes_in_a_stream_is_read_twice_all_the_same(tmp_path: Path) -> None:
+    rows = write_arrow(io.BytesIO(CAPTURE), tmp_path / "line.arrow")
+    assert events_in(tmp_path / "line.arrow") == events_of(CAPTURE)
+    (tmp_path / "line.bin").write_bytes(CAPTURE)
+    assert write_arrow(tmp_path / "line.bin", tmp_path / "other.arrow") == rows
