@@ -1,16 +1,30 @@
-"""Pieces of captures: found by names, patterns and folders, and read one by one."""
+"""Pieces of captures: how they are found by name, read one by one, and cut where it is safe."""
 
 import os
 import pickle
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 
 import pyarrow as pa
 import pytest
-from busservo import Direction
+from busservo import (
+    ActionGroupStop,
+    Direction,
+    Message,
+    ServoMove,
+    ServoUnload,
+    StreamDecoder,
+)
 from busservo.recordings import RecordingError
-from busservo.tables import NOISE, Piece, read, read_batches, scan
+from busservo.tables import NOISE, Piece, read, safe_cuts, scan
+from framewire.tables.archive import cuts
+from hypothesis import given
+from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
+from tests.strategies import DIRECTIONS, directions, joined, lines
+from tests.strategies import read as decoded
 from tests.unit.runtime.tables.conversations import conversation, recorded
 
 CAPTURE = conversation(100)
@@ -23,31 +37,33 @@ def written(folder: Path, files: Iterable[str], data: bytes = CAPTURE) -> None:
         path.write_bytes(data)
 
 
+@pytest.fixture
+def line(tmp_path: Path) -> Path:
+    """Return a capture, alone in its folder."""
+    written(tmp_path, ["line.bin"])
+    return tmp_path / "line.bin"
+
+
 def captures_of(pieces: Iterable[Piece]) -> list[str]:
     return [piece.capture for piece in pieces]
 
 
-@pytest.mark.parametrize("direction", [*Direction, None])
-@pytest.mark.parametrize("size", [100, 10_000_000])
+@in_turn("direction", lambda: [*Direction, None])
+@in_turn("size", lambda: [100, 10_000_000])
 def test_the_pieces_of_a_capture_are_its_tables(
-    direction: Direction | None, size: int, tmp_path: Path
+    direction: Direction | None, size: int, line: Path
 ) -> None:
-    (tmp_path / "line.bin").write_bytes(CAPTURE)
-    pieces = scan(tmp_path, size=size, direction=direction)
-    assert [pieces[0].start, *(piece.end for piece in pieces)] == [
-        *(piece.start for piece in pieces),
-        len(CAPTURE),
-    ]
+    pieces = scan(line.parent, size=size, direction=direction)
+    starts = [piece.start for piece in pieces]
+    assert [pieces[0].start, *(piece.end for piece in pieces)] == [*starts, len(CAPTURE)]
     assert (len(pieces) > 1) is (size < len(CAPTURE))
-    whole = read(CAPTURE, direction=direction)
     parts = [piece.read() for piece in pieces]
-    for name, table in whole.items():
+    for name, table in read(CAPTURE, direction=direction).items():
         assert pa.concat_tables(part[name] for part in parts).to_pylist() == table.to_pylist()
 
 
-def test_a_piece_is_read_in_blocks_with_the_offsets_of_the_capture(tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(CAPTURE)
-    for piece in scan(tmp_path, size=1500)[1:-1]:
+def test_a_piece_is_read_in_blocks_with_the_offsets_of_the_capture(line: Path) -> None:
+    for piece in scan(line, size=1500)[1:-1]:
         batches = [*piece.read_batches(block=100)]
         assert len(batches) > 1
         tables = [batch for made in batches for batch in made.values()]
@@ -62,22 +78,17 @@ def test_a_recording_is_one_piece_with_its_times(tmp_path: Path) -> None:
     assert dict(piece.read()) == dict(read(recorded(30).encode()))
 
 
-def test_hex_may_be_meant_as_raw_bytes(tmp_path: Path) -> None:
-    (tmp_path / "line").write_bytes(b"55 55 02 07")
-    (piece,) = scan(tmp_path / "line", form="raw")
+def test_hex_may_be_meant_as_raw_bytes_and_nothing_is_a_piece_too(line: Path) -> None:
+    line.write_bytes(b"55 55 02 07")
+    (piece,) = scan(line, form="raw")
     assert piece.read()[NOISE].num_rows == 1
+    line.write_bytes(b"")
+    (piece,) = scan(line.parent)
+    assert (piece.size, piece.read().filled) == (0, {})
 
 
-def test_an_empty_file_is_a_piece_of_nothing(tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(b"")
-    (piece,) = scan(tmp_path)
-    assert piece.size == 0
-    assert piece.read().filled == {}
-
-
-def test_a_piece_may_be_sent_to_another_process(tmp_path: Path) -> None:
-    (tmp_path / "line.bin").write_bytes(CAPTURE)
-    pieces = scan(tmp_path, size=1000, direction=Direction.HOST_TO_CONTROLLER)
+def test_a_piece_may_be_sent_to_another_process(line: Path) -> None:
+    pieces = scan(line, size=1000, direction=Direction.HOST_TO_CONTROLLER)
     assert pickle.loads(pickle.dumps(pieces)) == pieces  # noqa: S301
 
 
@@ -88,72 +99,53 @@ IN_ORDER = ["a/deep/line.bin", "a/line.bin", "a/other.bin", "b.bin", "c/line.bin
 
 
 def test_a_folder_is_all_files_in_it_in_order(tmp_path: Path) -> None:
-    written(tmp_path, TREE)
+    # But for what is hidden, and for datasets.
+    written(tmp_path, [*TREE, ".hidden", ".git/line.bin", "dataset/_pieces/x", "dataset/T/x"])
     assert captures_of(scan(tmp_path)) == IN_ORDER
     assert captures_of(scan(f"{tmp_path}{os.sep}")) == IN_ORDER
 
 
-def test_hidden_files_and_datasets_are_no_captures(tmp_path: Path) -> None:
-    written(tmp_path, [*TREE, ".hidden", ".git/line.bin", "dataset/_pieces/x", "dataset/T/x"])
-    assert captures_of(scan(tmp_path)) == IN_ORDER
+@in_turn(
+    "names, found",
+    lambda: [
+        # What fits a pattern.
+        (["*/line.bin"], ["a/line.bin", "c/line.bin"]),
+        (["a/*.bin"], ["line.bin", "other.bin"]),
+        (["**/line.bin"], ["a/deep/line.bin", "a/line.bin", "c/line.bin"]),
+        # Captures of one name are told apart, and one that is named twice is one.
+        (["c", "a/line.bin"], ["c/line.bin", "a/line.bin"]),
+        (["a/line.bin"], ["line.bin"]),
+        (["a", "a/line.bin", "a/*.bin"], ["deep/line.bin", "line.bin", "other.bin"]),
+        # A file, if there is one, though its name has the signs of a pattern.
+        (["line[1].bin"], ["line[1].bin"]),
+    ],
+)
+def test_captures_are_named_by_what_tells_them_apart(
+    names: list[str], found: list[str], tmp_path: Path
+) -> None:
+    written(tmp_path, [*TREE, "line[1].bin", "line1.bin"])
+    assert captures_of(scan([str(tmp_path / name) for name in names])) == found
+    if len(names) == 1:
+        assert captures_of(scan(tmp_path / names[0])) == found
 
 
-def test_a_pattern_is_the_files_that_it_fits(tmp_path: Path) -> None:
-    written(tmp_path, TREE)
-    found = captures_of(scan(tmp_path / "*" / "line.bin"))
-    assert found == ["a/line.bin", "c/line.bin"]
-    assert captures_of(scan(tmp_path / "a" / "*.bin")) == ["line.bin", "other.bin"]
-    assert captures_of(scan(str(tmp_path / "**" / "line.bin"))) == [
-        "a/deep/line.bin",
-        "a/line.bin",
-        "c/line.bin",
-    ]
-
-
-def test_captures_of_one_name_are_told_apart(tmp_path: Path) -> None:
-    written(tmp_path, TREE)
-    found = scan([tmp_path / "c", tmp_path / "a" / "line.bin"])
-    assert captures_of(found) == ["c/line.bin", "a/line.bin"]
-    assert captures_of(scan(tmp_path / "a" / "line.bin")) == ["line.bin"]
-
-
-def test_a_file_that_is_named_twice_is_one_capture(tmp_path: Path) -> None:
-    written(tmp_path, TREE)
-    again = scan([tmp_path / "a", tmp_path / "a" / "line.bin", tmp_path / "a" / "*.bin"])
-    assert captures_of(again) == ["deep/line.bin", "line.bin", "other.bin"]
-
-
-def test_a_name_with_the_signs_of_a_pattern_is_a_file_if_there_is_one(tmp_path: Path) -> None:
-    written(tmp_path, ["line[1].bin", "line1.bin"])
-    assert captures_of(scan(tmp_path / "line[1].bin")) == ["line[1].bin"]
-
-
-@pytest.mark.parametrize("name", ["absent.bin", "*.absent"])
-def test_what_is_not_there_is_a_piece_that_says_so(name: str, tmp_path: Path) -> None:
-    written(tmp_path, ["line.bin"])
-    (piece, there) = scan([tmp_path / name, tmp_path / "line.bin"])
+@in_turn("name", lambda: ["absent.bin", "*.absent"])
+def test_what_is_not_there_is_a_piece_that_says_so(name: str, line: Path) -> None:
+    (piece, there) = scan([line.with_name(name), line])
     assert (piece.capture, piece.size) == (name, 0)
     with pytest.raises(FileNotFoundError):
         piece.read()
     assert there.read().filled
 
 
-def test_a_link_to_nowhere_is_a_piece_that_says_so(tmp_path: Path) -> None:
-    (tmp_path / "link.bin").symlink_to(tmp_path / "absent")
-    (piece,) = scan(tmp_path)
-    with pytest.raises(FileNotFoundError):
-        piece.read()
-
-
 def test_a_file_that_cannot_be_read_is_a_piece_that_says_so(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    line: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def denied(path: Path, *_: object, **_named: object) -> None:
         raise PermissionError(13, "Permission denied", str(path))
 
-    written(tmp_path, ["line.bin"])
-    monkeypatch.setattr(type(tmp_path), "open", denied)
-    (piece,) = scan(tmp_path)
+    monkeypatch.setattr(type(line), "open", denied)
+    (piece,) = scan(line.parent)
     assert (piece.capture, piece.size, piece.stamp) == ("line.bin", 0, None)
     with pytest.raises(PermissionError):
         piece.read()
@@ -204,27 +196,160 @@ def test_nothing_is_no_piece(tmp_path: Path) -> None:
     assert scan(tmp_path) == scan([]) == []
 
 
-def test_a_file_that_has_changed_is_not_read(tmp_path: Path) -> None:
-    written(tmp_path, ["line.bin"])
-    (piece, *_) = scan(tmp_path, size=1000)
-    written(tmp_path, ["line.bin"], CAPTURE + b"\x00")
+def test_a_file_that_has_changed_is_not_read(line: Path) -> None:
+    (piece, *_) = scan(line, size=1000)
+    line.write_bytes(CAPTURE + b"\x00")
     with pytest.raises(RecordingError, match="changed since it was scanned: scan again"):
         # Before any of it is shown.
         next(piece.read_batches())
 
 
-def test_a_file_that_changes_while_it_is_read_is_not_taken_for_what_it_was(tmp_path: Path) -> None:
-    written(tmp_path, ["line.bin"])
-    (piece,) = scan(tmp_path)
+def test_a_file_that_changes_while_it_is_read_is_not_taken_for_what_it_was(line: Path) -> None:
+    (piece,) = scan(line)
     batches = piece.read_batches(block=100)
     assert next(batches)
-    written(tmp_path, ["line.bin"], CAPTURE + b"\x00")
+    line.write_bytes(CAPTURE + b"\x00")
     with pytest.raises(RecordingError, match="changed"):
         list(batches)
 
 
-def test_another_form_is_refused(tmp_path: Path) -> None:
-    written(tmp_path, ["line.bin"])
+def test_another_form_is_refused(line: Path) -> None:
     with pytest.raises(ValueError, match="'csv' is none of the forms"):
-        scan(tmp_path, form="csv")
-    assert [*read_batches(b"")] == []
+        scan(line, form="csv")
+
+
+# --- Safe places to cut --------------------------------------------------------------------------
+
+LARGEST = 257
+STOP = ActionGroupStop().encode()
+# Some are larger than the windows in which places are looked for.
+captures = st.builds(
+    lambda parts, times: b"".join(parts) * times,
+    st.lists(lines, min_size=1, max_size=4),
+    st.sampled_from([1, 1, 2, 40]),
+)
+sizes = st.sampled_from([1, 7, 30, 200])
+
+
+@pytest.fixture(params=["judged", "tried"])
+def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Find places as in protocols that are searched at once, and as in all others."""
+    if request.param == "tried":
+        monkeypatch.setattr(cuts, "frames_on", lambda _codec, _direction: None)
+
+
+def holds(capture: bytes, size: int, direction: Direction | None) -> None:
+    """Assert that the pieces of a capture, each for itself, have the events of the whole."""
+    places = [0, *safe_cuts(capture, size, direction=direction), len(capture)]
+    parts = [joined(decoded(direction, [capture[at:end]])) for at, end in pairwise(places)]
+    assert [event for part in parts for event in part] == joined(decoded(direction, [capture]))
+
+
+@given(captures, sizes, directions)
+def test_the_pieces_have_the_events_of_the_whole(
+    capture: bytes, size: int, direction: Direction | None
+) -> None:
+    holds(capture, size, direction)
+
+
+@given(lines, directions)
+def test_so_they_have_for_protocols_that_are_not_searched_at_once(
+    line: bytes, direction: Direction | None
+) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cuts, "frames_on", lambda _codec, _direction: None)
+        holds(line, 1, direction)
+
+
+@given(captures, sizes, directions, st.data())
+def test_a_decoder_that_began_anywhere_in_front_holds_nothing_there(
+    capture: bytes, size: int, direction: Direction | None, data: st.DataObject
+) -> None:
+    places = safe_cuts(capture, size, direction=direction)
+    if not places:
+        return
+    place = data.draw(st.sampled_from(places))
+    # The frame that ends there is the last that must be whole.
+    (*_, last) = StreamDecoder(direction).feed(capture[:place])
+    assert isinstance(last, Message)
+    begin = data.draw(st.integers(0, place - len(last.encode())))
+    decoder = StreamDecoder(direction)
+    events = decoder.feed(capture[begin:place])
+    assert (decoder.pending, events[-1]) == (0, last)
+
+
+MOVE = ServoMove(time_ms=1000, targets=[(1, 500)]).encode()
+
+
+@pytest.mark.usefixtures("way")
+@pytest.mark.parametrize("direction", DIRECTIONS)
+def test_every_end_of_a_frame_among_frames_is_a_safe_place(direction: Direction | None) -> None:
+    frame = STOP if direction is not Direction.CONTROLLER_TO_HOST else b"\x55\x55\x04\x0f\x10\x27"
+    assert safe_cuts(frame * 5, 1, direction=direction) == [len(frame) * n for n in range(1, 5)]
+
+
+@pytest.mark.usefixtures("way")
+def test_no_place_is_behind_noise_or_what_waits() -> None:
+    assert safe_cuts(b"\x00" * 5000, 1) == []
+    assert safe_cuts(b"\x55" * 5000, 1) == []
+    # The header in front waits for more bytes than the frame behind it has.
+    waiting = bytes.fromhex("55 55 FE 03 53")
+    assert safe_cuts(waiting + STOP + bytes(3), 1) == []
+
+
+@pytest.mark.usefixtures("way")
+@pytest.mark.parametrize("shared", [1, 2])
+def test_no_place_is_behind_a_frame_that_begins_in_another(shared: int) -> None:
+    unload = ServoUnload([1] * (252 - shared) + [0x55] * shared).encode()
+    assert len(unload) == LARGEST
+    in_front = STOP * 100 + unload + STOP[shared:]
+    capture = in_front + bytes(3) + STOP * 5
+    assert StreamDecoder(None).feed(capture[: len(in_front)])[-1] != ActionGroupStop()
+    assert safe_cuts(capture, len(in_front))[0] == len(in_front) + 3 + len(STOP)
+
+
+@pytest.mark.usefixtures("way")
+def test_a_decoder_that_begins_in_a_frame_may_wait_for_more() -> None:
+    # In the frame stand a frame and the beginning of a large one.
+    around = bytes.fromhex("55 55 0E 03 03 00 00 55 55 02 07 55 55 FB 03 52")
+    waits_until = 11 + 0xFB + 2
+    capture = around + STOP * 100
+    assert len(StreamDecoder(None).feed(capture)) == 101
+    (first, *_) = safe_cuts(capture, len(around) + 1)
+    ends = range(len(around), len(capture), len(STOP))
+    assert first == next(end for end in ends if end - len(STOP) >= waits_until)
+
+
+@pytest.mark.usefixtures("way")
+def test_places_are_as_far_apart_as_asked_for() -> None:
+    capture = conversation(400)
+    places = safe_cuts(capture, 1000)
+    assert len(places) == pytest.approx(len(capture) / 1000, abs=2)
+    assert all(1000 <= end - start < 1000 + LARGEST for start, end in pairwise([0, *places]))
+
+
+def test_behind_noise_the_first_place_is_taken() -> None:
+    capture = STOP * 10 + bytes(5000) + STOP * 500
+    (first, *_) = safe_cuts(capture, 1500)
+    assert first == 5040 + len(STOP)
+
+
+def test_a_place_is_found_by_the_bytes_around_it(tmp_path: Path) -> None:
+    file = tmp_path / "sparse.bin"
+    with file.open("wb") as stream:
+        stream.truncate(1 << 42)
+        for at in (1 << 40, 3 << 40):
+            stream.seek(at)
+            stream.write(MOVE * 100)
+    # To read all of these 4 TB would take hours.
+    first = (1 << 40) + len(MOVE)
+    assert safe_cuts(file, 1 << 40) == [first, (3 << 40) + len(MOVE)]
+
+
+def test_what_cannot_be_cut_is_not(tmp_path: Path) -> None:
+    assert safe_cuts(b"", 1) == safe_cuts(STOP, 1) == []
+    for size in (0, -1):
+        with pytest.raises(ValueError, match=f"size is {size}, and a piece has at least 1 byte"):
+            safe_cuts(b"", size)
+    with pytest.raises(FileNotFoundError):
+        safe_cuts(tmp_path / "absent.bin", 1)
