@@ -1,13 +1,16 @@
 """The doctor before devices that are not the board, and a board that stumbles: what it affirms."""
 
-import dataclasses
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
-from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
+from framewire.command.checks.checks import checks_of, examine
+from framewire.command.checks.diagnosis import Diagnosis
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN, Result
 from framewire.command.plain_text import plain_text
+from framewire.line.serial_port import SerialPortSeen
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -19,40 +22,36 @@ from tests.contract.independent.ports import StrangersPort, VirtualPort
 from tests.contract.independent.strangers import BANNER, GPS, MODEM, SKETCH, Print, Stranger
 from tests.handed import program_of
 from tests.in_turn import in_turn
+from tests.lines.patient import LONGEST
 from tests.lines.servo_bus import frame
 from tests.protocols.libraries import Libraries
 from tests.protocols.specs import FILES
 from tests.rows import some
 
-# What the doctor takes at most of the device's time, whatever comes.
-LONGEST = 60.0
 SERVO_BUS = bytes.fromhex("55 55 01 07 01 20 03 E8 03 E8")
 DIALECT = bytes.fromhex("55 55 05 0A 01 02 03")
 
 
-def examined(device: Stranger | Board, package: str = "busservo") -> dict[str, Any]:
+def examined(device: Stranger | Board, package: str = "busservo") -> dict[str, Result]:
     """Return the result of each check of a library's doctor."""
-    checks: Any = import_module("framewire.command.checks.checks")
-    diagnosis: Any = import_module("framewire.command.checks.diagnosis")
     program = program_of(package)
-    seen: Any = import_module("framewire.line.serial_port").SerialPortSeen
     port = StrangersPort(device) if isinstance(device, Stranger) else VirtualPort(device)
 
-    def opened(_: str, rate: float) -> VirtualPort:
+    def opened(_: str, rate: float) -> Any:
         return port.opened(rate) if isinstance(port, StrangersPort) else port.reopen()
 
-    looked = diagnosis.Diagnosis(
-        program,
-        "COM9",
-        baud=program.library.link.baud,
-        local_echo=program.library.link.local_echo,
+    link = program.library.link
+    looked = Diagnosis(
+        *(program, "COM9"),
+        baud=link.baud,
+        local_echo=link.local_echo,
         opener=opened,
-        ports=lambda: [seen("COM9", "1A86:7523", "USB Serial", "")],
+        ports=lambda: [SerialPortSeen("COM9", "1A86:7523", "USB Serial", "")],
         hid_devices=list,
         clock=port.clock,
     )
-    every = checks.checks_of(program.library)
-    found = {check.id: result for check, result in checks.examine(looked, every)}
+    every = checks_of(program.library)
+    found = {check.id: result for check, result in examine(looked, every)}
     assert port.now < LONGEST
     return found
 
@@ -62,14 +61,12 @@ def answering(reply: bytes) -> Callable[[bytes], bytes]:
     return lambda heard: reply if battery_question() in heard else b""
 
 
-def stumbling(number: int, script: Script) -> Board:
+def stumbling(number: int, script: Any) -> Board:
     """Return a board to the n-th question of which something happens; it is deaf to the next."""
-    faults = {number: script, number + 1: dropped}
-    return Board(baud=9600, faults=faults.get)
+    return Board(baud=9600, faults={number: script, number + 1: dropped}.get)
 
 
-@dataclasses.dataclass
-class Case:
+class Case(NamedTuple):
     """A device, and what the check `look-alike` says of it."""
 
     device: Callable[[], Stranger | Board]
@@ -85,164 +82,134 @@ REPLY = battery_reply(7500)
 NOISE = bytes.fromhex("F8 00 3C 81 1F E0 07 80")
 GPS_TEXT = '"$GPGGA,123519,4807.038,N,01131.000'
 PORT_GOES = "unplug it, and see which port goes"
+AT_WHICH = "see at which rate the device is set"
+NO_FRAME = "bytes that are no frame"
+NO_REPLY = "bytes came that are no reply"
+COMPARE = "compare the bytes with the reference"
+RESTARTING = "a device that restarts prints text"
+FRAMES = "whole frames (BatteryVoltage)"
+WORDS = "bytes came, and no whole frame: they are text:"
+NONE_BEGINS = "bytes came, and no whole frame: none begins in them"
+ENDS = "bytes came, and no whole frame: one of {} bytes begins, and ends after {}"
+OTHER = "frames of another protocol came: "
+LEARM = "The dialect of LeArm and uHand boards"
+BUS = "LX-16A bus servo protocol"
+# What comes once a board has restarted within a reply, and what is said of it.
+RESTARTS = {
+    "with a banner": (cut(3, Piece(0.1, BANNER)), 'among them text: "ets Jun'),
+    "with a banner at once": (cut(3, Piece(0.0, BANNER)), "129 other bytes"),
+    # What is left of the reply and the banner together look like a frame of the dialect.
+    "with a short banner": (cut(3, Piece(0.1, b"\r\nOK")), 'among them text: "OK"'),
+    "with a short banner at once": (cut(3, Piece(0.0, b"\r\nOK")), "7 other bytes"),
+    "and noise of its supply": (cut(2, Piece(0.1, b"\xf8\x00")), "4 other bytes"),
+}
 CASES = {
     "a GPS receiver": Case(
         lambda: Stranger(Print(0.05, GPS, 1.0)),
-        UNKNOWN,
-        f"not recognised: 411 bytes came, and no whole frame: they are text: {GPS_TEXT}",
-        PORT_GOES,
+        *(UNKNOWN, f"not recognised: 411 {WORDS} {GPS_TEXT}", PORT_GOES),
         silence=f"137 bytes of text came unsolicited: {GPS_TEXT}",
         rate=f"274 bytes came, and they are text: {GPS_TEXT}",
     ),
     "a GPS receiver at 4800 baud": Case(
         lambda: Stranger(Print(0.05, GPS, 1.0), rate=4800),
-        UNKNOWN,
-        f"not recognised: at 4800 baud, text came: {GPS_TEXT}",
-        PORT_GOES,
-        silence="bytes that are no frame came unsolicited",
-        rate="bytes came that are no reply",
+        *(UNKNOWN, f"not recognised: at 4800 baud, text came: {GPS_TEXT}", PORT_GOES),
+        silence=f"{NO_FRAME} came unsolicited",
+        rate=NO_REPLY,
     ),
     "a modem": Case(
         lambda: Stranger(answer=lambda _: MODEM),
-        UNKNOWN,
-        'not recognised: 18 bytes came, and no whole frame: they are text: "ERROR"',
-        PORT_GOES,
+        *(UNKNOWN, f'not recognised: 18 {WORDS} "ERROR"', PORT_GOES),
         rate='18 bytes came, and they are text: "ERROR',
     ),
     "a modem that echoes": Case(
         lambda: Stranger(answer=lambda heard: heard + MODEM),
-        UNKNOWN,
-        'they are text: "ERROR"',
-        PORT_GOES,
+        *(UNKNOWN, 'they are text: "ERROR"', PORT_GOES),
         rate='they are text: "ERROR',
     ),
     "an Arduino": Case(
         lambda: Stranger(Print(0.1, SKETCH, 0.1)),
-        UNKNOWN,
-        'they are text: "distance = 17 cm"',
-        PORT_GOES,
+        *(UNKNOWN, 'they are text: "distance = 17 cm"', PORT_GOES),
         silence="54 bytes of text came unsolicited",
         rate="they are text",
     ),
     "a banner and nothing else": Case(
         lambda: Stranger(Print(0.1, BANNER), resets=True),
-        UNKNOWN,
-        'they are text: "ets Jun  8 2016 00:22:57',
-        "a device that restarts prints text",
+        *(UNKNOWN, 'they are text: "ets Jun  8 2016 00:22:57', RESTARTING),
         silence="126 bytes of text came unsolicited",
         rate="nothing came at all",
     ),
     "a banner, and then the board": Case(
         lambda: Stranger(Print(0.1, BANNER), answer=answering(REPLY), resets=True),
-        PASSED,
-        "11 whole frames (BatteryVoltage); not recognised: 126 other bytes, among them text: "
-        '"ets Jun',
+        *(PASSED, f'11 {FRAMES}; not recognised: 126 other bytes, among them text: "ets Jun'),
         silence="126 bytes of text came unsolicited",
     ),
     "an inverted line": Case(
         lambda: Stranger(answer=answering(REPLY), inverted=True),
-        UNKNOWN,
-        "not recognised: 12 bytes came, and no whole frame: one of 97 bytes begins, and ends "
-        "after 6",
-        "inverted",
-        rate="12 bytes came that are no reply",
+        *(UNKNOWN, f"not recognised: 12 {ENDS.format(97, 6)}", "inverted"),
+        rate=f"12 {NO_REPLY}",
     ),
     "a GPS receiver on an inverted line": Case(
         lambda: Stranger(Print(0.05, GPS, 1.0), inverted=True),
-        UNKNOWN,
-        "bytes came, and no whole frame: none begins in them",
-        "inverted",
-        silence="bytes that are no frame came unsolicited",
-        rate="bytes came that are no reply",
+        *(UNKNOWN, NONE_BEGINS, "inverted"),
+        silence=f"{NO_FRAME} came unsolicited",
+        rate=NO_REPLY,
     ),
     "noise": Case(
         lambda: Stranger(Print(0.05, NOISE, 0.7)),
-        UNKNOWN,
-        "bytes came, and no whole frame: none begins in them",
-        "see at which rate the device is set",
-        silence="8 bytes that are no frame",
-        rate="bytes came that are no reply",
+        *(UNKNOWN, NONE_BEGINS, AT_WHICH),
+        silence=f"8 {NO_FRAME}",
+        rate=NO_REPLY,
     ),
     "headers and nothing else": Case(
         lambda: Stranger(answer=lambda _: bytes.fromhex("55 55 00 12 55 55 01 00")),
-        UNKNOWN,
-        "they begin as a frame does, and are none",
-        "compare the bytes with the reference",
-        rate="16 bytes came that are no reply",
+        *(UNKNOWN, "they begin as a frame does, and are none", COMPARE),
+        rate=f"16 {NO_REPLY}",
     ),
     "replies short of a byte": Case(
         lambda: Board(baud=9600, faults=lambda _: cut(-1)),
-        UNKNOWN,
-        "not recognised: 10 bytes came, and no whole frame: one of 6 bytes begins, and ends "
-        "after 5",
-        "bytes are lost on the way",
-        rate="10 bytes came that are no reply",
+        *(UNKNOWN, f"not recognised: 10 {ENDS.format(6, 5)}", "bytes are lost on the way"),
+        rate=f"10 {NO_REPLY}",
     ),
     "replies without their header": Case(
         lambda: Board(baud=9600, faults=lambda _: lost(0, 1)),
-        UNKNOWN,
-        "bytes came, and no whole frame",
-        "see at which rate the device is set",
-        rate="10 bytes came that are no reply",
+        *(UNKNOWN, "bytes came, and no whole frame", AT_WHICH),
+        rate=f"10 {NO_REPLY}",
     ),
     "one reply short of a byte": Case(
-        lambda: stumbling(5, cut(-1)),
-        PASSED,
-        "not recognised: 5 other bytes",
+        lambda: stumbling(5, cut(-1)), PASSED, "not recognised: 5 other bytes"
     ),
     **{
-        f"a restart within a reply, {name}": Case(
-            lambda script=script: stumbling(5, script),  # type: ignore[misc]
-            PASSED,
-            seen,
-        )
-        for name, script, seen in [
-            ("with a banner", cut(3, Piece(0.1, BANNER)), 'among them text: "ets Jun'),
-            ("with a banner at once", cut(3, Piece(0.0, BANNER)), "129 other bytes"),
-            # What is left of the reply and the banner together look like a frame of the dialect.
-            ("with a short banner", cut(3, Piece(0.1, b"\r\nOK")), 'among them text: "OK"'),
-            ("with a short banner at once", cut(3, Piece(0.0, b"\r\nOK")), "7 other bytes"),
-            ("and noise of its supply", cut(2, Piece(0.1, b"\xf8\x00")), "4 other bytes"),
-        ]
+        f"a restart within a reply, {name}": Case(partial(stumbling, 5, script), PASSED, seen)
+        for name, (script, seen) in RESTARTS.items()
     },
     "the board": Case(
         lambda: Board(baud=9600),
-        PASSED,
-        "what came is this protocol: 15 whole frames (BatteryVoltage, ServoPositions)",
+        *(PASSED, "what came is this protocol: 15 whole frames (BatteryVoltage, ServoPositions)"),
     ),
     "the board at another rate": Case(
         lambda: Stranger(answer=answering(REPLY), rate=115200),
-        PASSED,
-        "what came is this protocol: 11 whole frames (BatteryVoltage)",
+        *(PASSED, f"what came is this protocol: 11 {FRAMES}"),
         rate="was not answered at 9600 baud, but is at 115200",
     ),
     "the servos' own bus": Case(
         lambda: Stranger(Print(0.05, SERVO_BUS, 0.5)),
-        FAILED,
-        "frames of another protocol came: LX-16A bus servo protocol",
-        "look-alikes",
-        silence="10 bytes that are no frame",
-        rate="bytes came that are no reply",
+        *(FAILED, f"{OTHER}{BUS}", "look-alikes"),
+        silence=f"10 {NO_FRAME}",
+        rate=NO_REPLY,
     ),
     "a board of the dialect": Case(
         lambda: Stranger(Print(0.05, DIALECT, 0.5)),
-        FAILED,
-        "frames of another protocol came: The dialect of LeArm and uHand boards",
-        "look-alikes",
-        silence="7 bytes that are no frame",
-        rate="bytes came that are no reply",
+        *(FAILED, f"{OTHER}{LEARM}", "look-alikes"),
+        silence=f"7 {NO_FRAME}",
+        rate=NO_REPLY,
     ),
     "the board, and the servos' own bus": Case(
         lambda: Board(baud=9600, faults={5: followed(SERVO_BUS, 0.01)}.get),
-        FAILED,
-        "frames of another protocol came: LX-16A bus servo protocol",
-        "look-alikes",
+        *(FAILED, f"{OTHER}{BUS}", "look-alikes"),
     ),
     "a newer board": Case(
         lambda: Board(baud=9600, faults={5: followed(bytes.fromhex("55 55 03 63 01"))}.get),
-        FAILED,
-        "a frame of command 99 came",
-        "send a report in",
+        *(FAILED, "a frame of command 99 came", "send a report in"),
     ),
     "nothing": Case(Stranger, UNKNOWN, "nothing came", rate="nothing came at all"),
 }
@@ -278,9 +245,6 @@ def test_what_is_no_frame_never_passes(data: bytes, inverted: bool) -> None:
     assert found["look-alike"].advice
 
 
-# --- A library whose look-alike has no checksum --------------------------------------------------
-
-
 @in_turn("servo_id", lambda: range(1, 12))
 @in_turn("size", lambda: range(3, 10))
 def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size: int) -> None:
@@ -290,18 +254,17 @@ def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size:
     assert found["look-alike"].seen.startswith("not recognised: ")
 
 
-@pytest.mark.parametrize(
-    ("device", "state", "seen"),
-    [
-        (Stranger(Print(0.05, GPS, 1.0), rate=115200), UNKNOWN, f"they are text: {GPS_TEXT}"),
-        (Stranger(Print(0.05, REPLY, 1.0), rate=115200), FAILED, "Hiwonder bus servo controller"),
-        (
-            Stranger(answer=lambda _: frame(1, 2, *bytes(4)), rate=115200),
-            PASSED,
-            "what came is this protocol",
-        ),
+RATE = 115200
+SERVO = Stranger(answer=lambda _: frame(1, 2, *bytes(4)), rate=RATE)
+
+
+@in_turn(
+    "device, state, seen",
+    lambda: [
+        (Stranger(Print(0.05, GPS, 1.0), rate=RATE), UNKNOWN, f"they are text: {GPS_TEXT}"),
+        (Stranger(Print(0.05, REPLY, 1.0), rate=RATE), FAILED, "Hiwonder bus servo controller"),
+        (SERVO, PASSED, "what came is this protocol"),
     ],
-    ids=["a GPS receiver", "the board", "a servo"],
 )
 def test_every_library_says_what_it_recognises(device: Stranger, state: str, seen: str) -> None:
     found = examined(device, "lxservo")["look-alike"]
@@ -331,9 +294,6 @@ def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
         found = examined(made(rate), package)["look-alike"]
         assert found.state == UNKNOWN, (device, found)
         assert ("text: " in found.seen) is (device in TEXTUAL) or device == "a modem", device
-
-
-# --- What is text --------------------------------------------------------------------------------
 
 
 @in_turn(
