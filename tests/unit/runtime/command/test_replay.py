@@ -1,9 +1,7 @@
 """The verb `replay`: what it sends, what it leaves out, and what it refuses before it sends."""
 
-import io
 import re
 import socket
-import sys
 import time
 from pathlib import Path
 from unittest import mock
@@ -19,19 +17,19 @@ from busservo import (
     ServoUnload,
     open_controller,
 )
-from busservo.__main__ import main
 from busservo_simulator import Faults, VirtualController
 from framewire.command import link, playback
 from framewire.command.playback import Playback
 
+from tests.commands import Ended, run
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
-
-Capture = pytest.CaptureFixture[str]
 
 MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
 ASK = BatteryVoltageRead()
 READ = ServoPositionsRead([1])
 RUN = ActionGroupRun(group=8, times=1)
+HEX = "55 55 02 0F"
 # What no recording holds.
 LAST = ServoPositionsRead([200])
 
@@ -53,8 +51,9 @@ def prolong_waits(monkeypatch: pytest.MonkeyPatch, *counts: int) -> None:
     monkeypatch.setattr(Playback, "_wait", wait_longer)
 
 
-def hexed(message: Message) -> str:
-    return message.encode().hex(" ")
+def at(seconds: float, message: Message, sender: str = "host") -> str:
+    """Return a line of a recording."""
+    return f"{message.encode().hex(' ')}  # {seconds} s, {sender}: it\n"
 
 
 @pytest.fixture
@@ -62,26 +61,33 @@ def log(tmp_path: Path) -> Path:
     return tmp_path / "line.hex"
 
 
-def replayed(log: Path, *words: str) -> tuple[int, list[Message | Noise]]:
-    """Replay, and return the exit status and the messages that a board received."""
+def replayed(log: Path, *words: str) -> tuple[Ended, list[Message | Noise]]:
+    """Replay, and return how that ended, and the messages that a board received."""
     received: list[Message | Noise] = []
     with (
         VirtualController("tcp") as board,
         mock.patch.object(board.board, "accepted", received.append),
         mock.patch.object(board.board, "rejected", received.append),
     ):
-        status = main(["replay", str(log), "--port", board.port, *words])
+        ended = run("replay", log, "--port", board.port, *words)
         # The next client is let in once all has been received that was sent before.
         address = ("127.0.0.1", int(board.port.rpartition(":")[2]))
         with socket.create_connection(address, GENEROUS) as caller:
             caller.sendall(LAST.encode())
             await_that(lambda: LAST in received)
     assert received.pop() == LAST
-    return status, received
+    return ended, received
+
+
+def sent_by(log: Path, *words: str) -> list[Message | Noise]:
+    """Return what a replay sends that ends well."""
+    ended, received = replayed(log, *words)
+    assert ended.status == 0
+    return received
 
 
 def test_a_trace_of_a_client_is_played_without_what_came_back(
-    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Before each of the three, and behind them for both answers.
     prolong_waits(monkeypatch, 0, 0, 0, 5)
@@ -93,9 +99,8 @@ def test_a_trace_of_a_client_is_played_without_what_came_back(
         board.send_bytes(b"\x13")
         controller.read_battery_voltage()
         controller.read_servo_positions([1])
-    status, received = replayed(log)
+    (status, output, errors), received = replayed(log)
     assert (status, received) == (0, [MOVE, ASK, READ])
-    output, errors = capsys.readouterr()
     assert "host        BatteryVoltageRead | 55 55 02 0F\n" in output
     assert re.search(r"  controller  BatteryVoltage voltage_mv=.* \| 55 55 04 0F", output)
     first, totals = errors.splitlines()
@@ -106,62 +111,55 @@ def test_a_trace_of_a_client_is_played_without_what_came_back(
 def test_a_log_of_a_monitor_is_played(log: Path) -> None:
     log.write_text(
         "# recorded of 'COM7' from 2026-01-02 on\n"
-        f"{hexed(MOVE)}  # 0.5 s, host: ServoMove(...)\n\n"
-        "55 55 04  # 0.6 s, controller noise: too short\n# quiet\n"
-        f"{hexed(ASK)}  # 0.7 s, host: BatteryVoltageRead()\n"
+        f"{at(0.5, MOVE)}\n55 55 04  # 0.6 s, controller noise: too short\n# quiet\n{at(0.7, ASK)}"
     )
-    assert replayed(log) == (0, [MOVE, ASK])
+    assert sent_by(log) == [MOVE, ASK]
 
 
-def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(
-    log: Path, capsys: Capture
-) -> None:
-    log.write_text(f"{hexed(ASK)}  # 0 s, host: a\n{hexed(ASK)}  # 9 s, host: b\n")
+def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(log: Path) -> None:
+    log.write_text(at(0, ASK) + at(9, ASK))
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
-        assert main(["replay", str(log), "--port", board.port]) == 3
-    totals, error = capsys.readouterr().err.splitlines()
+        status, _, errors = run("replay", log, "--port", board.port)
+    totals, error = errors.splitlines()
     assert totals.startswith("1 of 2 frames sent, 4 bytes; came back: ")
-    assert "the line was lost" in error
+    assert (status, "the line was lost" in error) == (3, True)
 
 
 def test_half_a_frame_that_comes_back_is_given_up_when_the_line_is_quiet(
-    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # The second is sent once the half frame has been shown, and its answer is waited for.
     prolong_waits(monkeypatch, 0, 2, 4)
-    log.write_text(f"{hexed(MOVE)}  # 0 s, host: a\n{hexed(ASK)}  # 0.1 s, host: b\n")
+    log.write_text(at(0, MOVE) + at(0.1, ASK))
     with VirtualController("tcp") as board:
 
         def begin(_: ServoMove) -> None:
             board.send_bytes(bytes.fromhex("55 55 04"))
 
         with mock.patch.object(board.board, "on_servo_move", begin):
-            assert main(["replay", str(log), "--port", board.port]) == 0
-    said = [line[14:].partition(" ")[0] for line in capsys.readouterr().out.splitlines()]
-    assert said == ["host", "noise", "host", "controller"]
+            status, output, _ = run("replay", log, "--port", board.port)
+    said = [line[14:].partition(" ")[0] for line in output.splitlines()]
+    assert (status, said) == (0, ["host", "noise", "host", "controller"])
 
 
-@pytest.mark.parametrize("raw", [True, False])
-def test_raw_bytes_and_plain_hex_are_played(log: Path, *, raw: bool) -> None:
+def test_raw_bytes_and_plain_hex_are_played(log: Path) -> None:
     data = MOVE.encode() + ASK.encode()
+    log.write_bytes(data)
+    assert sent_by(log) == [MOVE, ASK]
     # Pasted hex may break its lines anywhere.
-    log.write_bytes(data if raw else (data.hex(" ")[:14] + "\n" + data.hex(" ")[14:]).encode())
-    assert replayed(log) == (0, [MOVE, ASK])
+    log.write_text(f"{data.hex(' ')[:14]}\n{data.hex(' ')[14:]}")
+    assert sent_by(log) == [MOVE, ASK]
 
 
-def test_standard_input_is_played(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Input:
-        buffer = io.BytesIO(ASK.encode())
-
-    monkeypatch.setattr(sys, "stdin", Input())
+def test_standard_input_is_played() -> None:
     with VirtualController("tcp") as board:
-        assert main(["replay", "-", "--port", board.port]) == 0
+        assert run("replay", "-", "--port", board.port, given=ASK.encode()).status == 0
         assert (board.accepted, board.rejects.total) == (1, 0)
 
 
-@pytest.mark.parametrize(
-    ("speed", "times"),
-    [
+@in_turn(
+    "words, times",
+    lambda: [
         ([], ["0.000000", "0.500000", "0.504167"]),
         (["--speed", "2"], ["0.000000", "0.250000", "0.254167"]),
         (["--speed", "0.5"], ["0.000000", "1.000000", "1.004167"]),
@@ -170,52 +168,41 @@ def test_standard_input_is_played(monkeypatch: pytest.MonkeyPatch) -> None:
     ],
 )
 def test_a_replay_keeps_the_recorded_pace_or_that_of_the_line(
-    log: Path, capsys: Capture, speed: list[str], times: list[str]
+    log: Path, words: list[str], times: list[str]
 ) -> None:
-    log.write_text(
-        f"{hexed(MOVE)}  # 3.5 s, host: a\n"
-        f"{hexed(ASK)}  # 4.0 s, host: b\n"
-        f"{hexed(READ)}  # 4.0 s, host: at once, which no line can carry\n"
-    )
-    assert main(["replay", str(log), "--dry-run", *speed]) == 0
-    output, errors = capsys.readouterr()
+    # The last two at once, which no line can carry.
+    log.write_text(at(3.5, MOVE) + at(4.0, ASK) + at(4.0, READ))
+    status, output, errors = run("replay", log, "--dry-run", *words)
     assert [line.split()[0] for line in output.splitlines()] == times
-    assert (
-        errors
-        == f"3 frames, 20 bytes in {float(times[-1]) + 6 * 10 / 9600:.3f} s: nothing was sent\n"
-    )
+    seconds = float(times[-1]) + 6 * 10 / 9600
+    said = f"3 frames, 20 bytes in {seconds:.3f} s: nothing was sent\n"
+    assert (status, errors) == (0, said)
 
 
-def test_the_pace_is_kept_on_a_port(log: Path, capsys: Capture) -> None:
-    log.write_text(f"{hexed(ASK)}  # 1 s, host: a\n{hexed(ASK)}  # 1.4 s, host: b\n")
-    assert replayed(log, "--speed", "2") == (0, [ASK, ASK])
-    sent = [line for line in capsys.readouterr().out.splitlines() if " host " in line]
+def test_the_pace_is_kept_on_a_port(log: Path) -> None:
+    log.write_text(at(1, ASK) + at(1.4, ASK))
+    ended, received = replayed(log, "--speed", "2")
+    assert (ended.status, received) == (0, [ASK, ASK])
+    sent = [line for line in ended.out.splitlines() if " host " in line]
     first, second = (float(line.split()[0]) for line in sent)
     assert 0 <= first < first + 0.19 <= second < GENEROUS
 
 
-EITHER = f"{hexed(RUN)}  # 0.1 s, either: ActionGroupRun(...) or ActionGroupStarted\n"
+EITHER = at(0.1, RUN, "either")
+TWO = RUN.encode().hex() + ASK.encode().hex()
 
 
-@pytest.mark.parametrize(
-    ("text", "words", "received"),
-    [
-        (f"{EITHER}{hexed(ASK)}  # 1 s, host: b\n", ["--either", "send"], [RUN, ASK]),
-        (f"{EITHER}{hexed(ASK)}  # 1 s, host: b\n", ["--either", "skip"], [ASK]),
-        (hexed(RUN) + hexed(ASK), ["--either", "skip"], [ASK]),
-        (hexed(RUN) + hexed(ASK), ["--direction", "host"], [RUN, ASK]),
-        (f"13 {hexed(ASK)}", ["--skip-noise"], [ASK]),
-        (
-            f"13  # 0 s, host noise: bad header\n{hexed(ASK)}  # 1 s, host: b\n",
-            ["--skip-noise"],
-            [ASK],
-        ),
+@in_turn(
+    "text, words, received",
+    lambda: [
+        (EITHER + at(1, ASK), ["--either", "send"], [RUN, ASK]),
+        (EITHER + at(1, ASK), ["--either", "skip"], [ASK]),
+        (TWO, ["--either", "skip"], [ASK]),
+        (TWO, ["--direction", "host"], [RUN, ASK]),
+        ("13 55 55 02 0F", ["--skip-noise"], [ASK]),
+        (f"13  # 0 s, host noise: bad header\n{at(1, ASK)}", ["--skip-noise"], [ASK]),
         # It was no frame when it was received, and so it is none now.
-        (
-            f"{hexed(MOVE)}  # 0 s, host noise: cut\n{hexed(ASK)}  # 1 s, host: b\n",
-            ["--skip-noise"],
-            [ASK],
-        ),
+        (at(0, MOVE, "host noise") + at(1, ASK), ["--skip-noise"], [ASK]),
         ("55 55 02 0F 55 55 02 0F 55 55 04 0F 4C 1D", [], [ASK, ASK]),
     ],
 )
@@ -223,83 +210,78 @@ def test_ambiguous_frames_are_sent_on_request(
     log: Path, text: str, words: list[str], received: list[Message]
 ) -> None:
     log.write_text(text)
-    assert replayed(log, "--speed", "inf", *words) == (0, received)
+    assert sent_by(log, "--speed", "inf", *words) == received
 
 
 def test_received_frames_may_be_recorded_out_of_order(log: Path) -> None:
-    log.write_text(
-        f"{hexed(MOVE)}  # 2 s, host: a\n55 55 04 0F 4C 1D  # 1 s, controller: late\n"
-        f"13  # 0.5 s, noise: bad header\n{hexed(ASK)}  # 2 s, host: b\n"
-    )
-    assert replayed(log) == (0, [MOVE, ASK])
+    late = "55 55 04 0F 4C 1D  # 1 s, controller: late\n13  # 0.5 s, noise: bad header\n"
+    log.write_text(at(2, MOVE) + late + at(2, ASK))
+    assert sent_by(log) == [MOVE, ASK]
 
 
 @pytest.mark.garbage
 def test_raw_sends_every_byte_whoever_sent_it(log: Path) -> None:
-    log.write_text(
-        f"13  # 0 s, noise: bad header\n{EITHER}{hexed(ServoUnload([1]))}  # 1 s, controller: no!\n"
-    )
-    status, received = replayed(log, "--raw", "--speed", "inf")
-    assert status == 0
+    unload = at(1, ServoUnload([1]), "controller")
+    log.write_text(f"13  # 0 s, noise: bad header\n{EITHER}{unload}")
+    received = sent_by(log, "--raw", "--speed", "inf")
     assert [type(event) for event in received] == [Noise, ActionGroupRun, ServoUnload]
 
 
-@pytest.mark.parametrize(
-    ("text", "words", "expected"),
-    [
-        (EITHER, [], "line 1: it is ActionGroupRun or ActionGroupStarted group=8 times=1, and not"),
-        (hexed(RUN), [], "byte 0: it is ActionGroupRun or ActionGroupStarted"),
-        (f"{hexed(ASK)} 13", [], "byte 4: it is no frame (bad header"),
-        ("55 55 02 0F 55 55 08", [], "byte 4: it is no frame (too short"),
+OPEN = "it is ActionGroupRun or ActionGroupStarted"
+NO_FRAME = "it is no frame"
+BEGINS = "bad header: a frame begins 55 55"
+
+
+@in_turn(
+    "text, words, expected",
+    lambda: [
+        (EITHER, [], f"line 1: {OPEN} group=8 times=1, and not"),
+        (RUN.encode().hex(), [], f"byte 0: {OPEN}"),
+        ("5555020F 13", [], f"byte 4: {NO_FRAME} (bad header"),
+        ("55 55 02 0F 55 55 08", [], f"byte 4: {NO_FRAME} (too short"),
         (
             "13  # 0 s, either noise: bad header\n",
             [],
-            "line 1: it is no frame (bad header: a frame begins 55 55); --skip-noise leaves out",
+            f"line 1: {NO_FRAME} ({BEGINS}); --skip-noise leaves out",
         ),
         (
-            f"{hexed(ASK)}  # 0 s, host: a\n55 55 09 0F  # 1 s, host: b\n",
+            f"{at(0, ASK)}55 55 09 0F  # 1 s, host: b\n",
             [],
-            "line 2: it is no frame (length mismatch: the length is 9",
+            f"line 2: {NO_FRAME} (length mismatch: the length is 9",
         ),
-        ("55 55 04 0F 4C 1D  # 0 s, host: a\n", [], "line 1: it is no frame (length mismatch"),
-        ("55  # 0 s, host: a\n", [], "line 1: it is no frame (bad header"),
+        ("55 55 04 0F 4C 1D  # 0 s, host: a\n", [], f"line 1: {NO_FRAME} (length mismatch"),
+        ("55  # 0 s, host: a\n", [], f"line 1: {NO_FRAME} (bad header"),
         ("5G 55  # 0 s, host: a\n", [], "line 1: no hex: 'G' in '5G' is no hex digit"),
-        (f"{hexed(ASK)}  # 0 s, martian: a\n", [], "'martian' is none of those who send"),
-        (f"{hexed(ASK)}  # 0 s, host: a\n{hexed(ASK)}\n", [], "line 2: it has no time and sender"),
-        (
-            f"{hexed(ASK)}  # 5 s, host: a\n{hexed(ASK)}  # 0.5 s, host: b\n",
-            [],
-            "line 2: 0.500000 s is before 5.000000 s in a line above",
-        ),
+        (at(0, ASK, "martian"), [], "'martian' is none of those who send"),
+        (f"{at(0, ASK)}55 55 02 0F\n", [], "line 2: it has no time and sender"),
+        (at(5, ASK) + at(0.5, ASK), [], "line 2: 0.500000 s is before 5.000000 s in a line above"),
         ("55 55 04 0F 4C 1D", [], "holds nothing to send; it holds 1 frame of controller"),
         ("", [], "holds nothing to send; it holds nothing at all"),
         ("zz", ["--format", "hex"], "line.hex, line 1: no hex: 'z' in 'zz'"),
-        (hexed(ASK), ["--speed", "0"], "argument --speed: 0 is not above 0"),
-        (hexed(ASK), ["--speed", "nan"], "argument --speed: 'nan' is no number"),
-        (hexed(ASK), ["--speed", "fast"], "argument --speed: 'fast' is no number"),
-        (hexed(ASK), ["--raw", "--skip-noise"], "not allowed with argument"),
+        (HEX, ["--speed", "0"], "argument --speed: 0 is not above 0"),
+        (HEX, ["--speed", "nan"], "argument --speed: 'nan' is no number"),
+        (HEX, ["--speed", "fast"], "argument --speed: 'fast' is no number"),
+        (HEX, ["--raw", "--skip-noise"], "not allowed with argument"),
     ],
 )
 def test_what_is_malformed_is_refused_before_anything_is_sent(
-    log: Path, capsys: Capture, text: str, words: list[str], expected: str
+    log: Path, text: str, words: list[str], expected: str
 ) -> None:
     log.write_text(text)
-    assert replayed(log, *words) == (2, [])
-    errors = capsys.readouterr().err
-    assert expected in errors
-    assert "Traceback" not in errors
+    ended, received = replayed(log, *words)
+    assert (ended.status, received) == (2, [])
+    assert expected in ended.err
+    assert "Traceback" not in ended.err
 
 
-def test_a_missing_file_is_reported(tmp_path: Path, capsys: Capture) -> None:
-    assert main(["replay", str(tmp_path / "none.hex"), "--dry-run"]) == 2
-    assert "none.hex cannot be read: No such file or directory" in capsys.readouterr().err
+def test_a_missing_file_is_reported(log: Path) -> None:
+    status, _, errors = run("replay", log, "--dry-run")
+    assert (status, f"{log} cannot be read: No such file or directory" in errors) == (2, True)
 
 
-def test_without_a_port_a_replay_is_only_shown(
-    log: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_port_a_replay_is_only_shown(log: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(link, "serial_ports", list)
-    log.write_text(hexed(ASK))
-    assert main(["replay", str(log)]) == 2
-    assert "no port is plugged in" in capsys.readouterr().err
-    assert main(["replay", str(log), "--dry-run"]) == 0
+    log.write_text(HEX)
+    status, _, errors = run("replay", log)
+    assert (status, "no port is plugged in" in errors) == (2, True)
+    assert run("replay", log, "--dry-run").status == 0

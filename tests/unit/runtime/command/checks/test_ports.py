@@ -19,7 +19,7 @@ from busservo import (
 from busservo_simulator import VirtualController
 from framewire.command.checks import port_listed, rate
 from framewire.command.checks.checks import examine
-from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
+from framewire.command.checks.result import FAILED, PASSED, UNKNOWN, Result
 from framewire.line.hid_devices import HidDevice
 from framewire.line.serial_port import SerialPortSeen
 
@@ -32,6 +32,12 @@ ONE = SerialPortSeen("/dev/ttyUSB0", "1A86:7523", "USB Serial", "A50285BI")
 OTHER = SerialPortSeen("/dev/ttyUSB1", "0403:6001", "FT232R", "B1")
 BOARD = HidDevice(0x0483, 0x5750, "/dev/hidraw0", "LOBOT")
 PLUG_IN = "USB HID devices have no serial port at all"
+
+
+def assert_says(found: Result, state: str, seen: str, advice: str) -> None:
+    assert found.state == state
+    assert seen in found.seen
+    assert advice in found.advice
 
 
 @in_turn(
@@ -62,14 +68,13 @@ def test_the_port_is_found_or_it_is_said_where_to_look(
     with board_with() as board:
         diagnosis = diagnosis_of(board, port=port, ports=lambda: ports, hid_devices=lambda: hid)
         found = examined(diagnosis)["port"]
-    assert (diagnosis.port, found.state) == (taken, state)
-    assert seen in found.seen
-    assert advice in found.advice
+    assert diagnosis.port == taken
+    assert_says(found, state, seen, advice)
     assert bool(found.advice) == (state != PASSED)
 
 
+@pytest.mark.usefixtures("pty")
 def test_a_link_is_what_it_leads_to(tmp_path: Path) -> None:
-    pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     device = tmp_path.resolve() / "ttyUSB0"
     device.touch()
     link = tmp_path / "arm"
@@ -92,9 +97,9 @@ def test_a_link_is_what_it_leads_to(tmp_path: Path) -> None:
         assert found(pty, ONE) == (PASSED, f"{pty} is {what}")
 
 
-@pytest.mark.parametrize(
-    ("port", "hid", "state", "seen", "advice"),
-    [
+@in_turn(
+    "port, hid, state, seen, advice",
+    lambda: [
         ("COM7", [], PASSED, "no USB HID device (0483:5750) is plugged in", ""),
         ("COM7", None, UNKNOWN, "without hidapi nothing shows", "pip install hidapi"),
         ("COM7", [BOARD], UNKNOWN, "0483:5750 LOBOT is plugged in", "and --port hid://"),
@@ -106,15 +111,13 @@ def test_a_board_without_a_serial_port_is_seen(
 ) -> None:
     with board_with() as board:
         found = examined(diagnosis_of(board, port=port, hid_devices=lambda: hid))["hid"]
-    assert found.state == state
-    assert seen in found.seen
-    assert advice in found.advice
+    assert_says(found, state, seen, advice)
     assert ("not seen on hardware yet" in found.seen) == (state == UNKNOWN and hid is not None)
 
 
-@pytest.mark.parametrize(
-    ("error", "check", "seen", "advice"),
-    [
+@in_turn(
+    "error, check, seen, advice",
+    lambda: [
         (PortPermissionError("COM7", "permission is denied", "join"), "permission", "denied", "jo"),
         (PortBusyError("COM7", "it is in use", "close it"), "busy", "in use", "ModemManager"),
         (PortNotFoundError("COM7", "there is no such port", "look"), "opening", "no such", "look"),
@@ -129,10 +132,8 @@ def test_a_port_that_cannot_be_opened_is_reported_by_one_check(
     with board_with() as board:
         found = examined(diagnosis_of(board, opener=opener))
     assert [name for name, result in found.items() if result.state == FAILED] == [check]
-    assert seen in found[check].seen
-    assert advice in found[check].advice
-    assert found["rate"].seen == f"not looked at: see the check `{check}`"
-    assert found["rate"].state == UNKNOWN
+    assert_says(found[check], FAILED, seen, advice)
+    assert_says(found["rate"], UNKNOWN, f"not looked at: see the check `{check}`", "")
 
 
 def test_a_line_lost_during_the_checks_is_reported_as_lost() -> None:
@@ -141,8 +142,7 @@ def test_a_line_lost_during_the_checks_is_reported_as_lost() -> None:
         board.unplug()
         diagnosis = diagnosis_of(board, opener=lambda *_: transport)
         found = examined(diagnosis)
-    assert found["silence"].state == FAILED
-    assert "cable" in found["silence"].advice
+    assert_says(found["silence"], FAILED, "", "cable")
     assert "reconnect" not in found["silence"].advice
     assert found["look-alike"].seen == "not looked at: see the check `silence`"
     assert diagnosis.lost
@@ -157,6 +157,11 @@ def quick(monkeypatch: pytest.MonkeyPatch, nothing_else_comes: None) -> None:
     monkeypatch.setattr(rate, "EXTRA_TIME", 0.0)
 
 
+@pytest.fixture
+def pty() -> Any:
+    return pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
+
+
 def rate_of(port: str, **more: Any) -> Any:
     diagnosis = diagnosis_at(port, ports=list, hid_devices=list, **more)
     checks = [check for check in CHECKS if check.id in {"port", "opening", "permission", "rate"}]
@@ -164,21 +169,18 @@ def rate_of(port: str, **more: Any) -> Any:
 
 
 @pytest.mark.garbage
-@pytest.mark.usefixtures("quick")
+@pytest.mark.usefixtures("quick", "pty")
 def test_the_rate_at_which_a_board_answers_is_found() -> None:
-    pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     with VirtualController("pty", baud=57600) as board:
         found = rate_of(board.port)
-    assert found.state == FAILED
-    assert found.seen == "BatteryVoltageRead was not answered at 9600 baud, but is at 57600"
-    assert "--baud 57600" in found.advice
-    assert found.evidence == (BatteryVoltage(7500).encode(),)
+    seen = "BatteryVoltageRead was not answered at 9600 baud, but is at 57600"
+    assert (found.seen, found.evidence) == (seen, (BatteryVoltage(7500).encode(),))
+    assert_says(found, FAILED, seen, "--baud 57600")
 
 
 @pytest.mark.garbage
-@pytest.mark.usefixtures("nothing_else_comes")
+@pytest.mark.usefixtures("nothing_else_comes", "pty")
 def test_a_board_at_the_rate_of_the_protocol_is_at_no_other() -> None:
-    pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     with VirtualController("pty") as board:
         found = rate_of(board.port, reply_timeout=GENEROUS / 100)
     assert (found.state, found.seen) == (PASSED, "it answers at 9600 baud")
@@ -195,9 +197,8 @@ def test_a_connection_has_no_rate() -> None:
 
 
 @pytest.fixture
-def port_without_rates() -> Iterator[str]:
+def port_without_rates(pty: Any) -> Iterator[str]:
     """Return a pseudo terminal that leads to a board elsewhere: it answers at whatever rate."""
-    pty = pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
     import tty  # noqa: PLC0415 - as pty
 
     far, near = pty.openpty()
@@ -228,5 +229,4 @@ def port_without_rates() -> Iterator[str]:
 @pytest.mark.usefixtures("quick")
 def test_a_pseudo_terminal_may_have_no_rate_either(port_without_rates: str) -> None:
     found = rate_of(port_without_rates, reply_timeout=GENEROUS / 100)
-    assert found.state == UNKNOWN
-    assert "it answers at 9600 baud and at 115200 baud alike" in found.seen
+    assert_says(found, UNKNOWN, "it answers at 9600 baud and at 115200 baud alike", "")
