@@ -1,28 +1,31 @@
-"""Whatever reads a capture takes the same bytes for text, and those of the capture for raw."""
+"""What a capture is taken for, by whatever reads it: hex, the log of another program, raw bytes."""
 
 import io
 from collections.abc import Callable, Iterable
-from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
-from busservo import recordings, tables
+from busservo import Direction, recordings, tables
 from busservo._library import CODEC
 from busservo.recordings import RecordingError
 from framegen.audit.recording import read_recording
+from framegen.cli import main as framegen_main
 from framegen.guess.capture import read_capture
 from framegen.reading.yamltree import Unusable
 from framewire.codec.event_bytes import bytes_of
+from framewire.codec.hextext import HexError, HexReader, is_hex, read_hex
 from framewire.command.recording import Recording
 from framewire.command.usage_error import UsageError
+from framewire.recording.form import LogError, log_lines, without_log
 from framewire.tables.stats.statistics import statistics
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.commands import records, run
 from tests.factories import BUSSERVO, compiled_file
-from tests.handed import handed_by
-from tests.hex_cases import HEX, NO_HEX
+from tests.hex_cases import HEX, LOGS, NO_HEX, NO_LOGS, random_texts
 from tests.in_turn import in_turn
 
 MODEL = compiled_file(BUSSERVO).model
@@ -75,25 +78,15 @@ def in_tables(batches: Iterable[dict[str, Any]]) -> int:
     return size
 
 
-def scanned(content: bytes, folder: Path) -> int:
-    file = folder / "line"
-    file.write_bytes(content)
-    return sum(in_tables(piece.read_batches()) for piece in tables.scan(file))
-
-
 def audited(content: bytes) -> bytes:
     recording = read_recording("line", content, [*MODEL.spec.endpoints], MODEL.roles)
     return b"".join(each.data for each in recording.stretches)
 
 
-def decoded(content: bytes) -> bytes:
-    return joined(
-        Recording(io.BytesIO(content), "line", handed_by("busservo").codec).entries("auto", None)
-    )
-
-
 READERS: dict[str, Callable[[bytes], bytes]] = {
-    "decode, stats and replay": decoded,
+    "decode, stats and replay": lambda content: joined(
+        Recording(io.BytesIO(content), "line", CODEC).entries("auto", None)
+    ),
     "recordings.read": lambda content: joined(recordings.read(io.BytesIO(content))),
     "framegen audit": audited,
     "framegen guess": lambda content: b"".join(read_capture(content).pieces),
@@ -109,22 +102,22 @@ REFUSALS = (RecordingError, Unusable, UsageError, ValueError)
 @in_turn("name", lambda: FORMS)
 def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) -> None:
     content, data = FORMS[name]
-    counts: dict[str, Callable[[bytes], int]] = {
-        **COUNTS,
-        "tables.scan": partial(scanned, folder=tmp_path),
-    }
+
+    def scanned(content: bytes) -> int:
+        (tmp_path / "line").write_bytes(content)
+        return sum(in_tables(piece.read_batches()) for piece in tables.scan(tmp_path / "line"))
+
+    counts = {**COUNTS, "tables.scan": scanned}
     if data is None:
         readers: list[Callable[[bytes], object]] = [*READERS.values(), *counts.values()]
         for reader in readers:
             with pytest.raises(REFUSALS, match=r"line [12]\b|no hex|no time"):
                 reader(content)
         return
-    assert {reader: read(content) for reader, read in READERS.items()} == dict.fromkeys(
-        READERS, data
-    )
-    assert {each: count(content) for each, count in counts.items()} == dict.fromkeys(
-        counts, len(data)
-    )
+    found = {reader: read(content) for reader, read in READERS.items()}
+    assert found == dict.fromkeys(READERS, data)
+    sizes = {each: count(content) for each, count in counts.items()}
+    assert sizes == dict.fromkeys(counts, len(data))
 
 
 contents = st.one_of(
@@ -147,3 +140,147 @@ def test_what_is_taken_for_raw_bytes_is_all_there(content: bytes) -> None:
     sizes = {len(each) if isinstance(each, bytes) else each for each in found.values()}
     assert len(sizes) == 1, found
     assert len({each for each in found.values() if isinstance(each, bytes)}) <= 1
+
+
+# --- Hex -----------------------------------------------------------------------------------------
+
+
+@in_turn("text, data", lambda: HEX)
+def test_hex_of_any_usual_shape_is_read(text: str, data: str) -> None:
+    assert read_hex(text) == bytes.fromhex(data)
+    assert is_hex(text) == bool(data)
+
+
+@in_turn("text", lambda: NO_HEX)
+def test_what_is_no_hex_is_refused(text: str) -> None:
+    with pytest.raises(HexError) as caught:
+        read_hex(text)
+    assert text[caught.value.at :].startswith(caught.value.wrong)
+    assert not is_hex(text)
+
+
+# What has no place among the words of a command line.
+@in_turn("text", lambda: [text for text in NO_HEX if "\0" not in text])
+def test_the_commands_refuse_it_as_well(text: str) -> None:
+    status, _, errors = run("decode", text)
+    assert (status, errors.startswith("busservo: error: no hex: ")) == (2, True)
+    status, _, errors = run("explain", BUSSERVO, text, main=framegen_main)
+    assert (status, "Traceback" in errors) == (2, False)
+
+
+@in_turn(
+    "text, problem",
+    lambda: [
+        ("5", "'5' is half a byte; did you mean 05?"),
+        ("55 5G", "'G' in '5G' is no hex digit; write two digits a byte, like 0A 1B FF"),
+        ("0x", "'0x' has no digits after it; write the byte whole, like 0x1B"),
+        ("0x555", "'555' in '0x555' is 3 digits, which is no whole number of bytes; look for a d"),
+        ("z" * 99, f"'z' in '{37 * 'z'}...' is no hex digit; write two digits a byte, "),
+    ],
+)
+def test_malformed_hex_is_reported(text: str, problem: str) -> None:
+    with pytest.raises(HexError) as caught:
+        read_hex(text)
+    assert str(caught.value).startswith(f"no hex: {problem}")
+
+
+texts = st.sampled_from([text for text, _ in HEX] + NO_HEX + random_texts(100)) | st.text(
+    st.sampled_from("0x\\51abF ,-#\ng")
+)
+
+
+@given(texts, st.data())
+def test_hex_that_is_cut_anywhere_is_the_same_hex(text: str, data: st.DataObject) -> None:
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=len(text) + 1)))
+    reader, read = HexReader(), b""
+    try:
+        whole = read_hex(text)
+    except HexError:
+        whole = None
+    try:
+        for start, end in pairwise([0, *cuts, len(text)]):
+            read += reader.feed(text[start:end])
+        read += reader.end()
+    except HexError:
+        assert whole is None
+    else:
+        assert read == whole
+
+
+@given(texts)
+def test_one_more_comment_or_blank_changes_nothing(text: str) -> None:
+    assert is_hex(text) == is_hex(f"# 5\n {text}\n#")
+    if is_hex(text):
+        assert read_hex(f"{text}\n{text}") == 2 * read_hex(text)
+        assert read_hex(read_hex(text).hex(" ")) == read_hex(text)
+
+
+# --- Logs ----------------------------------------------------------------------------------------
+
+BOTH = "12:00:59.5 TX: 55 55 02 07\n12:01:00.25 RX: 55 55 04\n12:01:00.5 RX: 0F 4C 1D\n"
+
+
+def said(text: str) -> list[tuple[str, str]]:
+    log = log_lines(text)
+    assert log is not None, text
+    lines = [log.read(line) for line in text.split("\n")]
+    return [(way, read_hex(hex_).hex()) for line in lines for hex_, _, way in line]
+
+
+@in_turn("text, pieces", lambda: LOGS)
+def test_each_line_of_a_log_says_its_bytes_and_their_way(
+    text: str, pieces: list[tuple[str, str]]
+) -> None:
+    assert said(text) == pieces
+    data = bytes.fromhex("".join(hex_ for _, hex_ in pieces))
+    assert read_hex(without_log(text)) == data
+    entries = list(recordings.read(io.BytesIO(text.encode())))
+    size = sum(len(bytes_of(entry.event)) for entry in entries)
+    assert (size, entries[-1].offset + len(bytes_of(entries[-1].event))) == (len(data),) * 2
+    # Who sends is known where each line says it.
+    if all(way for way, _ in pieces):
+        senders = {{"tx": "host", "rx": "controller"}[way] for way, _ in pieces}
+        assert {entry.sender for entry in entries} == senders
+
+
+@in_turn("text, line, problem", lambda: NO_LOGS)
+def test_what_is_not_clear_is_refused_in_its_line(text: str, line: int, problem: str) -> None:
+    with pytest.raises(RecordingError, match=rf"^line {line}: .*{problem}"):
+        list(recordings.read(io.BytesIO(text.encode()), form="hex"))
+    for verb in ("decode", "explain"):
+        status, _, errors = run(verb, text)
+        assert (status, problem in errors) == (2, True)
+    status, _, errors = run("explain", BUSSERVO, text, main=framegen_main)
+    assert (status, "Traceback" in errors) == (2, False)
+
+
+@in_turn("text", lambda: [text for text, _ in HEX] + NO_HEX)
+def test_hex_is_no_log(text: str) -> None:
+    assert log_lines(text) is None
+    assert without_log(text) == text
+
+
+def test_the_command_says_times_and_senders() -> None:
+    found = records("decode", "--json", BOTH)
+    assert [(each["time"], each["from"]) for each in found] == [(0, "host"), (1, "controller")]
+    status, output, _ = run("explain", "TX:", *["55", "55", "02", "07"])
+    assert (status, "ActionGroupStop" in output) == (0, True)
+    line = "[12:01:02] 55 55 02 07"
+    assert run("explain", BUSSERVO, line, main=framegen_main).status == 0
+
+
+def test_lines_without_a_way_are_one_stream_of_the_given_end() -> None:
+    text = "[23:59:59] 55 55\n[00:00:01.5] 02 07\n"
+    # Either end may send such a message.
+    for direction, sender in ((None, None), (Direction.HOST_TO_CONTROLLER, "host")):
+        (entry,) = recordings.read(io.BytesIO(text.encode()), direction=direction)
+        assert (entry.time, entry.line, entry.sender) == (2.5, 2, sender)
+
+
+def test_a_clock_with_days_counts_them() -> None:
+    text = "[2026-02-28 23:00:00] 55\n[2026-03-01T01:00:00.5] 02"
+    log = log_lines(text)
+    assert log is not None
+    assert [log.read(line)[0][1] for line in text.split("\n")] == [0, 7200.5]
+    with pytest.raises(LogError, match="2026-02-30 is no day"):
+        log.read("[2026-02-30 23:00:00] 55")
