@@ -1,17 +1,17 @@
 """The verb `answer`: the session in the guide, questions that make no sense, and no waiting."""
 
-import io
 import re
 import subprocess
 import sys
 from collections.abc import Iterator
 
 import pytest
-from busservo.__main__ import main
 from framewire.command.usage_error import UsageError
 
+from tests.commands import run
 from tests.documents import ROOT
 from tests.handed import answers_of
+from tests.in_turn import in_turn
 
 answer = answers_of("busservo")
 GUIDE = (ROOT / "docs" / "command.md").read_text(encoding="utf-8")
@@ -26,7 +26,7 @@ def exchanges() -> Iterator[tuple[str, list[str]]]:
         yield question, answers
 
 
-@pytest.mark.parametrize(("question", "answers"), [*exchanges()])
+@in_turn("question, answers", exchanges)
 def test_it_answers_as_the_guide_says(question: str, answers: list[str]) -> None:
     assert answer(question) == answers
 
@@ -41,9 +41,9 @@ def test_the_guide_asks_for_everything() -> None:
 HOST = "host_to_controller"
 
 
-@pytest.mark.parametrize(
-    ("question", "expected"),
-    [
+@in_turn(
+    "question, expected",
+    lambda: [
         ("tell me", "ask `decode WAY HEX`, `encode NAME FIELDS` or `stream WAY LARGEST PARTS`"),
         ("decode", "ask `decode WAY HEX`, "),
         (f"stream {HOST}", "ask `decode WAY HEX`, "),
@@ -62,17 +62,13 @@ def test_a_malformed_question_is_refused_with_the_reason(question: str, expected
         answer(question)
 
 
-def test_a_malformed_question_does_not_end_the_session(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    lines = b"decode \x1b\xff 55\n\n  \nencode ActionGroupStop\n"
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(lines)))
-    assert main(["answer"]) == 2
-    output, errors = capsys.readouterr()
+def test_a_malformed_question_does_not_end_the_session() -> None:
+    status, output, errors = run(
+        "answer", given=b"decode \x1b\xff 55\n\n  \nencode ActionGroupStop\n"
+    )
     first, *rest = output.splitlines()
     assert first.startswith(r"error there is no way '\x1b")
-    assert rest == ["end", "frame 55550207", "end"]
-    assert errors == ""
+    assert (status, rest, errors) == (2, ["end", "frame 55550207", "end"], "")
 
 
 def test_an_unknown_frame_and_a_bound_for_frames() -> None:
@@ -89,12 +85,8 @@ def test_an_unknown_frame_and_a_bound_for_frames() -> None:
 
 
 def test_each_question_is_answered_before_the_next_arrives() -> None:
-    with subprocess.Popen(
-        [sys.executable, "-m", "busservo", "answer"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        encoding="utf-8",
-    ) as process:
+    words, pipe = [sys.executable, "-m", "busservo", "answer"], subprocess.PIPE
+    with subprocess.Popen(words, stdin=pipe, stdout=pipe, encoding="utf-8") as process:
         assert process.stdin is not None
         assert process.stdout is not None
         for question in ("encode ActionGroupStop", "encode BatteryVoltageRead"):

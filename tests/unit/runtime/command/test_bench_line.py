@@ -1,34 +1,31 @@
 """The verb `bench-line`: what it measures, and its output for questions without an answer."""
 
-import json
 import re
 from types import SimpleNamespace
 from unittest import mock
 
 import pytest
 from busservo import BatteryVoltage, Controller, Message, ServoPositions
-from busservo.__main__ import main
 from busservo_simulator import Faults, VirtualController
 from framewire.command import bench_line
 
-from tests.commands import Ended, called
+from tests.commands import Ended, records, run
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import GENEROUS
 
-Capture = pytest.CaptureFixture[str]
-
-WORDS = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6")
-PATIENT = ("--timeout", str(GENEROUS))
+Replies = list[tuple[float, bytes | Message]]
+PATIENT = ("--timeout", GENEROUS)
 
 
-def test_round_trips_and_the_share_of_the_line_rate_are_reported(capsys: Capture) -> None:
+def test_round_trips_and_the_share_of_the_line_rate_are_reported() -> None:
+    words = ("ServoPositionsRead", "servo_ids=1,2,3,4,5,6", "-n", "5")
     with VirtualController("tcp", baud=9600) as board:
-        assert main(["bench-line", "--port", board.port, *WORDS, "-n", "5", *PATIENT]) == 0
-        port = board.port
-        assert (board.accepted, board.rejects.total) == (5, 0)
-    first, wire, trips, rate, errors = capsys.readouterr().out.splitlines()
-    assert first == f"ServoPositionsRead servo_ids=1,2,3,4,5,6 on {port}: 5 requests, 5 answered"
+        status, output, _ = run("bench-line", "--port", board.port, *words, *PATIENT)
+        assert (status, board.accepted, board.rejects.total) == (0, 5, 0)
+    first, wire, trips, rate, errors = output.splitlines()
+    question = "ServoPositionsRead servo_ids=1,2,3,4,5,6"
+    assert first == f"{question} on {board.port}: 5 requests, 5 answered"
     assert wire == "  the wire alone  35.42 ms: 11 bytes there and 23 back, at 9600 baud"
     times = [float(each) for each in re.findall(r"([0-9.]+) ms", trips)]
     assert times == sorted(times)
@@ -39,25 +36,22 @@ def test_round_trips_and_the_share_of_the_line_rate_are_reported(capsys: Capture
     assert errors == "  errors          none"
 
 
-def test_json_has_the_same_in_seconds(capsys: Capture) -> None:
+def test_json_has_the_same_in_seconds() -> None:
     with VirtualController("tcp") as board:
-        assert main(["bench-line", "--port", board.port, "-n", "3", "--json", *PATIENT]) == 0
-    found = json.loads(capsys.readouterr().out)
+        (found,) = records("bench-line", "--port", board.port, "-n", "3", "--json", *PATIENT)
     assert (found["question"], found["requests"], found["answered"]) == ("BatteryVoltageRead", 3, 3)
     assert (found["errors"], found["wire"], found["baud"]) == ({}, 0.010417, 9600)
     assert 0 < found["min"] <= found["median"] <= found["max"]
 
 
-def test_a_line_that_takes_no_time_allows_any_rate(capsys: Capture) -> None:
-    words = ["-n", "3", "--baud", "inf", *PATIENT]
+def test_a_line_that_takes_no_time_allows_any_rate() -> None:
     with VirtualController("tcp") as board:
-        assert main(["bench-line", "--port", board.port, *words]) == 0
-        assert main(["bench-line", "--port", board.port, *words, "--json"]) == 0
-    _, wire, _, rate, _, record = capsys.readouterr().out.splitlines()
+        words = ("bench-line", "--port", board.port, "-n", "3", "--baud", "inf", *PATIENT)
+        _, wire, _, rate, _ = run(*words).out.splitlines()
+        (found,) = records(*words, "--json")
     size = "4 bytes there and 6 back"
     assert wire == f"  the wire alone  0.00 ms: {size}, on a line that takes no time"
     assert re.fullmatch("  rate +[0-9.]+ a second", rate)
-    found = json.loads(record)
     assert (found["baud"], found["wire"], found["share"]) == (None, 0.0, None)
 
 
@@ -68,7 +62,7 @@ def measured(line: VirtualLine, *words: str) -> Ended:
         mock.patch.object(bench_line, "open_client", return_value=client),
         mock.patch.object(bench_line, "time", SimpleNamespace(perf_counter=line.clock)),
     ):
-        return called(main, "bench-line", "--port", "COM7", *words)
+        return run("bench-line", "--port", "COM7", *words)
 
 
 def test_replies_faster_than_the_line_rate_are_reported() -> None:
@@ -81,8 +75,7 @@ def test_replies_faster_than_the_line_rate_are_reported() -> None:
 
 
 def test_a_duplicate_reply_is_counted_and_not_taken_for_speed() -> None:
-    reply = BatteryVoltage(7500)
-    twice: list[tuple[float, bytes | Message]] = [(0.0105, reply), (0.0107, reply)]
+    twice: Replies = [(0.0105, BatteryVoltage(7500)), (0.0107, BatteryVoltage(7500))]
     answers = iter([twice])
     status, output, _ = measured(VirtualLine(lambda _: next(answers, twice[:1])), "-n", "30")
     assert status == 0
@@ -91,7 +84,7 @@ def test_a_duplicate_reply_is_counted_and_not_taken_for_speed() -> None:
 
 
 def test_errors_are_counted_by_kind() -> None:
-    replies: list[list[tuple[float, bytes | Message]]] = [
+    replies: list[Replies] = [
         [(0.0, ServoPositions([(1, 5), (2, 6)]))],
         [],
         [(0.0, ServoPositions([(2, 6)]))],
@@ -111,18 +104,17 @@ def test_errors_are_counted_by_kind() -> None:
     )
 
 
-def test_a_lost_line_ends_the_measurement(capsys: Capture) -> None:
+def test_a_lost_line_ends_the_measurement() -> None:
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
-        assert main(["bench-line", "--port", board.port, *PATIENT]) == 3
-    output, errors = capsys.readouterr()
+        status, output, errors = run("bench-line", "--port", board.port, *PATIENT)
     assert output.splitlines()[0].endswith(": 0 requests, 0 answered")
-    assert "the line was lost" in errors
+    assert (status, "the line was lost" in errors) == (3, True)
 
 
-def test_without_a_reply_there_are_no_times(capsys: Capture) -> None:
-    words = ["--timeout", "0.02", "-n", "2"]
-    assert main(["bench-line", "--port", "loop://", *words]) == 1
-    assert capsys.readouterr().out.splitlines() == [
+def test_without_a_reply_there_are_no_times() -> None:
+    status, output, _ = run("bench-line", "--port", "loop://", "--timeout", "0.02", "-n", "2")
+    assert status == 1
+    assert output.splitlines() == [
         "BatteryVoltageRead on loop://: 2 requests, 0 answered",
         "  errors          2 no reply",
         "  without a reply 8 bytes came that are no frame: wrong baud rate?",
@@ -135,11 +127,8 @@ def test_silence_is_said_to_be_that() -> None:
     assert "  without a reply nothing came at all: is the device" in output
 
 
-def test_a_question_must_be_named_where_each_has_fields(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_question_must_be_named_where_each_has_fields(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bench_line, "_usual", lambda _: None)
-    assert main(["bench-line", "--port", "no-such-port"]) == 2
-    errors = capsys.readouterr().err
-    assert "name the question to measure" in errors
+    status, _, errors = run("bench-line", "--port", "no-such-port")
+    assert (status, "name the question to measure" in errors) == (2, True)
     assert "questions are BatteryVoltageRead, ServoPositionsRead" in errors

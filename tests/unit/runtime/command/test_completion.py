@@ -1,10 +1,8 @@
 """Completion, for shells: made by shtab where it is installed, and a hint where it is not."""
 
-import io
 import shutil
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import redirect_stdout
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -21,12 +19,11 @@ from framegen.checks import RULES
 from framegen.comparison.changes import CHANGE_RULES
 from framegen.targets.table import TARGETS
 
+from tests.commands import Ended, called
 from tests.in_turn import in_turn
 from tests.programs import ran
 
 Main: TypeAlias = Callable[[Sequence[str]], int]
-
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
 ROOT = Path(__file__).parents[4]
 PROGRAMS: dict[str, Main] = {
@@ -39,12 +36,16 @@ NAMES = [kind.__name__ for kind in MESSAGES]
 FIELDS = [f"{name}=" for name in ServoMove.__match_args__]
 
 
+def completion(program: str, shell: str) -> Ended:
+    return called(PROGRAMS[program], "--print-completion", shell)
+
+
 @cache
 def script(program: str, shell: str) -> str:
     """What a program prints for a shell."""
-    with redirect_stdout(io.StringIO()) as printed:
-        assert PROGRAMS[program](["--print-completion", shell]) == 0
-    return printed.getvalue()
+    status, output, _ = completion(program, shell)
+    assert status == 0
+    return output
 
 
 def beginning(word: str, words: list[str]) -> list[str]:
@@ -82,23 +83,22 @@ OFFERED = [
     ("framegen explain spec/bus", ["spec/busservo.yaml"]),
     ("framegen generate --out do", ["docs"]),
 ]
-# Where bash, which alone is given this rule, puts no blank behind what it offers.
-GO_ON = [
-    ("busservo encode ServoMove t", True),
-    ("busservo-simulator --fault noise", True),
-    ("busservo mon", False),
-    ("framegen check spec/bus", False),
-]
+# Whether bash, which alone is given this rule, lets what it offers go on.
+GO_ON = {
+    "busservo encode ServoMove t": True,
+    "busservo-simulator --fault noise": True,
+    "busservo mon": False,
+    "framegen check spec/bus": False,
+}
 # In place of the library's own command: two ports are plugged in.
 PORTS = "/dev/ttyUSB7  1A86:7523  a\\nCOM7  -\\n"
 
 needs_shtab = pytest.mark.skipif(find_spec("shtab") is None, reason="there is no shtab here")
-needs_bash = pytest.mark.skipif(
-    shutil.which("bash") is None or sys.platform == "win32",
-    reason="no bash of this system",
-)
-needs_zsh = pytest.mark.skipif(shutil.which("zsh") is None, reason="there is no zsh here")
-needs_fish = pytest.mark.skipif(shutil.which("fish") is None, reason="there is no fish here")
+
+
+def needs(shell: str) -> pytest.MarkDecorator:
+    is_there = shutil.which(shell) is not None and sys.platform != "win32"
+    return pytest.mark.skipif(not is_there, reason=f"there is no {shell} here")
 
 
 def run(*words: str) -> list[str]:
@@ -124,30 +124,25 @@ def in_bash(line: str) -> list[str]:
 
 
 @needs_shtab
-@needs_bash
+@needs("bash")
 @in_turn("line, offered", lambda: OFFERED)
 def test_bash_completes(line: str, offered: list[str]) -> None:
     found = in_bash(line)
     assert sorted(each for each in found if not each.startswith("compopt")) == offered
+    # Behind what ends with an equals sign it puts no blank.
+    if line in GO_ON:
+        assert ("compopt -o nospace" in found) is GO_ON[line]
 
 
 @needs_shtab
-@needs_bash
-@pytest.mark.parametrize(("line", "goes_on"), GO_ON)
-def test_bash_goes_on_behind_what_ends_with_an_equals_sign(line: str, goes_on: bool) -> None:
-    found = in_bash(line)
-    assert ("compopt -o nospace" in found) is goes_on
-
-
-@needs_shtab
-@needs_bash
+@needs("bash")
 def test_a_port_without_a_name_is_a_file_once_a_path_is_begun() -> None:
     assert "./Makefile" in in_bash("busservo monitor --port ./Make")
     assert "Makefile" not in in_bash("busservo monitor --port Make")
 
 
 @needs_shtab
-@needs_fish
+@needs("fish")
 @in_turn("line, offered", lambda: OFFERED)
 def test_fish_completes(line: str, offered: list[str], tmp_path: Path) -> None:
     file = tmp_path / "script.fish"
@@ -158,7 +153,7 @@ def test_fish_completes(line: str, offered: list[str], tmp_path: Path) -> None:
 
 
 @needs_shtab
-@needs_zsh
+@needs("zsh")
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_zsh_can_read_the_script(program: str, tmp_path: Path) -> None:
     file = tmp_path / "script.zsh"
@@ -167,10 +162,10 @@ def test_zsh_can_read_the_script(program: str, tmp_path: Path) -> None:
 
 
 @needs_shtab
-@needs_zsh
-@pytest.mark.parametrize(
-    ("call", "offered"),
-    [
+@needs("zsh")
+@in_turn(
+    "call, offered",
+    lambda: [
         ("words=(encode ServoMove t); _busservo_fields", FIELDS),
         ("words=(encode ActionGroupStop t); _busservo_fields", []),
         ("PREFIX=C; _busservo_port_files", ["/dev/ttyUSB7", "COM7"]),
@@ -208,19 +203,16 @@ def test_every_shell_learns_verbs_options_and_names(
 # ------------------------------------------------------------------ where it cannot be made
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_without_shtab_there_is_a_hint(
-    program: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@in_turn("program", lambda: PROGRAMS)
+def test_without_shtab_there_is_a_hint(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "shtab", None)
-    assert PROGRAMS[program](["--print-completion", "bash"]) == 2
     hint = "completion is made by shtab, which is not installed here: pip install shtab"
-    assert capsys.readouterr() == ("", f"{program}: error: {hint}\n")
+    assert completion(program, "bash") == (2, "", f"{program}: error: {hint}\n")
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
+@in_turn("program", lambda: PROGRAMS)
 def test_a_shtab_too_old_for_fish_gets_a_hint_to_upgrade(
-    program: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    program: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shtab = pytest.importorskip("shtab")
 
@@ -228,12 +220,11 @@ def test_a_shtab_too_old_for_fish_gets_a_hint_to_upgrade(
         raise NotImplementedError
 
     monkeypatch.setattr(shtab, "complete", refuse)
-    assert PROGRAMS[program](["--print-completion", "fish"]) == 2
     hint = "this shtab is too old to know fish: pip install --upgrade shtab"
-    assert capsys.readouterr() == ("", f"{program}: error: {hint}\n")
+    assert completion(program, "fish") == (2, "", f"{program}: error: {hint}\n")
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_an_unknown_shell_is_refused(program: str, capsys: Capture) -> None:
-    assert PROGRAMS[program](["--print-completion", "ksh"]) == 2
-    assert "invalid choice: 'ksh'" in capsys.readouterr().err
+@in_turn("program", lambda: PROGRAMS)
+def test_an_unknown_shell_is_refused(program: str) -> None:
+    status, _, errors = completion(program, "ksh")
+    assert (status, "invalid choice: 'ksh'" in errors) == (2, True)

@@ -24,6 +24,7 @@ from framewire.command.checks.result import Result
 from framewire.command.recorder import Recorder
 from framewire.line.serial_port import SerialPortSeen
 
+from tests.commands import run
 from tests.documents import ROOT
 from tests.lines.patient import CHECKS, board_with, diagnosis_of
 from tests.timeouts import GENEROUS, await_that
@@ -31,19 +32,11 @@ from tests.unit.runtime.command.checks.test_strangers import CASES, examined
 from tests.unit.runtime.command.test_line_verbs import plugged_in
 from tests.unit.runtime.command.test_monitor import Line
 
-Capture = pytest.CaptureFixture[str]
-
 PLAN = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
 LEARN = re.findall(r"\]\((\S+)\): ", PLAN.partition("## Learn")[2].partition("\n## ")[0])
-TEXTS = [
-    (page, text)
-    for page in LEARN
-    for text in re.findall(
-        r"^```text\n\$ (.*?)^```$",
-        (ROOT / "docs" / page).read_text(encoding="utf-8"),
-        re.MULTILINE | re.DOTALL,
-    )
-]
+BLOCK = re.compile(r"^```text\n\$ (.*?)^```$", re.MULTILINE | re.DOTALL)
+PAGES = {page: (ROOT / "docs" / page).read_text(encoding="utf-8") for page in LEARN}
+TEXTS = [(page, text) for page in LEARN for text in BLOCK.findall(PAGES[page])]
 # By the page and the verb: the words behind it, and the lines that follow.
 TRANSCRIPTS = {
     (page, text.split()[1]): (text.partition("\n")[0].split()[2:], text.partition("\n")[2])
@@ -54,15 +47,11 @@ PATIENT = ("--timeout", str(GENEROUS))
 
 def test_every_transcript_is_held_to_what_is_printed() -> None:
     assert len(TRANSCRIPTS) == len(TEXTS)
-    assert {
-        ("getting-started.md", "ports"),
-        ("command.md", "teach"),
-        ("command.md", "monitor"),
-        ("command.md", "doctor"),
-        ("command.md", "bench-line"),
-        ("command.md", "answer"),
-        ("troubleshooting.md", "doctor"),
-    } == TRANSCRIPTS.keys()
+    of_command = ("teach", "monitor", "doctor", "bench-line", "answer")
+    assert TRANSCRIPTS.keys() == {
+        *(("command.md", verb) for verb in of_command),
+        *(("getting-started.md", "ports"), ("troubleshooting.md", "doctor")),
+    }
 
 
 def assert_agrees(page: str, verb: str, printed: str) -> None:
@@ -76,20 +65,17 @@ def without_times(text: str) -> str:
     return re.sub(r"[0-9:]*[0-9]+\.[0-9]+", "#", text)
 
 
-def test_ports(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ports(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("serial.tools.list_ports.comports", plugged_in)
-    assert main(["ports"]) == 0
-    assert capsys.readouterr().out == TRANSCRIPTS["getting-started.md", "ports"][1]
+    assert run("ports").out == TRANSCRIPTS["getting-started.md", "ports"][1]
 
 
-def test_bench_line(capsys: Capture) -> None:
+def test_bench_line() -> None:
     _, port, *words = TRANSCRIPTS["command.md", "bench-line"][0]
     with VirtualController("tcp", baud=9600) as board:
-        assert main(["bench-line", "--port", board.port, *words, "-n", "2", *PATIENT]) == 0
-        printed = capsys.readouterr().out.replace(board.port, port)
-    assert_agrees(
-        "command.md", "bench-line", re.sub(r"\b2 (requests|answered)", r"100 \1", printed)
-    )
+        ended = run("bench-line", "--port", board.port, *words, "-n", "2", *PATIENT)
+    printed = re.sub(r"\b2 (requests|answered)", r"100 \1", ended.out.replace(board.port, port))
+    assert_agrees("command.md", "bench-line", printed)
 
 
 def test_doctor() -> None:
@@ -114,7 +100,7 @@ def said(found: Mapping[Check, Result]) -> str:
     return "\n".join([*lines, ", ".join(counts), ""])
 
 
-def test_monitor(capsys: Capture) -> None:
+def test_monitor(capsys: pytest.CaptureFixture[str]) -> None:
     words, shown = TRANSCRIPTS["command.md", "monitor"]
     parser = argparse.ArgumentParser()
     monitor.add_arguments(parser, PROGRAM)
