@@ -25,7 +25,7 @@ from framewire.command import recording as reading
 from framewire.tables.extra import are_there
 from framewire.tables.files import parquet
 
-from tests.commands import Terminal, run
+from tests.commands import run
 from tests.in_turn import in_turn
 
 CAPTURES = Path(__file__).parents[3] / "captures"
@@ -160,16 +160,6 @@ def test_strict_tells_noise_by_the_exit_status(tmp_path: Path) -> None:
     assert run("decode", "555502", "--strict", "--arrow", tmp_path / "b").status == 1
 
 
-def test_other_protocols_are_written_too(tmp_path: Path) -> None:
-    frame = lxservo.Position(servo_id=3, position=-7).encode()
-    how: dict[str, Any] = {"main": lxservo.__main__.main}
-    output = run("decode", frame.hex(), "--parquet", tmp_path / "a", **how).out
-    assert counts_in(output) == {"Position": 1}
-    run("decode", frame.hex(), "--csv-tables", tmp_path / "b", **how)
-    (row,) = as_rows(tmp_path / "b" / "Position.csv")
-    assert (row["servo_id"], row["position"]) == ("3", "-7")
-
-
 @each_form
 def test_a_capture_of_nothing_makes_no_table(tmp_path: Path, option: str) -> None:
     (tmp_path / "empty.bin").write_bytes(b"")
@@ -294,17 +284,3 @@ def test_what_is_missing_is_said_once() -> None:
         are_there("absent_package", library="busservo")
     assert missing.value.__cause__ is None
     assert missing.value.__suppress_context__
-
-
-def test_a_bar_shows_how_far_a_long_file_has_been_read(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr(reading, "PROGRESS_INTERVAL", 0.0)
-    monkeypatch.chdir(tmp_path)
-    Path("line.bin").write_bytes(BatteryVoltage(1).encode() * 50_000)
-    assert main(["decode", "line.bin", "--parquet", "tables"]) == 0
-    shown = terminal.getvalue()
-    assert "\r[####################] 100%  0.3 of 0.3 MB read: line.bin" in shown
-    assert shown.endswith("\r300000 bytes: 50000 messages, 0 bytes of noise\n")

@@ -195,13 +195,6 @@ def test_a_local_echo_is_expected_where_it_was_said(
     assert ("leave out local_echo" in errors) == (not echoes)
 
 
-def test_a_local_echo_that_was_not_said_is_told_as_all_else_is() -> None:
-    with VirtualController("tcp", local_echo=True) as board:
-        status, _, errors = run("send", "--port", board.port, "BatteryVoltageRead", *PATIENT)
-    assert status == 0
-    assert errors.startswith(f"busservo: {board.port} gives back what is sent: ")
-
-
 USB0 = "/dev/ttyUSB0"
 
 

@@ -37,6 +37,7 @@ REFUSED: dict[str, list[tuple[str | list[str], str]]] = {
         ("absent.bin", "no hex: 's' in 'absent.bin' is no hex digit; write two"),
         ("absent.bin", "and there is no file 'absent.bin'"),
         (".", ". is a folder: name a file in it"),
+        ("--file .", ". cannot be read: "),
         ([__file__, __file__], "these are 2 files: give one at a time"),
         (["55 5"], "no hex: '5' is half a byte; did you mean 05?"),
         (["a\0b"], "there is no file 'a\\x00b'"),

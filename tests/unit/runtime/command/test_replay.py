@@ -108,14 +108,6 @@ def test_a_trace_of_a_client_is_played_without_what_came_back(
     assert totals.startswith("3 of 3 frames sent, 20 bytes; came back: 14 bytes: 2 messages")
 
 
-def test_a_log_of_a_monitor_is_played(log: Path) -> None:
-    log.write_text(
-        "# recorded of 'COM7' from 2026-01-02 on\n"
-        f"{at(0.5, MOVE)}\n55 55 04  # 0.6 s, controller noise: too short\n# quiet\n{at(0.7, ASK)}"
-    )
-    assert sent_by(log) == [MOVE, ASK]
-
-
 def test_a_lost_line_ends_the_replay_and_the_progress_is_reported(log: Path) -> None:
     log.write_text(at(0, ASK) + at(9, ASK))
     with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
@@ -149,12 +141,6 @@ def test_raw_bytes_and_plain_hex_are_played(log: Path) -> None:
     # Pasted hex may break its lines anywhere.
     log.write_text(f"{data.hex(' ')[:14]}\n{data.hex(' ')[14:]}")
     assert sent_by(log) == [MOVE, ASK]
-
-
-def test_standard_input_is_played() -> None:
-    with VirtualController("tcp") as board:
-        assert run("replay", "-", "--port", board.port, given=ASK.encode()).status == 0
-        assert (board.accepted, board.rejects.total) == (1, 0)
 
 
 @in_turn(
@@ -272,11 +258,6 @@ def test_what_is_malformed_is_refused_before_anything_is_sent(
     assert (ended.status, received) == (2, [])
     assert expected in ended.err
     assert "Traceback" not in ended.err
-
-
-def test_a_missing_file_is_reported(log: Path) -> None:
-    status, _, errors = run("replay", log, "--dry-run")
-    assert (status, f"{log} cannot be read: No such file or directory" in errors) == (2, True)
 
 
 def test_without_a_port_a_replay_is_only_shown(log: Path, monkeypatch: pytest.MonkeyPatch) -> None:

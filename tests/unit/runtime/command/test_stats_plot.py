@@ -7,11 +7,9 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
-import lxservo
-import lxservo.__main__
 import numpy as np
 import pytest
-from busservo import BatteryVoltage, Message, ServoMove, ServoPositions
+from busservo import BatteryVoltage, Message, ServoPositions
 from busservo._library import CODEC
 from framewire.recording.layout import layouts_of
 from framewire.tables.stats import panels, traces
@@ -159,29 +157,6 @@ def test_without_times_it_is_drawn_over_the_time_on_the_wire(tmp_path: Path, pic
     texts, lines = drawn(file, picture, "--baud", "19200")
     assert "time on the wire at 19200 baud (s); the capture holds no times" in texts
     assert len(lines["BatteryVoltage.voltage_mv.0"]) == 30
-
-
-def test_what_was_commanded_is_drawn_where_nothing_was_measured(
-    tmp_path: Path, picture: Path
-) -> None:
-    file = tmp_path / "line.bin"
-    file.write_bytes(ServoMove(800, [(1, 500), (7, 600)]).encode() * 3)
-    names = ["targets.position.1", "targets.position.7", "time_ms.0"]
-    assert [*drawn(file, picture)[1]] == [f"ServoMove.{name}" for name in names]
-
-
-def test_a_bus_has_a_line_for_each_address(tmp_path: Path, picture: Path) -> None:
-    file = tmp_path / "line.bin"
-    read = [
-        lxservo.Move(servo_id=1, position=200, time_ms=100),
-        *(lxservo.Position(servo_id=1, position=each) for each in (-5, 1004)),
-        lxservo.Position(servo_id=9, position=77),
-        lxservo.Voltage(servo_id=9, voltage_mv=6900),
-    ]
-    file.write_bytes(b"".join(each.encode() for each in read))
-    texts, lines = drawn(file, picture, main=lxservo.__main__.main)
-    assert [*lines] == ["Position.position.1", "Position.position.9", "Voltage.voltage_mv.9"]
-    assert "°" in texts
 
 
 # How many servos there are, the words, those that are drawn, and the panels in the first row.

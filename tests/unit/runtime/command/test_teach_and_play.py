@@ -308,15 +308,6 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(desk: Desk) -
     assert desk.received[0] == ServoMove(time_ms=1, targets=[(1, 2500)])
 
 
-def test_send_refuses_what_is_outside_the_limits(desk: Desk) -> None:
-    words = ("send", "--port", desk.board.port, "ServoMove", "time_ms=1", "targets=1:500,2:1500")
-    problem = f"busservo: error: targets[1].position: 1500 {LIMITS} {PWM} {ANY}\n"
-    assert run(*words) == (2, "", problem)
-    assert desk.received == []
-    for limits in ("500..2500", "none"):
-        assert run(*words, "--limits", limits).status == 0
-
-
 # ------------------------------------------------------------------ the file
 
 

@@ -4,21 +4,17 @@ import io
 from collections.abc import Iterable, Iterator
 from datetime import datetime, timezone
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupRun,
     ActionGroupStarted,
-    ActionGroupStopped,
     BatteryVoltage,
     BatteryVoltageRead,
-    Controller,
     Direction,
     Message,
     Noise,
-    NoReplyError,
     Reason,
     ServoMove,
     UnknownFrame,
@@ -31,8 +27,6 @@ from hypothesis import strategies as st
 
 from tests.hex_cases import HEX, NO_HEX
 from tests.in_turn import in_turn
-from tests.lines.timed_line import client_on
-from tests.lines.virtual_line import VirtualLine
 from tests.strategies import joined, lines
 from tests.strategies import read as decoded
 
@@ -170,23 +164,6 @@ def test_an_invalid_line_is_reported_with_its_number(text: str, problem: str) ->
 def test_there_is_no_other_form() -> None:
     with pytest.raises(ValueError, match="'csv' is none of the forms auto, hex, raw"):
         read("line.csv", form="csv")
-
-
-def test_a_client_s_trace_is_read_back(tmp_path: Path) -> None:
-    line, path = VirtualLine(), tmp_path / "line.hex"
-    with client_on(line, Controller, reply_timeout=0.25, trace=path) as controller:
-        line.say(b"\x55\x00" + ActionGroupStopped().encode() + b"\x55\x55\x05\x08")
-        with pytest.raises(NoReplyError):
-            controller.read_battery_voltage()
-    found = list(read(path))
-    assert [(entry.sender, entry.event) for entry in found] == [
-        ("host", ASK),
-        ("controller", noise("55 00", Reason.BAD_HEADER)),
-        ("controller", ActionGroupStopped()),
-        ("controller", noise("55 55 05 08", Reason.TOO_SHORT)),
-    ]
-    assert all(entry.began is not None for entry in found)
-    assert [entry.time for entry in found] == sorted(entry.time or 0 for entry in found)
 
 
 # ---------------------------------------------------------------------------- streams

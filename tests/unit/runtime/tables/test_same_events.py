@@ -330,14 +330,3 @@ def test_a_recording_in_all_its_columns() -> None:
         Row("noise", 10, 2, **said, time=2.0, clock=clocks[2.0]),
         Row("noise", 12, 2, **said, time=3.0, clock=clocks[3.0]),
     ]
-
-
-@given(st.integers(0, 10**11))
-def test_the_time_of_day_is_right_to_the_microsecond(microseconds: int) -> None:
-    text = (
-        "# recorded of COM3 from 2024-01-02 03:04:05.500000 +0000 on\n"
-        f"55 55 02 07  # {microseconds // 10**6}.{microseconds % 10**6:06} s, host: a stop\n"
-    )
-    (row,) = rows_in_tables(busservo, text.encode(), form="hex")
-    began = datetime(2024, 1, 2, 3, 4, 5, 500_000, timezone.utc)
-    assert row.clock == began + timedelta(microseconds=microseconds)
