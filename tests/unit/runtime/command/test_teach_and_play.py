@@ -88,15 +88,12 @@ def test_no_servo_is_released_without_consent(desk: Desk, keys: str) -> None:
 
 
 @pytest.mark.parametrize("keys", ["\n", "\nq\n"])
-def test_servos_stay_limp_unless_holding_is_confirmed(desk: Desk, keys: str) -> None:
+def test_servos_stay_limp_unless_holding_is_confirmed_or_asked_for(desk: Desk, keys: str) -> None:
     status, _, errors = desk.teach("--yes", "--ids", "1-2", keys=keys)
     assert status == 0
     assert "1 pose recorded; servos 1, 2 are limp" in errors
     assert [desk.board.servos[each].loaded for each in (1, 2, 3)] == [False, False, True]
-
-
-def test_the_hold_option_needs_no_confirmation(desk: Desk) -> None:
-    assert desk.teach("--yes", "--hold", "--ids", "2", keys="\n").status == 0
+    assert desk.teach("--yes", "--hold", "--force", "--ids", "2", keys="\n").status == 0
     await_that(lambda: desk.board.servos[2].loaded)
 
 

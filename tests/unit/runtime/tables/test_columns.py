@@ -2,60 +2,26 @@
 
 import json
 from importlib import import_module
-from itertools import accumulate
 from typing import Any
 
 import busservo
 import pyarrow as pa
 import pytest
 from busservo import tables
-from framegen.language.values import Direction
 from framegen.model.slots import Field, Items, Number, Packed, Text
-from hypothesis import given
-from hypothesis import strategies as st
 from pyarrow.types import is_list, is_struct
 
 from tests.factories import DEMO, data_of, files_of, library
-from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.mutations.places import renamed
-from tests.protocols.libraries import Libraries, direction_of
+from tests.protocols.libraries import Libraries
 from tests.protocols.specs import FILES, messages_of
-from tests.protocols.streams import LARGE, all_ways
 from tests.rows import some
 from tests.unit.runtime.tables.hostile import sealing
-from tests.unit.runtime.tables.rows import Row, exact, fields_of, rows_in_tables
+from tests.unit.runtime.tables.rows import exact, fields_of, rows_in_tables
 from tests.unit.runtime.tables.shown import is_shown
 
 EVENT = ["offset", "size", "direction", "time", "clock"]
-
-each_way = pytest.mark.parametrize(
-    ("name", "way"),
-    some([pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()], is_shown),
-)
-
-
-@each_way
-@few_each
-@given(data=st.data())
-def test_each_field_is_what_the_message_says(
-    libraries: Libraries, name: str, way: Direction, data: st.DataObject
-) -> None:
-    """All messages of a direction, in one capture."""
-    made, direction = libraries[name], direction_of(libraries[name], way)
-    drawable: Any = import_module(f"{made.__name__}.strategies")
-    kinds = [kind for kind in made.MESSAGES if kind.DIRECTION is direction]
-    drawn = [data.draw(drawable._any_of(kind)) for kind in kinds * 2]
-    sent = [message for message in drawn if len(message.encode()) <= LARGE]
-    line = b"".join(message.encode() for message in sent)
-    found = rows_in_tables(made, line, direction)
-    sizes = [len(message.encode()) for message in sent]
-    ends = accumulate(sizes, initial=0)
-    assert [row.offset for row in found] == [*ends][:-1]
-    assert [row._replace(offset=0) for row in found] == [
-        Row(type(message).__name__, 0, size, direction.value, fields=fields_of(message))
-        for message, size in zip(sent, sizes, strict=True)
-    ]
 
 
 def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:

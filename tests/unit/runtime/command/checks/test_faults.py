@@ -139,13 +139,6 @@ CASES = {
         | {"look-alike": (UNKNOWN, "not recognised", AT_WHICH)},
     ),
     "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),
-    "the servos' own protocol": Case(
-        before=sending("55 55 01 07 01 20 03 E8 03 E8"),
-        expected=failed(
-            silence=(f"10 {NO_FRAME}", SEE_RATE),
-            look_alike=("another protocol came: LX-16A", "look-alikes"),
-        ),
-    ),
     "another edition": Case(
         before=sending("55 55 03 63 01"),
         expected=failed(
