@@ -194,15 +194,11 @@ def test_zsh_finds_fields_and_ports(call: str, offered: list[str], tmp_path: Pat
         ("framegen", [*framegen.cli.VERBS, "unknown-type", "python"]),
     ],
 )
-def test_every_shell_learns_verbs_options_and_names(
-    program: str, words: list[str], shell: str
-) -> None:
+def test_shells_learn_verbs_options_and_names(program: str, words: list[str], shell: str) -> None:
     assert [word for word in words if word not in script(program, shell)] == []
 
 
 # ------------------------------------------------------------------ where it cannot be made
-
-
 @in_turn("program", lambda: PROGRAMS)
 def test_without_shtab_there_is_a_hint(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "shtab", None)
@@ -211,9 +207,7 @@ def test_without_shtab_there_is_a_hint(program: str, monkeypatch: pytest.MonkeyP
 
 
 @in_turn("program", lambda: PROGRAMS)
-def test_a_shtab_too_old_for_fish_gets_a_hint_to_upgrade(
-    program: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_shtab_too_old_for_fish_gets_a_hint(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
     shtab = pytest.importorskip("shtab")
 
     def refuse(*_: object, **__: object) -> None:

@@ -55,8 +55,6 @@ def log(tmp_path: Path) -> Path:
 
 
 # ------------------------------------------------------------------ where bytes come from
-
-
 def test_the_bytes_may_be_words_or_a_file_or_standard_input(tmp_path: Path) -> None:
     hexed, raw = tmp_path / "stop.log", tmp_path / "stop.bin"
     hexed.write_text(STOP)
@@ -109,7 +107,6 @@ def test_a_recording_can_be_replayed_from_a_pipe(log: Path) -> None:
 
 
 # ------------------------------------------------------------------ what is printed
-
 ZERO = ["0.250000", "0.375000", "1.250000", "2.000000", "2.500000", "2.750000"]
 DELTA = ["0.250000", "0.125000", "0.875000", "0.750000", "0.500000", "0.250000"]
 SECONDS = ["0.000000", "0.125000", "1.000000", "1.750000", "2.250000", "2.500000"]
@@ -201,16 +198,12 @@ def test_missing_times_are_reported(
         ("13 13 13", None),
     ],
 )
-def test_what_is_mostly_noise_may_be_another_protocol_or_text(
-    data: str, expected: str | None
-) -> None:
+def test_mostly_noise_may_be_another_protocol_or_text(data: str, expected: str | None) -> None:
     _, *hints = run("decode", data).err.splitlines()
     assert hints == ([] if expected is None else [f"hint: most of it is noise; it {expected}"])
 
 
-def test_a_frame_can_be_hex_or_the_bytes_themselves(
-    capfdbinary: pytest.CaptureFixture[bytes],
-) -> None:
+def test_a_frame_can_be_hex_or_bytes_themselves(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     assert main(["encode", "action_group-stop"]) == 0
     assert capfdbinary.readouterr().out == f"{STOP}\n".encode()
     assert main(["encode", "--raw", "ActionGroupStop"]) == 0
@@ -231,8 +224,6 @@ def test_without_a_verb_the_verbs_are_listed() -> None:
 
 
 # ------------------------------------------------------------------ how far it has come
-
-
 @in_turn(
     "done, size, seconds, share, said",
     lambda: [
@@ -270,9 +261,7 @@ def test_the_line_of_progress_leaves_room_for_what_ctrl_c_prints() -> None:
     assert terminal.getvalue() == f"\r{77 * 'x'}"
 
 
-def test_a_long_file_says_how_far_it_has_been_read(
-    log: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_long_file_says_how_far_it_is_read(log: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setattr(recording, "PROGRESS_INTERVAL", 0.0)

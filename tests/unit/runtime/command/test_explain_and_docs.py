@@ -73,8 +73,6 @@ def other(request: pytest.FixtureRequest) -> Iterator[tuple[Data, ModuleType]]:
 
 
 # ---------------------------------------------------------------------------- one explanation
-
-
 def frames_of(model: Model) -> list[bytes]:
     """Return every single frame of the test vectors, legal or not, and those of look-alikes."""
     given = [each.data for frames in (valid_frames, invalid_frames) for each in frames(model)]
@@ -110,8 +108,6 @@ def test_both_commands_print_the_same(words: str) -> None:
 
 
 # ---------------------------------------------------------------------------- the model as data
-
-
 @pytest.mark.parametrize(("spec", "model"), [(BUSSERVO, SERVO), (DEMO, HOUSE)])
 def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model: Model) -> None:
     (text,) = (text for path, text in library_of(spec).items() if path.endswith("/protocol.json"))
@@ -126,8 +122,6 @@ def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model
 
 
 # ---------------------------------------------------------------------------- docs
-
-
 def printed(*words: str) -> str:
     status, output, errors = run("docs", *words)
     assert (status, errors) == (0, "")

@@ -123,9 +123,7 @@ def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
 
 @in_turn("baud", lambda: ["19200", "inf"])
 @in_turn("line", lambda: ["send BatteryVoltageRead", "bench-line", "monitor", f"{REPLAY} --raw"])
-def test_the_rate_is_that_of_the_port(
-    monkeypatch: pytest.MonkeyPatch, line: str, baud: str
-) -> None:
+def test_a_rate_is_that_of_the_port(monkeypatch: pytest.MonkeyPatch, line: str, baud: str) -> None:
     opened = refused_port(monkeypatch)
     assert run(*line.split(), "--port", "COM7", "--baud", baud).status == 2
     assert opened == [("COM7", float(baud))]
@@ -162,9 +160,7 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
 ]
 
 
-def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_the_port_is_by_option_environment_or_the_only_one(monkeypatch: pytest.MonkeyPatch) -> None:
     taken: list[str] = []
 
     def refuse(port: str, *_line: object, baud: float, **_: object) -> object:
@@ -184,9 +180,7 @@ def test_the_port_is_that_of_the_option_the_environment_or_the_only_one(
 
 
 @pytest.mark.parametrize("echoes", [True, False])
-def test_a_local_echo_is_expected_where_it_was_said(
-    monkeypatch: pytest.MonkeyPatch, *, echoes: bool
-) -> None:
+def test_a_local_echo_is_expected_if_said(monkeypatch: pytest.MonkeyPatch, *, echoes: bool) -> None:
     monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
     words = ("BatteryVoltageRead", "--baud", "inf", "--local-echo")
     with VirtualController("tcp", local_echo=echoes) as board:

@@ -100,9 +100,7 @@ def test_what_cannot_be_sent_is_refused_and_nothing_arrives(
     assert board.accepted == before + 1
 
 
-def test_a_move_ends_when_the_motion_is_over_or_need_not_be_waited_for(
-    board: VirtualController,
-) -> None:
+def test_a_move_ends_when_the_motion_is_over_or_is_not_waited_for(board: VirtualController) -> None:
     assert at(board, "move 1:520 2:480 --in 200ms").status == 0
     assert (board.servos[1].position, board.servos[2].position) == (520, 480)
     assert at(board, "move 1:800 --in 60s --no-wait").status == 0
@@ -125,9 +123,7 @@ def test_hold_holds_what_answers_and_names_the_rest(board: VirtualController) ->
     assert at(board, "hold") == (0, "", "servos 1, 2, 3 held\n")
 
 
-def test_what_is_far_outside_the_limits_is_named_and_the_rest_is_held(
-    board: VirtualController,
-) -> None:
+def test_what_is_outside_the_limits_is_named_and_the_rest_is_held(board: VirtualController) -> None:
     assert at(board, "move 1:700 --limits 600..1000").status == 0
     not_held = "not held: 500 is outside the limits 600..1000\n"
     held = f"servo 1 held\nservo 2 {not_held}servo 3 {not_held}"

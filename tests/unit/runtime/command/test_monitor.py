@@ -154,9 +154,7 @@ def test_both_ends_on_one_line_are_distinguished_where_possible() -> None:
         (["--hide", "host", "--hide", "either"], [15, 21]),
     ],
 )
-def test_what_either_end_may_have_sent_is_kept_when_in_doubt(
-    words: list[str], commands: list[int]
-) -> None:
+def test_what_either_end_may_have_sent_is_kept(words: list[str], commands: list[int]) -> None:
     shown = watched("--direction", "any", *words, line=Line(*BOTH))
     assert [int(line.rpartition(" | ")[2].split()[3], 16) for line in shown] == commands
 

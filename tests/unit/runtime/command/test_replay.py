@@ -86,7 +86,7 @@ def sent_by(log: Path, *words: str) -> list[Message | Noise]:
     return received
 
 
-def test_a_trace_of_a_client_is_played_without_what_came_back(
+def test_a_trace_is_played_without_what_came_back(
     log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Before each of the three, and behind them for both answers.

@@ -69,7 +69,6 @@ def error_of(*words: object, **how: Any) -> str:
 
 
 # ------------------------------------------------------------------ what it may hold
-
 NO_KEY = "there is no such key; there are port, baud, local_echo, ids, limits"
 NO_PORT = 'is no name of a port, such as "COM7"'
 NO_RATE = "is no rate: a whole number of baud, 1 or more, or inf"
@@ -157,8 +156,6 @@ def test_other_protocols_have_files_of_their_own(monkeypatch: pytest.MonkeyPatch
 
 
 # ------------------------------------------------------------------ what counts
-
-
 def test_an_option_counts_before_the_variable_the_file_here_and_that_of_the_user(
     monkeypatch: pytest.MonkeyPatch, user: Path
 ) -> None:
@@ -232,7 +229,6 @@ def test_the_ids_of_the_file_are_meant_where_none_are_named(
 
 
 # ------------------------------------------------------------------ what is saved
-
 PORT: dict[str, Any] = {"port": "/dev/ttyUSB0"}
 GRIP = "\r\n\r\n[limits]\r\n# grip\r\n1 = [100, 900]"
 # What stood there, what is saved, and what stands there then.
@@ -282,7 +278,7 @@ def test_what_is_saved_changes_its_own_lines_and_nothing_else() -> None:
     assert [*Path().iterdir()] == [path]
 
 
-def test_doctor_saves_what_it_has_found_unless_a_check_fails(
+def test_doctor_saves_what_it_finds_unless_a_check_fails(
     board: VirtualController, user: Path
 ) -> None:
     status, _, errors = run("doctor", "--port", "no-such-port", "--save")

@@ -115,9 +115,7 @@ def test_values_are_given_for_each_servo_and_absent_ones_are_only_counted(raw: P
     ]
 
 
-def test_values_of_many_servos_are_taken_together(
-    raw: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_values_of_many_servos_are_put_together(raw: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     some = [ServoPosition(each, 100 + each) for each in range(20)] + [ServoPosition(20, ABSENT)]
     raw.write_bytes(2 * ServoPositions(some).encode())
     together = "ServoPositions.positions.position  100..119 (2 absent)"
@@ -271,9 +269,7 @@ def test_ids_choose_what_is_listed(tmp_path: Path) -> None:
     assert picked(values, "number", "highest") == [(2, 2), (3, 3)]
 
 
-def test_what_has_no_figures_is_refused_with_the_bounds(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_has_no_figures_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     written(Path("line.hex"), TIMES)
     written(Path("undated.hex"), TIMES, "")

@@ -138,9 +138,7 @@ def test_equal_readings_are_a_band_without_height() -> None:
     ("suffix", "begins"),
     Rows([(".svg", b"<?xml"), (".PNG", b"\x89PNG")], others=[(".pdf", b"%PDF")]),
 )
-def test_the_same_capture_gives_the_same_drawing(
-    tmp_path: Path, suffix: str, begins: bytes
-) -> None:
+def test_the_same_capture_is_the_same_drawing(tmp_path: Path, suffix: str, begins: bytes) -> None:
     file, pictures = positions(tmp_path, 3), [tmp_path / f"{name}{suffix}" for name in "ab"]
     for picture in pictures:
         assert run("stats", file, "--plot", picture).status == 0
@@ -194,9 +192,7 @@ def test_each_servo_has_a_panel_and_all_share_the_axes(
 
 
 @in_turn("count, columns, rows", lambda: [(8, 1, 8), (20, 2, 10), (32, 4, 8), (70, 4, 16)])
-def test_panels_stand_in_as_many_columns_as_there_is_room_for(
-    count: int, columns: int, rows: int
-) -> None:
+def test_panels_stand_in_as_many_columns_as_have_room(count: int, columns: int, rows: int) -> None:
     (layout,) = (each for each in layouts_of(CODEC).every if each.kind is ServoPositions)
     (quantity,) = (each for each in quantities(layout) if each.key)
     page, left_out = panels.page_of([(quantity, {each: Trace() for each in range(count)})])

@@ -56,8 +56,6 @@ def poses_of(*poses: Any, **more: Any) -> str:
 
 
 # ------------------------------------------------------------------ teach
-
-
 def test_poses_are_recorded_at_each_enter_and_held_at_the_end(desk: Desk) -> None:
     status, output, errors = desk.teach(keys="y\n\nwhat\n\nq\ny\n")
     assert (status, output) == (0, "pose 1  1:500,2:500,3:500\npose 2  1:500,2:500,3:500\n")
@@ -193,8 +191,6 @@ def test_limp_servos_are_named_when_a_pose_cannot_be_written(
 
 
 # ------------------------------------------------------------------ play
-
-
 TWO = (
     {"positions": {"1": 600, "2": 400}, "time_ms": 20},
     {"positions": {"1": 500}, "pause_s": 0.01},
@@ -306,8 +302,6 @@ def test_positions_for_other_boards_are_played_where_limits_say_so(desk: Desk) -
 
 
 # ------------------------------------------------------------------ the file
-
-
 recorded = st.builds(
     Recorded,
     st.dictionaries(st.integers(0, 255), st.integers(0, 65535), min_size=1, max_size=83),

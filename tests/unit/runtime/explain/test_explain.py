@@ -36,7 +36,6 @@ def hints(hex_text: str, model: Model = LAYOUT) -> list[str]:
 
 
 # ---------------------------------------------------------------------------- whole pages
-
 MOVE = "55 55 08 03 01 E8 03 01 20 03"
 MOVE_PAGE = """\
 ServoMove, host -> controller
@@ -159,9 +158,7 @@ WAYS = (", host -> controller", ", controller -> host")
         pytest.param(NOISE_BEFORE, 1, NOISE_BEFORE_PAGE, id="a frame after noise"),
     ],
 )
-def test_a_page_explains_a_frame_and_json_holds_the_same(
-    hex_text: str, code: int, page: str
-) -> None:
+def test_a_page_explains_a_frame_and_json_as_well(hex_text: str, code: int, page: str) -> None:
     assert run("explain", BUSSERVO, *hex_text.split(), main=main) == (code, page, "")
     status, output, _ = run("explain", BUSSERVO, "--json", hex_text, main=main)
     printed = json.loads(output)
@@ -215,8 +212,6 @@ def test_of_a_long_paste_the_bytes_around_the_place_are_shown() -> None:
 
 
 # ---------------------------------------------------------------------------- frames
-
-
 def rows_cover(rows: tuple[Row, ...], data: bytes) -> bool:
     """Return whether the rows, in order, are the first bytes of `data`, none left out."""
     shown = b"".join(row.data for row in rows)
@@ -233,7 +228,7 @@ EXAMPLES = [
 
 
 @in_turn("model, name, data", lambda: EXAMPLES)
-def test_every_byte_and_every_value_of_an_example_is_explained(
+def test_each_byte_and_value_of_an_example_is_explained(
     model: Model, name: str, data: bytes
 ) -> None:
     message = model.messages[name]
@@ -325,7 +320,6 @@ def test_the_direction_that_came_closest_is_shown_first() -> None:
 
 
 # ---------------------------------------------------------------------------- hints
-
 DIALECT = "in the dialect of LeArm and uHand boards,"
 READ = "BatteryVoltageRead (host -> controller)"
 STOP = "ActionGroupStop (host -> controller) or ActionGroupStopped (controller -> host)"
@@ -378,8 +372,6 @@ def test_a_corrected_length_is_proposed_whatever_it_counts() -> None:
 
 
 # ---------------------------------------------------------------------------- look-alikes
-
-
 @in_turn(
     "hex_, name, command, meaning",
     lambda: [
@@ -419,8 +411,6 @@ def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: s
 
 
 # ---------------------------------------------------------------------------- the command
-
-
 @in_turn(
     "words, expected",
     lambda: [
@@ -441,9 +431,7 @@ def test_the_spec_may_have_any_name(tmp_path: Path) -> None:
     assert run("explain", file, MOVE, main=main) == (0, MOVE_PAGE, "")
 
 
-def test_hex_longer_than_a_path_can_be_is_hex(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_hex_longer_than_any_path_is_hex(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # With two specs, the first word would have to name one.
     shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("lx*"))
     monkeypatch.chdir(tmp_path)
@@ -486,16 +474,12 @@ LONG = 40 * "55"
         ),
     ],
 )
-def test_what_cannot_be_explained_is_shown_at_its_place(
-    words: list[str], problem: str, hint: str
-) -> None:
+def test_what_is_not_explained_is_shown_in_place(words: list[str], problem: str, hint: str) -> None:
     said = f"framegen: error: {problem}\n  hint: {hint}\n"
     assert run("explain", BUSSERVO, *words, main=main) == (2, "", said)
 
 
 # ---------------------------------------------------------------------------- any bytes
-
-
 @given(model=st.sampled_from([LAYOUT, GREENHOUSE]), data=st.binary(min_size=1) | damaged_frames())
 def test_any_bytes_are_explained(model: Model, data: bytes) -> None:
     explanation = explain(model, data, model.directions)

@@ -143,8 +143,6 @@ def test_what_is_taken_for_raw_bytes_is_all_there(content: bytes) -> None:
 
 
 # --- Hex -----------------------------------------------------------------------------------------
-
-
 @in_turn("text, data", lambda: HEX)
 def test_hex_of_any_usual_shape_is_read(text: str, data: str) -> None:
     assert read_hex(text) == bytes.fromhex(data)
@@ -216,7 +214,6 @@ def test_one_more_comment_or_blank_changes_nothing(text: str) -> None:
 
 
 # --- Logs ----------------------------------------------------------------------------------------
-
 BOTH = "12:00:59.5 TX: 55 55 02 07\n12:01:00.25 RX: 55 55 04\n12:01:00.5 RX: 0F 4C 1D\n"
 
 
@@ -228,9 +225,7 @@ def said(text: str) -> list[tuple[str, str]]:
 
 
 @in_turn("text, pieces", lambda: LOGS)
-def test_each_line_of_a_log_says_its_bytes_and_their_way(
-    text: str, pieces: list[tuple[str, str]]
-) -> None:
+def test_a_line_of_a_log_says_bytes_and_their_way(text: str, pieces: list[tuple[str, str]]) -> None:
     assert said(text) == pieces
     data = bytes.fromhex("".join(hex_ for _, hex_ in pieces))
     assert read_hex(without_log(text)) == data

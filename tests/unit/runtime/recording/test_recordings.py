@@ -60,8 +60,6 @@ def noise(data: bytes | str, reason: Reason) -> Noise:
 
 
 # ---------------------------------------------------------------------------- recordings
-
-
 STRANGE, SHORT = Reason.UNKNOWN_COMMAND, Reason.TOO_SHORT
 RUN, STARTED = ActionGroupRun(group=8, times=1), ActionGroupStarted(group=8, times=1)
 SAME = RUN.encode().hex(" ")
@@ -167,8 +165,6 @@ def test_there_is_no_other_form() -> None:
 
 
 # ---------------------------------------------------------------------------- streams
-
-
 @given(lines, st.sampled_from([None, HOST, BOARD]))
 def test_raw_bytes_and_plain_hex_are_one_stream(line: bytes, direction: Direction | None) -> None:
     expected = joined(decoded(direction, [line]))
@@ -197,8 +193,6 @@ def test_quiet_ends_a_frame_in_plain_hex_too() -> None:
 
 
 # ---------------------------------------------------------------------------- what it is
-
-
 TEXTS = [
     *(b"55 55 02 07", b"\xef\xbb\xbf55 55 02 07", b"\n# a comment: \xc3\xa9\n55", b"0x55,0x55"),
     *(rb"\x55\x55", b"5 55 02 07", b"5G  # 0.5 s, host: a slip", b"", b"# nothing but words"),
@@ -243,9 +237,7 @@ def result_of(pieces: list[bytes]) -> tuple[str, list[object], list[Message | No
 
 @given(contents, st.data())
 @example(b"5555020F" * 3, None)
-def test_chunking_does_not_change_what_a_recording_holds(
-    content: bytes, data: st.DataObject | None
-) -> None:
+def test_chunking_does_not_change_what_it_holds(content: bytes, data: st.DataObject | None) -> None:
     cuts = [*range(1, len(content))]
     if data is not None:
         cuts = sorted(data.draw(st.lists(st.integers(0, len(content)), max_size=len(content))))

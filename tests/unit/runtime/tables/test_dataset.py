@@ -104,11 +104,7 @@ def test_what_is_done_is_not_done_again(
 
 
 # --- What changes --------------------------------------------------------------------------------
-
-
-def test_a_capture_that_has_changed_takes_the_place_of_what_it_was(
-    captures: Path, folder: Path
-) -> None:
+def test_a_changed_capture_takes_the_place_of_what_it_was(captures: Path, folder: Path) -> None:
     archived(captures, folder)
     (captures / "line.bin").write_bytes(conversation(15)[100:])
     reports = archived(captures, folder)
@@ -116,7 +112,7 @@ def test_a_capture_that_has_changed_takes_the_place_of_what_it_was(
     assert rows_in(folder) == rows_of(captures)
 
 
-def test_pieces_of_another_size_take_the_place_of_those_that_they_overlap(
+def test_pieces_of_another_size_replace_those_that_they_overlap(
     captures: Path, folder: Path
 ) -> None:
     for size in (SIZE, 700, 4000):
@@ -150,8 +146,6 @@ def test_what_was_written_with_other_tables_is_written_again(
 
 
 # --- What is broken ------------------------------------------------------------------------------
-
-
 def test_a_broken_capture_is_reported_and_the_others_are_done(captures: Path, folder: Path) -> None:
     expected = rows_of(captures)
     broken, gone = captures / "broken.hex", captures / "gone.bin"
@@ -275,9 +269,7 @@ def test_a_damaged_manifest_of_another_piece_is_replaced(line: Path, folder: Pat
 
 
 @in_turn("wrong", lambda: NO_MANIFESTS)
-def test_a_dataset_that_does_not_tell_its_protocol_is_refused(
-    wrong: Any, line: Path, folder: Path
-) -> None:
+def test_a_dataset_of_an_unknown_protocol_is_refused(wrong: Any, line: Path, folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     (piece,) = scan(line)
     file = folder / "_pieces" / "library.json"
@@ -290,8 +282,6 @@ def test_a_dataset_that_does_not_tell_its_protocol_is_refused(
 
 
 # --- What is stopped -----------------------------------------------------------------------------
-
-
 class Killed(BaseException):
     """Stands for the end of a process: nothing is tidied up behind it."""
 
@@ -377,8 +367,6 @@ def test_two_workers_at_one_piece_do_no_harm(
 
 
 # --- What is said --------------------------------------------------------------------------------
-
-
 def test_a_report_says_what_became_of_a_piece() -> None:
     piece = Piece("/c/line.bin", "line.bin", 0, 1_500_000, "raw", None, (1_500_000, 1))
     rows = {"BatteryVoltage": 3, "noise": 1}
@@ -393,9 +381,7 @@ def test_a_report_says_what_became_of_a_piece() -> None:
 
 
 @in_turn("name", lambda: ["a\x1b[31m.bin", "a\nb.bin", "\u202ea.bin"])
-def test_a_name_that_controls_the_screen_is_escaped_when_it_is_printed(
-    name: str, folder: Path
-) -> None:
+def test_a_name_that_controls_the_screen_is_escaped_when_printed(name: str, folder: Path) -> None:
     piece = Piece(f"/c/{name}", name, 0, 7, "raw", None, (7, 1))
     report, shown = archive(piece, folder), name.encode("unicode_escape").decode()
     assert str(piece) == f"{shown}[0:7]"

@@ -76,8 +76,6 @@ def test_files_hold_the_tables_of_a_capture(way: str, tmp_path: Path) -> None:
 
 
 # --- Parquet -------------------------------------------------------------------------------------
-
-
 def test_names_and_units_are_kept(tmp_path: Path) -> None:
     write_parquet(CAPTURE, tmp_path)
     for path in tmp_path.iterdir():
@@ -100,9 +98,7 @@ def _unnumbered(field: pa.Field) -> dict[bytes, bytes]:
     return {name: text for name, text in (field.metadata or {}).items() if b"PARQUET" not in name}
 
 
-def test_row_groups_are_written_when_so_much_is_held(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_row_groups_are_written_at_a_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(parquet, "_ROW_GROUP", 2000)
     batch = read(CAPTURE)["BatteryVoltage"].to_batches()[0]
     rows = parquet.parquet_written([*schemas()], [{"BatteryVoltage": batch}] * 10, tmp_path)
@@ -175,8 +171,6 @@ def test_a_full_disk_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 # --- Arrow ---------------------------------------------------------------------------------------
-
-
 def test_events_of_many_blocks_are_in_order(tmp_path: Path) -> None:
     batches = read_batches(CAPTURE * 10, form="raw", block=1000)
     arrow_written(schemas_of(CODEC), batches, tmp_path / "line.arrow", schemas())

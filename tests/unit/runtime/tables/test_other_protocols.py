@@ -146,9 +146,7 @@ def test_a_checksum_is_not_taken_for_a_number_that_is_absent(libraries: Librarie
     assert (first.table, first.offset) == ("Tail", 0)
 
 
-def test_a_character_that_is_none_and_an_address_that_is_none_are_refused(
-    libraries: Libraries,
-) -> None:
+def test_a_character_and_an_address_that_are_none_are_refused(libraries: Libraries) -> None:
     made = libraries["everything"]
     frame = bytearray(made.Texts(name="a", note="b").encode())
     frame[5] = 0x80
@@ -164,8 +162,6 @@ def test_a_character_that_is_none_and_an_address_that_is_none_are_refused(
 
 
 # --- CSV -----------------------------------------------------------------------------------------
-
-
 def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, dict[str, str]]]:
     """Return the rows of all CSV files, in the order of the capture, as they are read back."""
     recordings: Any = import_module(f"{made.__name__}.recordings")
@@ -222,9 +218,7 @@ def text(value: Any) -> str:
 @pytest.mark.parametrize("name", ["everything", "sbus", "ubx"])
 @settings(max_examples=12)
 @given(data=st.data())
-def test_csv_files_hold_what_the_decoder_finds(
-    libraries: Libraries, name: str, data: st.DataObject
-) -> None:
+def test_csv_holds_what_decoders_find(libraries: Libraries, name: str, data: st.DataObject) -> None:
     made, model = libraries[name], model_of(name)
     way = data.draw(st.sampled_from([*model.directions]))
     line = data.draw(lines(name, way))
@@ -240,7 +234,6 @@ def filled(row: tuple[str, dict[str, str]]) -> tuple[str, dict[str, str]]:
 
 
 # --- Any width -----------------------------------------------------------------------------------
-
 WIDE = """
 framegen: 2
 protocol: {{name: wide, title: Wide, version: 1.0.0, authority: nobody, summary: Wide numbers.}}

@@ -50,9 +50,7 @@ def captures_of(pieces: Iterable[Piece]) -> list[str]:
 
 @in_turn("direction", lambda: [*Direction, None])
 @in_turn("size", lambda: [100, 10_000_000])
-def test_the_pieces_of_a_capture_are_its_tables(
-    direction: Direction | None, size: int, line: Path
-) -> None:
+def test_pieces_together_are_the_tables(direction: Direction | None, size: int, line: Path) -> None:
     pieces = scan(line.parent, size=size, direction=direction)
     starts = [piece.start for piece in pieces]
     assert [pieces[0].start, *(piece.end for piece in pieces)] == [*starts, len(CAPTURE)]
@@ -93,7 +91,6 @@ def test_a_piece_may_be_sent_to_another_process(line: Path) -> None:
 
 
 # --- What is scanned -----------------------------------------------------------------------------
-
 TREE = ["b.bin", "a/line.bin", "a/other.bin", "a/deep/line.bin", "c/line.bin"]
 IN_ORDER = ["a/deep/line.bin", "a/line.bin", "a/other.bin", "b.bin", "c/line.bin"]
 
@@ -120,9 +117,7 @@ def test_a_folder_is_all_files_in_it_in_order(tmp_path: Path) -> None:
         (["line[1].bin"], ["line[1].bin"]),
     ],
 )
-def test_captures_are_named_by_what_tells_them_apart(
-    names: list[str], found: list[str], tmp_path: Path
-) -> None:
+def test_captures_are_told_apart(names: list[str], found: list[str], tmp_path: Path) -> None:
     written(tmp_path, [*TREE, "line[1].bin", "line1.bin"])
     assert captures_of(scan([str(tmp_path / name) for name in names])) == found
     if len(names) == 1:
@@ -138,9 +133,7 @@ def test_what_is_not_there_is_a_piece_that_says_so(name: str, line: Path) -> Non
     assert there.read().filled
 
 
-def test_a_file_that_cannot_be_read_is_a_piece_that_says_so(
-    line: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_unreadable_file_says_so_as_a_piece(line: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def denied(path: Path, *_: object, **_named: object) -> None:
         raise PermissionError(13, "Permission denied", str(path))
 
@@ -219,7 +212,6 @@ def test_another_form_is_refused(line: Path) -> None:
 
 
 # --- Safe places to cut --------------------------------------------------------------------------
-
 LARGEST = 257
 STOP = ActionGroupStop().encode()
 # Some are larger than the windows in which places are looked for.
@@ -246,16 +238,12 @@ def holds(capture: bytes, size: int, direction: Direction | None) -> None:
 
 
 @given(captures, sizes, directions)
-def test_the_pieces_have_the_events_of_the_whole(
-    capture: bytes, size: int, direction: Direction | None
-) -> None:
+def test_pieces_hold_all_events(capture: bytes, size: int, direction: Direction | None) -> None:
     holds(capture, size, direction)
 
 
 @given(lines, directions)
-def test_so_they_have_for_protocols_that_are_not_searched_at_once(
-    line: bytes, direction: Direction | None
-) -> None:
+def test_so_they_do_where_frames_are_tried(line: bytes, direction: Direction | None) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(cuts, "frames_on", lambda _codec, _direction: None)
         holds(line, 1, direction)

@@ -169,7 +169,6 @@ def test_long_noise_is_one_row_of_each_reason(direction: Direction | None) -> No
 
 
 # --- What holds a line ----------------------------------------------------------------------------
-
 VOLTAGE = bytes.fromhex("55 55 04 0F 4C 1D")
 LINE = STOP + b"\0\0" + VOLTAGE + UNKNOWN + STOP + bytes(900) + STOP
 
@@ -258,7 +257,6 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
 
 
 # --- Text ----------------------------------------------------------------------------------------
-
 chunks = st.one_of(
     strategies.messages().map(Message.encode),
     damaged_frames(),

@@ -175,7 +175,6 @@ def test_where_nothing_is_measured_other_numbers_are_drawn_first_those_of_the_de
 
 
 # --- Times and gaps ------------------------------------------------------------------------------
-
 READING = BatteryVoltage(7000).encode()
 
 
@@ -250,9 +249,7 @@ def test_noise_of_each_line_of_a_recording_is_counted() -> None:
     assert (noise.count, noise.size) == (1, 4)
 
 
-def test_unknown_frames_of_too_many_kinds_are_counted_together(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_unknown_frames_of_many_kinds_are_counted_together(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(statistics, "_MOST_UNKNOWN", 2)
     commands = (99, 98, 98, 97, 96, 99, 98)
     frames = b"".join(bytes([0x55, 0x55, 3, command, 1]) for command in commands)
@@ -293,8 +290,6 @@ def test_times_that_go_back_stand_still_until_they_are_reached(many: int) -> Non
 
 
 # --- Traces --------------------------------------------------------------------------------------
-
-
 def test_a_long_trace_keeps_what_can_be_seen_of_it() -> None:
     choose = np.random.default_rng(5)
     seconds = np.cumsum(choose.uniform(0, 0.2, 200_000))

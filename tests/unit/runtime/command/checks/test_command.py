@@ -29,9 +29,7 @@ PATIENT = ("--timeout", GENEROUS)
 
 
 @pytest.mark.usefixtures("nothing_else_comes")
-def test_each_check_is_a_line_with_its_bytes_below_it_or_one_of_json(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_each_check_is_a_line_with_its_bytes_or_json(monkeypatch: pytest.MonkeyPatch) -> None:
     with VirtualController("tcp") as board:
         status, output, errors = run("doctor", "--port", board.port, *PATIENT)
         assert (status, board.rejects.total) == (0, 0)
@@ -88,8 +86,6 @@ def test_whatever_ends_it_the_port_is_given_back() -> None:
 
 
 # ------------------------------------------------------------------ reports
-
-
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     return tmp_path / "report.hex"
@@ -160,9 +156,7 @@ def test_a_report_is_never_overwritten(path: Path) -> None:
     assert "# failed opening: PORT: there is no such port" in path.read_text()
 
 
-def test_a_report_is_written_even_where_it_was_ended_early(
-    path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_report_is_written_where_ended_early(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(_: Diagnosis) -> Result:
         raise KeyboardInterrupt
 
@@ -173,7 +167,6 @@ def test_a_report_is_written_even_where_it_was_ended_early(
 
 
 # ------------------------------------------------------------------ what moves
-
 OPENING = [check for check in CHECKS if check.id in {"port", "permission", "busy", "opening"}]
 
 

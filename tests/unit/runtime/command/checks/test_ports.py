@@ -149,8 +149,6 @@ def test_a_line_lost_during_the_checks_is_reported_as_lost() -> None:
 
 
 # ------------------------------------------------------------------ rates, on pseudo terminals
-
-
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch, nothing_else_comes: None) -> None:
     """Shorten the waits: nothing here is late."""

@@ -280,9 +280,7 @@ TEXTUAL = {"a GPS receiver", "an Arduino", "a banner"}
 
 
 @pytest.mark.parametrize("name", some(FILES, lambda name: name == "lxservo"))
-def test_no_doctor_takes_what_is_of_no_protocol_for_its_own(
-    libraries: Libraries, name: str
-) -> None:
+def test_no_doctor_takes_what_is_no_protocol_for_its_own(libraries: Libraries, name: str) -> None:
     package = name if name == "lxservo" else libraries[name].__name__
     rate = import_module(f"{package}._library").LINK.baud
     for device, made in OF_NONE.items():
