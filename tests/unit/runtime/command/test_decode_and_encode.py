@@ -59,8 +59,9 @@ def test_the_bytes_may_be_words_or_a_file_or_standard_input(tmp_path: Path) -> N
     hexed, raw = tmp_path / "stop.log", tmp_path / "stop.bin"
     hexed.write_text(STOP)
     raw.write_bytes(bytes.fromhex(STOP))
-    files: list[list[object]] = [[hexed], [raw], ["--file", hexed], ["--file", raw]]
-    for words in (STOP.split(), [STOP], *files, [], ["-"], ["--file", "-"], ["--format", "raw"]):
+    ways: list[list[object]] = [[hexed], [raw], ["--file", hexed], ["--file", raw], [STOP]]
+    ways += [[*STOP.split()], [], ["-"], ["--file", "-"], ["--format", "raw"]]
+    for words in ways:
         shown = run("decode", "--direction", "host", *words, given=raw.read_bytes())
         assert (shown.status, shown.out) == (0, SHOWN), words
 

@@ -10,6 +10,9 @@ from tests.commands import called
 from tests.in_turn import in_turn
 
 POSES = '{"format": "busservo poses", "version": 1, "poses": [{"positions": {"1": 500}}]}'
+NO_SECONDS = "is no number of seconds"
+NO_NUMBER = "the capture holds no message with a number in it"
+ENDS = "its name has to end with one of .svg, .png, .pdf"
 # By how a command line begins: how it goes on, and what is said of it.
 REFUSED: dict[str, list[tuple[str | list[str], str]]] = {
     "doctor --port no-such-port": [
@@ -25,7 +28,7 @@ REFUSED: dict[str, list[tuple[str | list[str], str]]] = {
         ("ActionGroupStarted", "ActionGroupStarted is never sent from here"),
         ("ServoPositionsRead", "ServoPositionsRead needs servo_ids"),
         (
-            ["ServoPositionsRead", f"servo_ids={','.join(map(str, range(85)))}"],
+            f"ServoPositionsRead servo_ids={','.join(map(str, range(85)))}",
             "servo_ids: 85 items are requested at once, and a reply has room for 84",
         ),
         ("-n 0", "argument -n: 0 is below 1"),
@@ -82,21 +85,15 @@ REFUSED: dict[str, list[tuple[str | list[str], str]]] = {
         ("ActionGroupStopped", "is never sent from here"),
         ("ServoMov", "did you mean ServoMove?"),
         ("ServoMove time_ms=1", "ServoMove needs targets"),
-        (
-            ["ServoPositionsRead", f"servo_ids={100 * '1,'}300"],
-            "servo_ids[100]: 300 is outside 0..255",
-        ),
+        (f"ServoPositionsRead servo_ids={100 * '1,'}300", "servo_ids[100]: 300 is outside 0..255"),
     ],
     "send --port loop:// BatteryVoltageRead": [
         ("--retries -1", "argument --retries: -1 is below 0, the least there can be"),
         ("--timeout 0", "argument --timeout: 0 is not above 0 and up to 3600 seconds"),
         ("--timeout inf", "argument --timeout: inf is not above 0 and up to 3600 seconds"),
-        (
-            "--timeout nan",
-            "argument --timeout: 'nan' is no number of seconds: write it like 12 or 0.5",
-        ),
-        ("--timeout soon", "argument --timeout: 'soon' is no number of seconds"),
-        ("--timeout 1_0", "argument --timeout: '1_0' is no number of seconds"),
+        ("--timeout nan", f"argument --timeout: 'nan' {NO_SECONDS}: write it like 12 or 0.5"),
+        ("--timeout soon", f"argument --timeout: 'soon' {NO_SECONDS}"),
+        ("--timeout 1_0", f"argument --timeout: '1_0' {NO_SECONDS}"),
         ("--retries ٣", "argument --retries: '٣' is no whole number"),
         ("--baud 0", "argument --baud: 0 is below 1"),
         (["--baud", str(2**31)], "baud is 2147483648, and must be from 1 to 2147483647"),
@@ -104,15 +101,12 @@ REFUSED: dict[str, list[tuple[str | list[str], str]]] = {
     "stats": [
         (
             "--plot line.gif",
-            "line.gif cannot be drawn: its name has to end with one of .svg, .png, .pdf",
+            f"line.gif cannot be drawn: {ENDS}",
         ),
         ("--plot absent/line.svg", "absent/line.svg cannot be written: there is no folder"),
         ("--baud 0", "argument --baud: 0 is below 1, the least there can be"),
         ("--file absent.bin", "absent.bin cannot be read: No such file or directory"),
-        (
-            "55 --plot line.svg",
-            "line.svg is not drawn: the capture holds no message with a number in it",
-        ),
+        ("55 --plot line.svg", f"line.svg is not drawn: {NO_NUMBER}"),
     ],
     "teach . --port loop://": [
         ("--ids 1-", "'1-' is neither a number nor a range like 1-6"),

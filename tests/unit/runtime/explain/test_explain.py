@@ -54,14 +54,18 @@ Turn one or more servos to positions, all of them in the same time.
   example: Servo 1 to position 800 in 1000 ms (vendor, section 1.1, example 1)
   source:  vendor, section 1.1 (Bus Servo Controller Communication Protocol)
 """
-
 BATTERY = "55 55 04 0F 4C 1D"
 # As the guide shows it, up to the next command.
 GUIDE = (ROOT / "docs" / "command.md").read_text("utf-8")
 BATTERY_PAGE = GUIDE.partition(f"$ busservo explain {BATTERY}\n")[2].partition("$ ")[0]
-
-OFF_BY_ONE = "55 55 09 03 01 E8 03 01 20 03"
-OFF_BY_ONE_PAGE = """\
+# What is explained, the status, and the page.
+PAGES = {
+    "a command": (MOVE, 0, MOVE_PAGE),
+    "a reply with a scale": (BATTERY, 0, BATTERY_PAGE),
+    "a length that is off by one": (
+        "55 55 09 03 01 E8 03 01 20 03",
+        1,
+        """\
 These 10 bytes are no frame of the Hiwonder bus servo controller.
 
   55 55 09 03 01 E8 03 01 20 03
@@ -78,10 +82,12 @@ These 10 bytes are no frame of the Hiwonder bus servo controller.
 
 hint: 10 bytes have a length of 8; with that they are ServoMove (host -> controller)
       55 55 08 03 01 E8 03 01 20 03
-"""
-
-LX16A = "55 55 01 07 01 20 03 E8 03 E8"
-LX16A_PAGE = """\
+""",
+    ),
+    "a frame of a look-alike": (
+        "55 55 01 07 01 20 03 E8 03 E8",
+        1,
+        """\
 These 10 bytes are no frame of the Hiwonder bus servo controller.
 
   55 55 01 07 01 20 03 E8 03 E8
@@ -98,10 +104,12 @@ hint: this looks like a frame of the LX-16A bus servo protocol. Spoken behind th
       number comes before the length, and a checksum ends the frame. Public write-ups mix the
       two up. For servos without the controller there is lxservo, from the same house, whose
       command reads these frames.
-"""
-
-BOTH_WAYS = "55 55 05 06 02 00 00"
-BOTH_WAYS_PAGE = """\
+""",
+    ),
+    "a frame that is legal in both directions": (
+        "55 55 05 06 02 00 00",
+        0,
+        """\
 ActionGroupRun, host -> controller
 Run an action group stored on the controller, a number of times or for ever.
 
@@ -130,10 +138,12 @@ An action group has started to run.
   reports on: ActionGroupRun
   example:    Action group 2 has started, to run until it is stopped
   source:     vendor, section 2.1 (Bus Servo Controller Communication Protocol)
-"""
-
-NOISE_BEFORE = "00 FF 55 55 55 02 0F"
-NOISE_BEFORE_PAGE = """\
+""",
+    ),
+    "a frame after noise": (
+        "00 FF 55 55 55 02 0F",
+        1,
+        """\
 These 7 bytes are no frame of the Hiwonder bus servo controller.
 
   00 FF 55 55 55 02 0F
@@ -142,22 +152,13 @@ These 7 bytes are no frame of the Hiwonder bus servo controller.
 
 hint: a frame begins at byte 3: BatteryVoltageRead (host -> controller)
       55 55 02 0F
-"""
-
+""",
+    ),
+}
 WAYS = (", host -> controller", ", controller -> host")
 
 
-@pytest.mark.parametrize(
-    ("hex_text", "code", "page"),
-    [
-        pytest.param(MOVE, 0, MOVE_PAGE, id="a command"),
-        pytest.param(BATTERY, 0, BATTERY_PAGE, id="a reply with a scale"),
-        pytest.param(BOTH_WAYS, 0, BOTH_WAYS_PAGE, id="a frame that is legal in both directions"),
-        pytest.param(OFF_BY_ONE, 1, OFF_BY_ONE_PAGE, id="a length that is off by one"),
-        pytest.param(LX16A, 1, LX16A_PAGE, id="a frame of a look-alike"),
-        pytest.param(NOISE_BEFORE, 1, NOISE_BEFORE_PAGE, id="a frame after noise"),
-    ],
-)
+@pytest.mark.parametrize(("hex_text", "code", "page"), PAGES.values(), ids=PAGES)
 def test_a_page_explains_a_frame_and_json_as_well(hex_text: str, code: int, page: str) -> None:
     assert run("explain", BUSSERVO, *hex_text.split(), main=main) == (code, page, "")
     status, output, _ = run("explain", BUSSERVO, "--json", hex_text, main=main)

@@ -17,9 +17,9 @@ from tests.mutations.places import renamed
 from tests.protocols.libraries import Libraries
 from tests.protocols.specs import FILES, messages_of
 from tests.rows import some
+from tests.unit.runtime.tables.conftest import is_shown
 from tests.unit.runtime.tables.hostile import sealing
 from tests.unit.runtime.tables.rows import exact, fields_of, rows_in_tables
-from tests.unit.runtime.tables.shown import is_shown
 
 EVENT = ["offset", "size", "direction", "time", "clock"]
 

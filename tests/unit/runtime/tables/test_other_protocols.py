@@ -37,7 +37,7 @@ from tests.unit.runtime.tables.rows import (
     rows_in_tables,
     rows_of_decoder,
 )
-from tests.unit.runtime.tables.shown import is_shown
+from tests.unit.runtime.tables.conftest import is_shown
 
 # Which protocols are searched at many places at once, by the sender, `any` for all of them; and
 # why the others are not. What is searched in order is right as well, and slower.
