@@ -6,7 +6,7 @@ from tests.contract.protocols.conftest import libraries
 
 __all__ = ["libraries"]
 
-# A CRC; every kind of field; the one that ships; a checksum of two sums. tests/world has the others.
+# A CRC; every kind of field; the one that ships; two sums as a checksum. tests/world has others.
 SHOWN = {"crsf", "everything", "lxservo", "ubx"}
 
 

@@ -30,6 +30,7 @@ from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
 from tests.rows import some
+from tests.unit.runtime.tables.conftest import is_shown
 from tests.unit.runtime.tables.hostile import hostile_lines, sealing
 from tests.unit.runtime.tables.rows import (
     Row,
@@ -37,7 +38,6 @@ from tests.unit.runtime.tables.rows import (
     rows_in_tables,
     rows_of_decoder,
 )
-from tests.unit.runtime.tables.conftest import is_shown
 
 # Which protocols are searched at many places at once, by the sender, `any` for all of them; and
 # why the others are not. What is searched in order is right as well, and slower.
