@@ -21,7 +21,6 @@ from framewire.command.method_verb import MethodVerb
 from framewire.command.questions import in_parts
 from framewire.command.verbs import verb_named
 from framewire.line.hid_devices import HidDevice
-from framewire.line.link_errors import PortNotFoundError
 from framewire.line.serial_port import SerialPortSeen
 from serial.tools.list_ports_common import ListPortInfo
 
@@ -161,21 +160,14 @@ PORTS: list[tuple[list[str], str, list[SerialPortSeen], list[HidDevice], str]] =
 
 
 def test_the_port_is_by_option_environment_or_the_only_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    taken: list[str] = []
-
-    def refuse(port: str, *_line: object, baud: float, **_: object) -> object:
-        taken.append(port)
-        raise PortNotFoundError(port, f"it is a test at {baud}", "look elsewhere")
-
-    monkeypatch.setattr(link, "open_port", refuse)
-    found = []
+    opened, found = refused_port(monkeypatch), []
     for words, variable, ports, devices, _ in PORTS:
         monkeypatch.setenv("BUSSERVO_PORT", variable)
         monkeypatch.setattr(link, "serial_ports", lambda ports=ports: ports)
         monkeypatch.setattr(link, "hid_devices_at_hand", lambda _link, devices=devices: devices)
         status, _, errors = run("send", "ActionGroupStop", *words)
         assert status == 2
-        found.append(taken.pop() if taken else errors)
+        found.append(opened.pop()[0] if opened else errors)
     assert found == [expected for *_, expected in PORTS]
 
 
@@ -207,28 +199,21 @@ UNLISTED = (
     "USB HID devices (0483:5750) have no serial port, and are not listed without "
     "hidapi: pip install hidapi\n"
 )
+# Of two boards of a kind, each has an address of its own.
 IN_JSON = [
     {"port": USB0, "usb": "1A86:7523", "description": "USB Serial"},
-    # Of two boards of a kind, each has an address of its own.
     {"port": "hid:///dev/hidraw1", "usb": "0483:5750", "description": f"LOBOT, {ABOUT}"},
     {"port": "hid:///dev/hidraw2", "usb": "0483:5750", "description": ABOUT},
 ]
+TWO_PORTS = "/dev/ttyS0        -\n/dev/ttyUSB0      1A86:7523  USB Serial\n"
+TWO_BOARDS = "".join(f"{json.dumps(each)}\n" for each in IN_JSON)
 # The ports and the devices that there are, the words, and what is printed.
 LISTED: list[tuple[list[ListPortInfo], list[HidDevice] | None, str, str, str]] = [
     ([], [], "ports", "", NO_PORT),
     ([], None, "ports", "", f"{NO_PORT}{UNLISTED}"),
     ([], [LOBOT], "ports", f"hid://0483:5750   0483:5750  LOBOT, {ABOUT}\n", NO_PORT),
-    (
-        plugged_in(),
-        [],
-        "ports",
-        "/dev/ttyS0        -\n/dev/ttyUSB0      1A86:7523  USB Serial\n",
-        "",
-    ),
-    (
-        *(plugged_in()[:1], [LOBOT, NAMELESS], "ports --json"),
-        *("".join(f"{json.dumps(each)}\n" for each in IN_JSON), ""),
-    ),
+    (plugged_in(), [], "ports", TWO_PORTS, ""),
+    (plugged_in()[:1], [LOBOT, NAMELESS], "ports --json", TWO_BOARDS, ""),
 ]
 
 
