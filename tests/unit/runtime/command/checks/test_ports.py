@@ -1,16 +1,11 @@
 """The doctor's checks of ports: which there are, who may use them, and their rates."""
 
-import os
-import socket
-import threading
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from busservo import (
     BatteryVoltage,
-    BatteryVoltageRead,
     PortBusyError,
     PortNotFoundError,
     PortPermissionError,
@@ -19,6 +14,7 @@ from busservo import (
 from busservo_simulator import VirtualController
 from framewire.command.checks import port_listed, rate
 from framewire.command.checks.checks import examine
+from framewire.command.checks.diagnosis import Diagnosis
 from framewire.command.checks.result import FAILED, PASSED, UNKNOWN, Result
 from framewire.line.hid_devices import HidDevice
 from framewire.line.serial_port import SerialPortSeen
@@ -194,37 +190,9 @@ def test_a_connection_has_no_rate() -> None:
     )
 
 
-@pytest.fixture
-def port_without_rates(pty: Any) -> Iterator[str]:
-    """Return a pseudo terminal that leads to a board elsewhere: it answers at whatever rate."""
-    import tty  # noqa: PLC0415 - as pty
-
-    far, near = pty.openpty()
-    tty.setraw(near)
-    ended, end = socket.socketpair()
-
-    def serve(wait: Callable[[], bytes]) -> None:
-        while data := wait():
-            if data == BatteryVoltageRead().encode():
-                os.write(far, BatteryVoltage(7500).encode())
-
-    def wait() -> bytes:
-        import select  # noqa: PLC0415 - not for Windows
-
-        ready, _, _ = select.select([far, ended], [], [], GENEROUS)
-        return os.read(far, 256) if far in ready else b""
-
-    thread = threading.Thread(target=serve, args=(wait,))
-    thread.start()
-    yield os.ttyname(near)
-    end.close()
-    thread.join(GENEROUS)
-    ended.close()
-    for each in (far, near):
-        os.close(each)
-
-
-@pytest.mark.usefixtures("quick")
-def test_a_pseudo_terminal_may_have_no_rate_either(port_without_rates: str) -> None:
-    found = rate_of(port_without_rates, reply_timeout=GENEROUS / 100)
+def test_a_pseudo_terminal_may_have_no_rate_either(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where it leads to a board elsewhere, which answers at whatever rate."""
+    monkeypatch.setattr(Diagnosis, "is_pseudo_terminal", True)
+    with board_with() as board:
+        found = examined(diagnosis_of(board))["rate"]
     assert_says(found, UNKNOWN, "it answers at 9600 baud and at 115200 baud alike", "")
