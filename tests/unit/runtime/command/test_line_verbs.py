@@ -277,11 +277,8 @@ BEFORE_A_PORT = [
 ]
 
 
-def test_without_a_port_there_is_no_serial_and_no_thread() -> None:
+def test_nothing_is_imported_before_it_is_needed() -> None:
     assert imported(WITHOUT_A_PORT, "serial", "threading", "shtab") == []
-
-
-def test_pyserial_is_imported_only_to_open_a_port() -> None:
     assert imported(BEFORE_A_PORT, "serial", "shtab") == []
 
 

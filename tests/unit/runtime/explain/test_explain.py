@@ -358,13 +358,10 @@ def test_a_frame_of_the_other_end_is_recognised() -> None:
     assert (found.readings, [each.text for each in found.hints]) == ((), [hint])
 
 
-def test_a_reserved_command_is_recognised() -> None:
-    assert hints("C3 5A A5 13 00 00", GREENHOUSE) == [
-        "19 is reserved: It was VentsOpen with angles of zero until 1.0.0."
-    ]
-
-
-def test_a_corrected_length_is_proposed_whatever_it_counts() -> None:
+def test_a_reserved_command_is_recognised_and_a_corrected_length_is_proposed() -> None:
+    reserved = "19 is reserved: It was VentsOpen with angles of zero until 1.0.0."
+    assert hints("C3 5A A5 13 00 00", GREENHOUSE) == [reserved]
+    # Whatever the length counts.
     (hint,) = explained("C3 5A A5 11 00 08 00 01 51 80 02 FF 6A 00 C8", GREENHOUSE).hints
     assert hint.text == (
         "15 bytes have a size of 9; with that they are StationState (station -> gateway)"

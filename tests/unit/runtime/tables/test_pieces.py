@@ -185,8 +185,11 @@ def test_a_link_that_is_named_is_followed(tmp_path: Path) -> None:
     assert scan(tmp_path / "in") == []
 
 
-def test_nothing_is_no_piece(tmp_path: Path) -> None:
+def test_nothing_is_no_piece_and_another_form_is_refused(tmp_path: Path) -> None:
     assert scan(tmp_path) == scan([]) == []
+    written(tmp_path, ["line.bin"])
+    with pytest.raises(ValueError, match="'csv' is none of the forms"):
+        scan(tmp_path, form="csv")
 
 
 def test_a_file_that_has_changed_is_not_read(line: Path) -> None:
@@ -204,11 +207,6 @@ def test_a_file_that_changes_while_it_is_read_is_not_taken_for_what_it_was(line:
     line.write_bytes(CAPTURE + b"\x00")
     with pytest.raises(RecordingError, match="changed"):
         list(batches)
-
-
-def test_another_form_is_refused(line: Path) -> None:
-    with pytest.raises(ValueError, match="'csv' is none of the forms"):
-        scan(line, form="csv")
 
 
 # --- Safe places to cut --------------------------------------------------------------------------

@@ -188,15 +188,12 @@ def measured(text: bytes) -> statistics.Statistics:
     return statistics.statistics(CODEC, text, form="hex")
 
 
-def test_times_that_go_back_a_little_are_one_recording() -> None:
+def test_times_that_go_back_far_begin_another_recording_and_a_little_do_not() -> None:
     found = measured(recording([1.0, 5.0, 4.5, 4.75, 7.0]))
     assert found.span == statistics.Span(1.0, 7.0, None, 1)
     (readings,) = found.messages
     assert (readings.longest_gap, readings.median_gap) == (4.0, 1.0)
     assert [each.seconds for each in found.silences] == [4.0, 2.0]
-
-
-def test_times_that_go_back_far_begin_another_recording() -> None:
     found = measured(recording([1.0, 5.0, 2.0, 2.5]))
     # Four seconds and half a second; nobody knows what lay between.
     assert found.span == statistics.Span(1.0, 5.5, None, 2)
