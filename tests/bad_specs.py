@@ -12,7 +12,9 @@ Instead of edits, a case may have a whole `text`; and a text that is no spec at 
 The mark «» is around the place of a finding, to the column, and ⟦⟧ around another place to `see`.
 Marks and findings have the same order. One mark can serve for all findings, and if the places to
 see have another order, `see` is a mapping with the number of each. `{version}` in a message is that
-of framegen.
+of framegen. A finding has the `path` of the key or the value that is marked, unless it says another.
+
+An entry without a name has what the cases below it share, such as a `base` or a `hint`.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ import argparse
 import itertools
 import re
 import sys
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -86,6 +89,7 @@ def made(rule: str, case: Case) -> BadSpec:
         return BadSpec(case["name"], source, [], case["refusal"])
     said = [each for entry in case.get("findings", [case]) for each in _repeated(entry)]
     places, others = _marked(marked, "«", "»"), _marked(marked, "⟦", "⟧")
+    paths = _paths(source.text)
     if len(places) == 1:
         places *= len(said)
     see = _numbered(said)
@@ -98,7 +102,7 @@ def made(rule: str, case: Case) -> BadSpec:
         Finding(
             rule=each.get("rule", rule),
             span=span,
-            path=each.get("path", ""),
+            path=each.get("path", paths.get((span.line, span.column), "")),
             message=each["message"].replace("{version}", __version__),
             hint=each.get("hint", ""),
             related=tuple(Related(others[number - 1], text) for number, text in seen.items()),
@@ -123,8 +127,16 @@ def base(name: str) -> str:
     return (BASES / f"{name}.yaml").read_text(encoding="utf-8")
 
 
+@cache
 def _cases(table: str) -> list[Case]:
-    return _load(FOLDER / f"{table}.yaml")
+    cases: list[Case] = []
+    shared: Case = {}
+    for entry in _load(FOLDER / f"{table}.yaml"):
+        if "name" in entry:
+            cases.append({**shared, **entry})
+        else:
+            shared = entry
+    return cases
 
 
 @cache
@@ -160,6 +172,32 @@ def _marked(text: str, opens: str, closes: str) -> list[Span]:
         for number, line in enumerate(text.split("\n"), 1)
         for found in re.finditer(f"{opens}(.*?){closes}", line)
     ]
+
+
+def _paths(text: str) -> dict[tuple[int, int], str]:
+    """Return the paths of keys and values, by line and column, as another reader of YAML has them.
+
+    Where both begin at one place, it is the key. Of what is no YAML, nothing has a path.
+    """
+    found: dict[tuple[int, int], str] = {}
+
+    def note(node: Any, path: str) -> None:
+        found[node.start_mark.line + 1, node.start_mark.column + 1] = path
+
+    def walk(node: Any, path: str) -> None:
+        note(node, path)
+        if isinstance(node, yaml.SequenceNode):
+            for at, inner in enumerate(node.value):
+                walk(inner, f"{path}[{at}]")
+        elif isinstance(node, yaml.MappingNode):
+            for key, inner in node.value:
+                below = f"{path}.{key.value}".lstrip(".")
+                walk(inner, below)
+                note(key, below)
+
+    with suppress(yaml.YAMLError, RecursionError):
+        walk(yaml.compose(text, _LOADER), "")
+    return found
 
 
 def main(arguments: list[str] | None = None) -> None:
