@@ -12,8 +12,7 @@ Instead of edits, a case may have a whole `text`; and a text that is no spec at 
 The mark «» is around the place of a finding, to the column, and ⟦⟧ around another place to `see`.
 Marks and findings have the same order. One mark can serve for all findings, and if the places to
 see have another order, `see` is a mapping with the number of each. `{version}` in a message is that
-of framegen. A finding has the `path` of the key or the value that is marked, unless it says another.
-
+of framegen. A finding has the `path` of the key or value that is marked, unless it says another.
 An entry without a name has what the cases below it share, such as a `base` or a `hint`.
 """
 
