@@ -101,6 +101,24 @@ def kiln() -> Data:
     return _values(SPECS["kiln"])
 
 
+def small_spec(
+    name: str, frame: Data, messages: Data, *, ends: str = "host device", byte_order: str = "little"
+) -> Data:
+    """Return a spec that cites `manual`; `frame` has the parts of one kind of frame, or kinds."""
+    one = all("is" in part for part in frame.values())
+    about = {"title": "A protocol", "authority": "manual", "summary": "It is small."}
+    return {
+        "framegen": 2,
+        "protocol": {"name": name, "version": "1.0.0", **about},
+        "sources": {"manual": {"title": "A manual", "kind": "document"}},
+        "endpoints": dict.fromkeys(ends.split(), "An end."),
+        "link": {"baud": 9600},
+        "byte_order": byte_order,
+        "frame" if one else "frames": frame,
+        "messages": messages,
+    }
+
+
 def yaml_of(value: object) -> str:
     """Return `value` as YAML, every text in double quotes and in ASCII, whatever it holds."""
     # JSON is YAML, but for two surrogates in the place of one character, a control as it is, and

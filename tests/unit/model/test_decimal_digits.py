@@ -9,30 +9,20 @@ from framegen.model.model import Model, derive
 from framegen.model.verdict import weigh
 from framewire.explain.refusals import OUT_OF_RANGE
 
-from tests.factories import DEMO, data_of
+from tests.factories import small_spec
 
 
 def clock(count: int) -> Model:
     """Return a model whose one message is a time in digits."""
-    data = data_of(DEMO)
-    digits = {
-        "type": "u4",
-        "count": count,
-        "range": "0..9",
-        "byte_order": "big",
-        "about": "Digits.",
+    digits = {"type": "u4", "count": count, "range": "0..9", "byte_order": "big", "about": "It."}
+    message = {"id": 7, "direction": "host -> device", "summary": "Set the time.", "cite": "manual"}
+    message |= {"length": count // 2, "fields": {"time": digits}}
+    frame = {
+        "kind": {"is": "id", "type": "u8"},
+        "size": {"is": "length", "type": "u8", "counts": ["body"]},
+        "body": {"is": "body"},
     }
-    message = {
-        "id": 7,
-        "direction": "gateway -> station",
-        "summary": "Set the time.",
-        "cite": "manual",
-        "length": count // 2,
-        "fields": {"time": digits},
-    }
-    kept = ("framegen", "protocol", "sources", "endpoints", "link", "byte_order", "frame")
-    said = {key: data[key] for key in kept}
-    return derive(Spec.model_validate({**said, "messages": {"TimeSet": message}}))
+    return derive(Spec.model_validate(small_spec("clock", frame, {"TimeSet": message})))
 
 
 @pytest.mark.parametrize(

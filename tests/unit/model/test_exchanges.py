@@ -32,22 +32,15 @@ def test_a_method_that_is_not_declared_takes_the_list_first() -> None:
 def test_only_a_query_whose_reply_repeats_its_list_is_split(
     echoed: bool, most: int, split: bool
 ) -> None:
-    model = layout_of(long_question(echoed=echoed))
-    [exchange] = [each for each in model.exchanges if each.request.name == "DamperRead"]
+    data = long_question(echoed=echoed)
+    exchange = layout_of(data).exchanges_by_request["DamperRead"]
     assert exchange.request.items is not None
     assert (exchange.most, exchange.split is not None) == (most, split)
-
-
-@pytest.mark.parametrize("echoed", [True, False])
-def test_a_reply_need_not_repeat_the_request(echoed: bool) -> None:
-    with library(files_of(long_question(echoed=echoed))) as kiln_library:
-        made: Any = kiln_library
-
-        device: Any = importlib.import_module(f"{made.__name__}.device")
-
-        class Board(device.Device):  # type: ignore[misc]
-            def on_damper_read(self, message: Any) -> Any:
-                return made.DamperPositions([(each, 10 * each) for each in message.damper_ids])
-
-        with client_of(Board()) as controller:
+    with library(files_of(data)) as made:
+        names: Any = made
+        board = importlib.import_module(f"{made.__name__}.device").Device()
+        board.on_damper_read = lambda message: names.DamperPositions(
+            [(each, 10 * each) for each in message.damper_ids]
+        )
+        with client_of(board) as controller:
             assert controller.read_dampers([3, 4]) == ((3, 30), (4, 40))

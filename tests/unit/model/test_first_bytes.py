@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from functools import partial, reduce
 from operator import xor
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.model import derive
 from framegen.model.stream import ReferenceDecoder
 
-from tests.factories import files_of, library
+from tests.factories import files_of, library, small_spec
 from tests.in_turn import in_turn
 
+if TYPE_CHECKING:
+    from tests.factories import Data
+
+NAMED = {"all": {"value": 0xFF00}}
 # An address in front, and the bytes that can begin it, by hand: 300 is 01 2C, 1000 is 03 E8.
 FRONTS: list[tuple[dict[str, Any], set[int]]] = [
     ({"type": "u8", "range": [3, 5]}, {3, 4, 5}),
@@ -22,68 +26,29 @@ FRONTS: list[tuple[dict[str, Any], set[int]]] = [
     ({"type": "u16", "byte_order": "little", "range": [254, 257]}, {0xFE, 0xFF, 0, 1}),
     ({"type": "u16", "byte_order": "little", "range": [300, 1000]}, set(range(256))),
     ({"type": "u32", "byte_order": "big", "range": [0x01FFFFFF, 0x02000000]}, {1, 2}),
-    (
-        {
-            "type": "u16",
-            "byte_order": "big",
-            "range": [256, 511],
-            "values": {"all": {"value": 0xFF00}},
-        },
-        {1, 0xFF},
-    ),
+    ({"type": "u16", "byte_order": "big", "range": [256, 511], "values": NAMED}, {1, 0xFF}),
 ]
-COVERED = ["station", "kind", "body"]
 
 
-def spec_of(front: dict[str, Any]) -> dict[str, Any]:
+def spec_of(front: dict[str, Any]) -> Data:
     """Return a spec whose frames begin with such an address."""
     low, high = front["range"]
     named = {name: {"silent": True, **said} for name, said in front.get("values", {}).items()}
-    about = {"about": "Who is meant."}
-    station: dict[str, Any] = {**front, **about, "is": "address", "range": f"{low}..{high}"}
-    if named:
-        station["values"] = {name: {**said, **about} for name, said in named.items()}
+    station = {**front, "is": "address", "range": f"{low}..{high}", "values": named}
     size = int(front["type"][1:]) // 8
     sent = low.to_bytes(size, front.get("byte_order", "little")) + b"\7"
     sent += bytes([reduce(xor, sent)])
-    return {
-        "framegen": 2,
-        "link": {"baud": 9600},
-        "protocol": {
-            "name": "stations",
-            "title": "Stations",
-            "version": "1.0.0",
-            "authority": "manual",
-            "summary": "Stations on a bus.",
-        },
-        "sources": {"manual": {"title": "A manual", "kind": "document"}},
-        "endpoints": {"host": "Asks.", "station": "Answers."},
-        "byte_order": "little",
-        "frame": {
-            "station": station,
-            "kind": {"is": "id", "type": "u8", "about": "What it is."},
-            "body": {"is": "body", "about": "Nothing."},
-            "check": {"is": "checksum", "type": "u8", "method": "xor", "covers": COVERED, **about},
-        },
-        "messages": {
-            "Ping": {
-                "id": 7,
-                "direction": "host -> station",
-                "summary": "Ask whether it is there.",
-                "cite": "manual",
-                "length": size + 2,
-                "fields": {},
-                "examples": [
-                    {
-                        "title": "The first",
-                        "hex": sent.hex(" "),
-                        "values": {"station": low},
-                        "cite": "manual",
-                    }
-                ],
-            },
-        },
+    covers = ["station", "kind", "body"]
+    frame = {
+        "station": station,
+        "kind": {"is": "id", "type": "u8"},
+        "body": {"is": "body"},
+        "check": {"is": "checksum", "type": "u8", "method": "xor", "covers": covers},
     }
+    shown = {"title": "It", "hex": sent.hex(" "), "values": {"station": low}, "cite": "manual"}
+    ping = {"id": 7, "direction": "host -> station", "summary": "Ask.", "cite": "manual"}
+    ping |= {"length": size + 2, "fields": {}, "examples": [shown]}
+    return small_spec("stations", frame, {"Ping": ping}, ends="host station")
 
 
 @in_turn("front, begins", lambda: FRONTS)

@@ -41,6 +41,9 @@ REFUSED: list[tuple[Model, Direction | None, str, str, int]] = [
     (SERVO, HOST, "55 55 08 03 02 E8 03 01 20 03 00 00", "count mismatch", 4),
     # What ends too early is too short, and nothing else is wrong with it.
     (SERVO, HOST, "", "too short", 0),
+    (SERVO, HOST, "55", "too short", 1),
+    (SERVO, HOST, "55 55", "too short", 2),
+    (SERVO, HOST, "55 55 08", "too short", 3),
     (SERVO, HOST, "55 55 08 03 01 E8 03 01 20", "too short", 9),
     # Here the id comes first, and the length is one of two bytes.
     (HOUSE, GATEWAY, "C3 5A A5 77", "unknown command", 3),
@@ -51,6 +54,8 @@ REFUSED: list[tuple[Model, Direction | None, str, str, int]] = [
     # A count and a range: whichever stands first.
     (HOUSE, GATEWAY, "C3 5A A5 10 00 06 00 00 02 01 FC 7B", "count mismatch", 8),
     (HOUSE, GATEWAY, "C3 5A A5 10 00 06 00 00 01 01 FC 7B", "out of range", 10),
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 06 00 00 01 01 03 85", "out of range", 10),
+    (HOUSE, GATEWAY, "C3 5A A5 10 00 06 00 00 01 01 80 00", "out of range", 10),
     (HOUSE, GATEWAY, "C3 5A A5 10 00 09 00 00 02 01 FC 7B 01", "out of range", 10),
     (HOUSE, GATEWAY, "C3 5A A5 10 00 09 00 00 02 01 FC", "too short", 11),
     # Of both directions, the one in which it goes furthest.
@@ -71,11 +76,13 @@ def test_the_first_byte_that_no_frame_can_have_is_the_reason(
     with pytest.raises(NotAFrame) as refused:
         decode(model, way, data)
     assert (refused.value.reason, refused.value.offset) == (reason, offset)
+    assert str(refused.value) == f"{reason} at byte {offset}: {refused.value.expected}"
 
 
 @in_turn(
     "text, due",
     lambda: [
+        ("C3 5A A5 10 00 06 00 00 01 01 FC 7B", "vents[0].angle is -901, outside -900..900"),
         ("54", "a frame begins 55 55"),
         ("55 55 02", "the shortest frame has 4 bytes"),
         ("55 55 01", "the length of a frame is 2..255, not 1"),
@@ -88,18 +95,21 @@ def test_the_first_byte_that_no_frame_can_have_is_the_reason(
     ],
 )
 def test_a_refusal_says_what_was_due(text: str, due: str) -> None:
+    model, way = (HOUSE, GATEWAY) if text.startswith("C3") else (SERVO, HOST)
     with pytest.raises(NotAFrame) as refused:
-        decode(SERVO, HOST, bytes.fromhex(text))
+        decode(model, way, bytes.fromhex(text))
     assert refused.value.expected == due
 
 
 def test_trailing_bytes_are_an_error_for_a_single_frame_only() -> None:
-    data = bytes.fromhex("55 55 02 07 00")
-    verdict = weigh(SERVO, [HOST], data)
-    assert verdict.message is SERVO.messages["ActionGroupStop"]
-    assert verdict.offset == 4
-    with pytest.raises(NotAFrame, match=r"^trailing bytes at byte 4: "):
-        decode(SERVO, HOST, data)
+    for text, name, end in (
+        ("55 55 02 07 00", "ActionGroupStop", 4),
+        ("55 55 08 03 01 E8 03 01 20 03 00", "ServoMove", 10),
+    ):
+        verdict = weigh(SERVO, [HOST], bytes.fromhex(text))
+        assert (verdict.message, verdict.offset) == (SERVO.messages[name], end)
+        with pytest.raises(NotAFrame, match=rf"^trailing bytes at byte {end}: "):
+            decode(SERVO, HOST, bytes.fromhex(text))
 
 
 @pytest.mark.parametrize(
@@ -141,9 +151,8 @@ def test_a_verdict_stands_whatever_comes_behind(
     where: tuple[Model, Direction], data: st.DataObject
 ) -> None:
     model, way = where
-    examples = [
-        each.hex for message in model.messages.values() for each in message.message.examples
-    ]
+    messages = [each.message for each in model.messages.values()]
+    examples = [each.hex for message in messages for each in message.examples]
     frame = bytearray(data.draw(st.sampled_from(examples)))
     at = data.draw(st.integers(0, len(frame) - 1))
     frame[at] = data.draw(st.integers(0, 255))
@@ -153,11 +162,8 @@ def test_a_verdict_stands_whatever_comes_behind(
         if begun.undecided:
             assert begun.offset == size
         else:
-            assert (begun.message, begun.reason, begun.offset) == (
-                whole.message,
-                whole.reason,
-                whole.offset,
-            )
+            for name in ("message", "reason", "offset"):
+                assert getattr(begun, name) == getattr(whole, name)
 
 
 def test_a_part_behind_the_fields_is_a_slot_like_any_other() -> None:
