@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from framegen.language.misfit import _keys
@@ -27,70 +27,33 @@ if TYPE_CHECKING:
 
     from pydantic import BaseModel
 
-    from tests.factories import Steps
-
-ANGLE = ("messages", "VentsOpen", "fields", "vents", "fields", "angle")
+VENTS, FIRST = "messages.VentsOpen.fields.vents", "messages.VentsOpen.examples.0"
+NO_TEXT = "text is expected here, not"
 LONG = "abcdefghij" * 4
 
 
 @in_turn(
     "path, value, said, hint",
     lambda: [
-        (("link",), None, "a mapping of keys is expected here, not nothing", ""),
-        (("link",), {}, "the key `baud` is missing", "Bits per second."),
-        (("link", "baud"), LONG, f"a whole number is expected here, not `{LONG}`", ""),
-        (("link", "baud"), f"{LONG}k", f"a whole number is expected here, not `{LONG}...`", ""),
-        (
-            ("protocol", "title"),
-            True,
-            "text is expected here, not the truth value `true`",
-            'put it in quotes: "true"',
-        ),
-        (
-            ("protocol", "title"),
-            {"en": "Greenhouse"},
-            "text is expected here, not a mapping",
-            "",
-        ),
-        (
-            ("frame", "size"),
-            {"is": "id"},
-            "the key `type` is missing",
-            "The number type, such as u8.",
-        ),
-        (
-            ("frame", "preamble"),
-            {"is": "constant"},
-            "the key `bytes` is missing",
-            "The bytes, in hex.",
-        ),
-        ((*ANGLE, "unti"), "V", "there is no key `unti` here", "did you mean `unit`?"),
-        (
-            ("messages", "VentsOpen", "fields", "vents", "elment"),
-            "Vent",
-            "there is no key `elment` here",
-            "did you mean `element`?",
-        ),
-        (
-            ("messages", "VentsOpen", "examples", 0, "titel"),
-            "All of them",
-            "there is no key `titel` here",
-            "did you mean `title`?",
-        ),
+        ("link", None, "a mapping of keys is expected here, not nothing", ""),
+        ("link", {}, "the key `baud` is missing", "Bits per second."),
+        ("link.baud", LONG, f"a whole number is expected here, not `{LONG}`", ""),
+        ("link.baud", f"{LONG}k", f"a whole number is expected here, not `{LONG}...`", ""),
+        ("protocol.title", True, f"{NO_TEXT} the truth value `true`", 'put it in quotes: "true"'),
+        ("protocol.title", {"en": "Greenhouse"}, f"{NO_TEXT} a mapping", ""),
+        ("frame.size", {"is": "id"}, "the key `type` is missing", "The number type, such as u8."),
+        ("frame.preamble", {"is": "constant"}, "the key `bytes` is missing", "The bytes, in hex."),
+        (f"{VENTS}.fields.angle.unti", "V", "there is no key `unti` here", "did you mean `unit`?"),
+        (f"{VENTS}.elment", "Vent", "there is no key `elment` here", "did you mean `element`?"),
+        (f"{FIRST}.titel", "All", "there is no key `titel` here", "did you mean `title`?"),
     ],
 )
 def test_a_misfit_is_reported_in_the_words_of_the_language(
-    path: Steps, value: object, said: str, hint: str
+    path: str, value: object, said: str, hint: str
 ) -> None:
-    data = data_of(DEMO)
-    around: Any = data
-    for step in path[:-1]:
-        around = around[step]
-    around[path[-1]] = value
-    finding = compiled_of(data).findings[0]
+    finding = compiled_of(having(data_of(DEMO), {path: value})).findings[0]
     assert (finding.message, finding.hint) == (said, hint)
-    steps = [f"[{step}]" if isinstance(step, int) else f".{step}" for step in path]
-    assert f".{finding.path}".startswith("".join(steps))
+    assert finding.path.replace("[0]", ".0").startswith(path)
 
 
 def test_a_key_that_is_no_number_is_reported_once_whatever_its_value() -> None:
@@ -142,20 +105,11 @@ def test_another_word_for_a_type_is_none_and_its_hint_is_one(word: str, type_: s
         assert other_type(f"{word}_le") == f"write `type: {type_}, byte_order: little`"
 
 
-@pytest.mark.parametrize(
-    ("word", "hint"),
-    [
-        (
-            "BCD",
-            "write `type: u4, count: 2, range: 0..9, byte_order: big` for two digits in a byte",
-        ),
-        ("string", "write `type: u8, count: 16, text: ascii`, or with `sized_by` instead of"),
-    ],
-)
-def test_a_word_for_a_type_that_takes_more_keys_is_answered_with_these(
-    word: str, hint: str
-) -> None:
-    assert other_type(word).startswith(hint)
+def test_a_word_for_a_type_that_takes_more_keys_is_answered_with_these() -> None:
+    digits = "write `type: u4, count: 2, range: 0..9, byte_order: big` for two digits in a byte"
+    assert other_type("BCD").startswith(digits)
+    text = "write `type: u8, count: 16, text: ascii`, or with `sized_by` instead of"
+    assert other_type("string").startswith(text)
 
 
 @pytest.mark.parametrize(

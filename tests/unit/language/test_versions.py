@@ -18,13 +18,10 @@ from hypothesis import strategies as st
 from tests.bad_specs import BASES
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
+from tests.mutations.places import nodes
 from tests.programs import ran
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.reading.yamltree import KeyPath
-
     from tests.factories import Data
 
 # In the order of semver.org, section 11.
@@ -74,25 +71,13 @@ def test_what_is_no_version_is_refused_with_what_to_write(text: str, hint: str) 
 # ------------------------------------------------------------------ paths
 
 
-def places(value: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
-    """Yield the path of everything in a spec."""
-    inside: Any = ()
-    if isinstance(value, dict):
-        inside = value.items()
-    elif isinstance(value, list):
-        inside = enumerate(value)
-    for step, inner in inside:
-        yield (*path, step)
-        yield from places(inner, (*path, step))
-
-
 @pytest.mark.parametrize(
     "file",
     [BUSSERVO, DEMO, ROOT / "tests" / "specs" / "everything.yaml", BASES / "bus.yaml"],
     ids=lambda file: file.stem,
 )
 def test_every_place_of_a_spec_has_a_path_that_is_read_back(file: Any) -> None:
-    found = list(places(data_of(file)))
+    found: list[Any] = [path for path, _ in nodes(data_of(file))]
     assert len(found) > 100
     for path in found:
         # The short form of bits, the names of other devices, and elements of notations.
@@ -163,15 +148,12 @@ def test_former_names_and_accepted_breaks_change_nothing_that_is_generated() -> 
     before, after = compiled_of(data), compiled_of(changed)
     assert after.findings == []
     had = [
-        former
+        [*former_names((*path, name), thing)]
         for path, named in families(after.spec)
         for name, thing in named.items()
-        for _, former in former_names((*path, name), thing)
     ]
-    assert len(had) > 5
-    written, expected = render(after).files, render(before).files
-    assert {path for path in expected if written.get(path) != expected[path]} == set()
-    assert written.keys() == expected.keys()
+    assert len([*filter(None, had)]) > 5
+    assert render(after).files == render(before).files
 
 
 def test_a_released_edition_is_what_its_name_says() -> None:
@@ -183,9 +165,8 @@ def test_a_released_edition_is_what_its_name_says() -> None:
         for file in editions:
             protocol = data_of(file)["protocol"]
             assert f"{protocol['name']}-{protocol['version']}" == file.stem
-            assert Version.parse(protocol["version"]) <= Version.parse(
-                compiled_file(spec).spec.protocol.version
-            )
+            ours = compiled_file(spec).spec.protocol.version
+            assert Version.parse(protocol["version"]) <= Version.parse(ours)
 
 
 @pytest.mark.skipif(which("git") is None, reason="there is no git here")

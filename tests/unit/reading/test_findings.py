@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from framegen import checks
@@ -15,9 +15,12 @@ from framegen.reading.source import Source, Span
 from tests.bad_specs import bad_spec
 from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
 from tests.in_turn import in_turn
+from tests.mutations.places import having
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+
+    from tests.factories import Data
 
 
 def test_a_finding_is_shown_with_its_line_and_a_caret() -> None:
@@ -85,31 +88,28 @@ def test_a_finding_repeats_no_more_of_a_key_than_can_be_read(key: str) -> None:
 def test_findings_are_limited_and_the_rest_is_counted() -> None:
     known = data_of(DEMO)
     findings = compiled_of({**known, **{f"key_{each}": 1 for each in range(2_000)}}).findings
-    assert [finding.rule for finding in findings] == [
-        *["unknown-key"] * MOST_FINDINGS,
-        "many-findings",
-    ]
+    rules = [finding.rule for finding in findings]
+    assert rules == [*["unknown-key"] * MOST_FINDINGS, "many-findings"]
     assert findings[-1].message == f"not shown: {2_000 - MOST_FINDINGS} findings from here down"
     assert findings[-1].path == f"key_{MOST_FINDINGS}"
 
 
-def unknown_keys(data: Any, words: list[str]) -> None:
-    data.update(dict.fromkeys(words, 1))
+def unknown_keys(words: list[str]) -> Data:
+    return dict.fromkeys(words, 1)
 
 
-def unknown_replies(data: Any, words: list[str]) -> None:
-    question = data["messages"]["StationRead"]
-    data["messages"].update({f"Ask{word}": {**question, "reply": word} for word in words})
+def unknown_replies(words: list[str]) -> Data:
+    question = data_of(DEMO)["messages"]["StationRead"]
+    return {f"messages.Ask{word}": {**question, "reply": word} for word in words}
 
 
-def unknown_sources(data: Any, words: list[str]) -> None:
-    note = {"text": "It is so.", "cite": "manual"}
-    readings = data["messages"]["StationState"]["fields"]["readings"]
-    readings["notes"] = [{**note, "cite": word} for word in words]
+def unknown_sources(words: list[str]) -> Data:
+    notes = [{"text": "It is so.", "cite": word} for word in words]
+    return {"messages.StationState.fields.readings.notes": notes}
 
 
-def unknown_facts(data: Any, words: list[str]) -> None:
-    data["unknowns"] = [{"concerns": {"message": word}, "what": "All."} for word in words]
+def unknown_facts(words: list[str]) -> Data:
+    return {"unknowns": [{"concerns": {"message": word}, "what": "All."} for word in words]}
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def unknown_facts(data: Any, words: list[str]) -> None:
     ],
 )
 def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
-    change: Callable[[Any, list[str]], None],
+    change: Callable[[list[str]], Data],
     searching: object,
     search: Callable[..., str],
     monkeypatch: pytest.MonkeyPatch,
@@ -134,9 +134,8 @@ def test_only_what_is_shown_is_searched_for_what_it_was_to_be(
         return search(word, known, **more)
 
     monkeypatch.setattr(searching, search.__name__, noted)
-    data, words = data_of(DEMO), [f"Odd{number}" for number in range(1000, 1500)]
-    change(data, words)
-    findings = compiled_of(data).findings
+    words = [f"Odd{number}" for number in range(1000, 1500)]
+    findings = compiled_of(having(data_of(DEMO), change(words))).findings
     assert findings[-1].rule == "many-findings"
     assert set(searched) <= set(words[:MOST_FINDINGS])
     assert len(searched) == sum(f"`{word}`" in f.message for f in findings for word in words)
@@ -171,19 +170,17 @@ def test_a_caret_stands_under_its_place(
     ]
 
 
-@pytest.mark.parametrize(
-    ("word", "known", "otherwise", "hint"),
-    [
+TWENTY = ", ".join(f"`u{n}`" for n in range(20))
+
+
+@in_turn(
+    "word, known, otherwise, hint",
+    lambda: [
         ("v16", ["u8", "u16", "u32"], "", "did you mean `u16`?"),
         ("v16", ["u16"], "declare it", "did you mean `u16`?"),
         ("size", ["u8", "u16"], "", "choose one of `u8`, `u16`"),
         ("size", ["u8", "u16"], "declare it", "declare it"),
-        (
-            "size",
-            [f"u{n}" for n in range(22)],
-            "",
-            f"choose one of {', '.join(f'`u{n}`' for n in range(20))} or 2 others",
-        ),
+        ("size", [f"u{n}" for n in range(22)], "", f"choose one of {TWENTY} or 2 others"),
         ("size", [], "declare it", "declare it"),
         ("size", [], "", ""),
     ],
@@ -192,10 +189,6 @@ def test_a_misspelt_word_gets_a_suggestion_or_the_choices(
     word: str, known: list[str], otherwise: str, hint: str
 ) -> None:
     assert did_you_mean(word, known, otherwise=otherwise) == hint
-
-
-def test_without_choices_there_is_no_suggestion() -> None:
-    assert did_you_mean("size", []) == ""
 
 
 def test_findings_come_from_the_top_of_the_file_down() -> None:

@@ -99,9 +99,10 @@ def test_a_list_that_is_not_there_begins_at_the_end(end: str) -> None:
 
 
 def test_what_has_no_place_is_refused() -> None:
-    with pytest.raises(NoPlace):
-        edited("a: 1", ("replace", ("b",), "1.0.0"))
-    with pytest.raises(NoPlace):
-        edited("a:\n  - - 1", ("put_first", ("a", 0), [2]))
-    with pytest.raises(NoPlace):
-        edited("a: {b: 1}", ("put_first", ("a", "c"), [2]))
+    for text, how, path in (
+        ("a: 1", "replace", ("b",)),
+        ("a:\n  - - 1", "put_first", ("a", 0)),
+        ("a: {b: 1}", "put_first", ("a", "c")),
+    ):
+        with pytest.raises(NoPlace):
+            edited(text, (how, path, [2]))
