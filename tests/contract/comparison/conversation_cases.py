@@ -54,216 +54,129 @@ class Case(NamedTuple):
     said: list[Said]
 
 
+def _case(old: Data, new: Data, *said: str) -> Case:
+    """Return a case; it is said of the client of an edition: `old: no reply, Ping`.
+
+    What breaks nothing has a + in front.
+    """
+    client, device = [*old["endpoints"]][:2]
+    other = {"old": "new", "new": "old"}
+    found = []
+    for each in said:
+        which, _, rest = each.removeprefix("+ ").partition(": ")
+        outcome, message = rest.split(", ")
+        ends = f"{which} {client}, {other[which]} {device}"
+        found.append(Said(ends, outcome, message, breaks=each[0] != "+"))
+    return Case(old, new, found)
+
+
 def _moved(data: Data, message: str, id_: Any) -> Data:
     return with_(data, "messages", message, "id", id_)
 
 
-_OLD_HOST, _NEW_HOST = "old host, new controller", "new host, old controller"
-_OLD_CLIENT, _NEW_CLIENT = "old client, new device", "new client, old device"
-_OLD_LX, _NEW_LX = "old host, new servo", "new host, old servo"
-_OLD_DXL, _NEW_DXL = "old controller, new actuator", "new controller, old actuator"
-
+CELL = {"cell": {"type": "u8", "about": "Which of them."}}
+NO_REPLY = with_(SERVO, *BATTERY, "reply", GONE)
+LESS = with_(SERVO, *VOLTAGE, "fields", "voltage_mv", "range", "0..20000")
+UNACKNOWLEDGED = with_(SERVO, *RUN, "acknowledged", GONE)
+NO_REFUSAL = with_(BUS, *HOLDING, "refusal", GONE)
+LOUD = with_(LX, "frame", "servo_id", "values", "all", "silent", GONE)
+NO_FAILURE = with_(DYNAMIXEL, "messages", "Status", "failure", GONE)
+ANY_SIZE = with_(BUS, *HOLDING, "asks_for", GONE)
+OTHER_GOOD = with_(DYNAMIXEL, "messages", "Status", "failure", "error unless 1")
+SILENT_SYNC = with_(DYNAMIXEL, "messages", "SyncWrite", "reply", "Status")
+BOTH_LOST = ("old: no reply, BatteryVoltageRead", "new: no reply, BatteryVoltageRead")
 CASES: dict[str, Case] = {
-    "a reply is gone": Case(
-        SERVO,
-        with_(SERVO, *BATTERY, "reply", GONE),
-        [
-            Said(_OLD_HOST, "no reply", "BatteryVoltageRead"),
-            Said(_OLD_HOST, "no report", "BatteryVoltage", breaks=False),
-            Said(_NEW_HOST, "unawaited", "BatteryVoltageRead", breaks=False),
-        ],
+    "a reply is gone": _case(
+        *(SERVO, NO_REPLY),
+        "old: no reply, BatteryVoltageRead",
+        "+ old: no report, BatteryVoltage",
+        "+ new: unawaited, BatteryVoltageRead",
     ),
-    "a reply is new": Case(
-        with_(SERVO, *BATTERY, "reply", GONE),
-        SERVO,
-        [
-            Said(_OLD_HOST, "unawaited", "BatteryVoltageRead", breaks=False),
-            # Devices may have sent it all along; but programs were given it as a report.
-            Said(_NEW_HOST, "no reply", "BatteryVoltageRead", breaks=False),
-            Said(_NEW_HOST, "no report", "BatteryVoltage"),
-        ],
+    # Devices may have sent it all along; but programs were given it as a report.
+    "a reply is new": _case(
+        *(NO_REPLY, SERVO),
+        "+ old: unawaited, BatteryVoltageRead",
+        "+ new: no reply, BatteryVoltageRead",
+        "new: no report, BatteryVoltage",
     ),
-    "a request has another id": Case(
-        SERVO,
-        _moved(SERVO, "BatteryVoltageRead", 16),
-        [
-            Said(_OLD_HOST, "no reply", "BatteryVoltageRead"),
-            Said(_NEW_HOST, "no reply", "BatteryVoltageRead"),
-        ],
+    "a request has another id": _case(SERVO, _moved(SERVO, "BatteryVoltageRead", 16), *BOTH_LOST),
+    "a reply has another id": _case(SERVO, _moved(SERVO, "BatteryVoltage", 16), *BOTH_LOST),
+    "a reply carries less": _case(SERVO, LESS, "new: no reply, BatteryVoltageRead"),
+    "a reply carries more": _case(LESS, SERVO, "old: no reply, BatteryVoltageRead"),
+    "a question must say more": _case(SERVO, with_(SERVO, *BATTERY, "fields", CELL), *BOTH_LOST),
+    "a question is gone": _case(
+        *(SERVO, with_(SERVO, *BATTERY, GONE)),
+        "old: no reply, BatteryVoltageRead",
+        "+ old: no report, BatteryVoltage",
     ),
-    "a reply has another id": Case(
-        SERVO,
-        _moved(SERVO, "BatteryVoltage", 16),
-        [
-            Said(_OLD_HOST, "no reply", "BatteryVoltageRead"),
-            Said(_NEW_HOST, "no reply", "BatteryVoltageRead"),
-        ],
+    "a question is new": _case(
+        *(with_(with_(SERVO, *BATTERY, GONE), *VOLTAGE, GONE), SERVO),
+        "+ new: no reply, BatteryVoltageRead",
     ),
-    "a reply carries less": Case(
-        SERVO,
-        with_(SERVO, *VOLTAGE, "fields", "voltage_mv", "range", "0..20000"),
-        [Said(_NEW_HOST, "no reply", "BatteryVoltageRead")],
+    "a command is acknowledged by nothing any more": _case(
+        SERVO, UNACKNOWLEDGED, "old: not acknowledged, ActionGroupRun"
     ),
-    "a reply carries more": Case(
-        with_(SERVO, *VOLTAGE, "fields", "voltage_mv", "range", "0..20000"),
-        SERVO,
-        [Said(_OLD_HOST, "no reply", "BatteryVoltageRead")],
+    "a command is acknowledged": _case(
+        UNACKNOWLEDGED, SERVO, "+ new: not acknowledged, ActionGroupRun"
     ),
-    "a question must say more": Case(
-        SERVO,
-        with_(SERVO, *BATTERY, "fields", {"cell": {"type": "u8", "about": "Which of them."}}),
-        [
-            Said(_OLD_HOST, "no reply", "BatteryVoltageRead"),
-            Said(_NEW_HOST, "no reply", "BatteryVoltageRead"),
-        ],
+    "a command is not followed by a report any more": _case(
+        *(SERVO, with_(SERVO, *RUN, "reports", ["ActionGroupStarted"])),
+        "old: no report, ActionGroupRun",
     ),
-    "a question is gone": Case(
-        SERVO,
-        with_(SERVO, *BATTERY, GONE),
-        [
-            Said(_OLD_HOST, "no reply", "BatteryVoltageRead"),
-            Said(_OLD_HOST, "no report", "BatteryVoltage", breaks=False),
-        ],
+    "a refusal is gone": _case(
+        BUS, NO_REFUSAL, "+ old: no report, HoldingReadRefused", "new: no error, HoldingRead"
     ),
-    "a question is new": Case(
-        with_(with_(SERVO, *BATTERY, GONE), *VOLTAGE, GONE),
-        SERVO,
-        [Said(_NEW_HOST, "no reply", "BatteryVoltageRead", breaks=False)],
+    "a refusal is new": _case(
+        *(with_(NO_REFUSAL, "messages", "HoldingReadRefused", GONE), BUS),
+        "+ old: no error, HoldingRead",
     ),
-    "a command is acknowledged by nothing any more": Case(
-        SERVO,
-        with_(SERVO, *RUN, "acknowledged", GONE),
-        [Said(_OLD_HOST, "not acknowledged", "ActionGroupRun")],
+    "a refusal has another id": _case(
+        *(BUS, _moved(BUS, "HoldingReadRefused", 135)),
+        "old: no error, HoldingRead",
+        "new: no error, HoldingRead",
     ),
-    "a command is acknowledged": Case(
-        with_(SERVO, *RUN, "acknowledged", GONE),
-        SERVO,
-        [Said(_NEW_HOST, "not acknowledged", "ActionGroupRun", breaks=False)],
+    "another field is repeated": _case(
+        *(BUS, with_(BUS, "messages", "RegisterWrite", "echoed", {"value": "value"})),
+        "old: not recognized, RegisterWrite",
+        "new: not recognized, RegisterWrite",
     ),
-    "a command is not followed by a report any more": Case(
-        SERVO,
-        with_(SERVO, *RUN, "reports", ["ActionGroupStarted"]),
-        [Said(_OLD_HOST, "no report", "ActionGroupRun")],
+    "nothing is repeated": _case(
+        *(BUS, with_(BUS, "messages", "RegisterWrite", "echoed", GONE)),
+        "old: not recognized, RegisterWrite",
     ),
-    "a refusal is gone": Case(
-        BUS,
-        with_(BUS, *HOLDING, "refusal", GONE),
-        [
-            Said(_OLD_CLIENT, "no report", "HoldingReadRefused", breaks=False),
-            Said(_NEW_CLIENT, "no error", "HoldingRead"),
-        ],
+    "an address is silent": _case(LOUD, LX, "old: no reply, MoveRead", "new: not asked, MoveRead"),
+    "an address is silent no longer": _case(LX, LOUD, "+ new: no reply, MoveRead"),
+    "a failure is not told": _case(
+        DYNAMIXEL, NO_FAILURE, "old: error, Ping", "new: no error, Ping"
     ),
-    "a refusal is new": Case(
-        with_(with_(BUS, *HOLDING, "refusal", GONE), "messages", "HoldingReadRefused", GONE),
-        BUS,
-        [Said(_OLD_CLIENT, "no error", "HoldingRead", breaks=False)],
+    "a failure is told": _case(NO_FAILURE, DYNAMIXEL, "+ old: no error, Ping", "new: error, Ping"),
+    "another value is the good one": _case(
+        *(DYNAMIXEL, OTHER_GOOD),
+        *("old: error, Ping", "old: no error, Ping", "new: error, Ping", "new: no error, Ping"),
     ),
-    "a refusal has another id": Case(
-        BUS,
-        _moved(BUS, "HoldingReadRefused", 135),
-        [
-            Said(_OLD_CLIENT, "no error", "HoldingRead"),
-            Said(_NEW_CLIENT, "no error", "HoldingRead"),
-        ],
+    "a reply may be of another size no longer": _case(
+        ANY_SIZE, BUS, "new: not recognized, HoldingRead"
     ),
-    "another field is repeated": Case(
-        BUS,
-        with_(BUS, "messages", "RegisterWrite", "echoed", {"value": "value"}),
-        [
-            Said(_OLD_CLIENT, "not recognized", "RegisterWrite"),
-            Said(_NEW_CLIENT, "not recognized", "RegisterWrite"),
-        ],
+    "a reply may be of another size": _case(BUS, ANY_SIZE, "old: not recognized, HoldingRead"),
+    "an answer may be taken for another": _case(
+        DYNAMIXEL, SILENT_SYNC, "old: unawaited, SyncWrite", "new: no reply, SyncWrite"
     ),
-    "nothing is repeated": Case(
-        BUS,
-        with_(BUS, "messages", "RegisterWrite", "echoed", GONE),
-        [Said(_OLD_CLIENT, "not recognized", "RegisterWrite")],
+    "a refusal in a frame of its own is gone": _case(
+        *(MSP, with_(MSP, "messages", "ApiVersionRead", "refusal", GONE)),
+        "+ old: no report, ApiVersionRefused",
+        "new: no error, ApiVersionRead",
     ),
-    "an address is silent": Case(
-        with_(LX, "frame", "servo_id", "values", "all", "silent", GONE),
-        LX,
-        [
-            Said(_OLD_LX, "no reply", "MoveRead"),
-            Said(_NEW_LX, "not asked", "MoveRead"),
-        ],
+    "replies have each other's ids": _case(
+        *(LX, _moved(_moved(LX, "Temperature", 25), "TemperatureLimit", 26)),
+        "old: other reply, TemperatureLimitRead",
+        "new: other reply, TemperatureLimitRead",
     ),
-    "an address is silent no longer": Case(
-        LX,
-        with_(LX, "frame", "servo_id", "values", "all", "silent", GONE),
-        [Said(_NEW_LX, "no reply", "MoveRead", breaks=False)],
-    ),
-    "a failure is not told": Case(
-        DYNAMIXEL,
-        with_(DYNAMIXEL, "messages", "Status", "failure", GONE),
-        [Said(_OLD_DXL, "error", "Ping"), Said(_NEW_DXL, "no error", "Ping")],
-    ),
-    "a failure is told": Case(
-        with_(DYNAMIXEL, "messages", "Status", "failure", GONE),
-        DYNAMIXEL,
-        [Said(_OLD_DXL, "no error", "Ping", breaks=False), Said(_NEW_DXL, "error", "Ping")],
-    ),
-    "another value is the good one": Case(
-        DYNAMIXEL,
-        with_(DYNAMIXEL, "messages", "Status", "failure", "error unless 1"),
-        [
-            Said(_OLD_DXL, "error", "Ping"),
-            Said(_OLD_DXL, "no error", "Ping"),
-            Said(_NEW_DXL, "error", "Ping"),
-            Said(_NEW_DXL, "no error", "Ping"),
-        ],
-    ),
-    "a reply may be of another size no longer": Case(
-        with_(BUS, "messages", "HoldingRead", "asks_for", GONE),
-        BUS,
-        [Said("new client, old device", "not recognized", "HoldingRead")],
-    ),
-    "a reply may be of another size": Case(
-        BUS,
-        with_(BUS, "messages", "HoldingRead", "asks_for", GONE),
-        [Said("old client, new device", "not recognized", "HoldingRead")],
-    ),
-    "an answer may be taken for another": Case(
-        DYNAMIXEL,
-        with_(DYNAMIXEL, "messages", "SyncWrite", "reply", "Status"),
-        [Said(_OLD_DXL, "unawaited", "SyncWrite"), Said(_NEW_DXL, "no reply", "SyncWrite")],
-    ),
-    "a refusal in a frame of its own is gone": Case(
-        MSP,
-        with_(MSP, "messages", "ApiVersionRead", "refusal", GONE),
-        [
-            Said(_OLD_HOST, "no report", "ApiVersionRefused", breaks=False),
-            Said(_NEW_HOST, "no error", "ApiVersionRead"),
-        ],
-    ),
-    "replies have each other's ids": Case(
-        LX,
-        _moved(_moved(LX, "Temperature", 25), "TemperatureLimit", 26),
-        [
-            Said(_OLD_LX, "other reply", "TemperatureLimitRead"),
-            Said(_NEW_LX, "other reply", "TemperatureLimitRead"),
-        ],
-    ),
-    "a reply has room for fewer": Case(
-        SERVO, SMALL, [Said(_OLD_HOST, "in part", "ServoPositionsRead")]
-    ),
+    "a reply has room for fewer": _case(SERVO, SMALL, "old: in part, ServoPositionsRead"),
     # The old host asks in parts.
-    "a reply has room for more": Case(
-        SMALL, SERVO, [Said(_NEW_HOST, "in part", "ServoPositionsRead")]
-    ),
-    "a board without a port is gone": Case(
-        SERVO, BOARDLESS, [Said(_NEW_HOST, "not found", "link.usb_hid")]
-    ),
-    "a board without a port is new": Case(
-        BOARDLESS, SERVO, [Said(_OLD_HOST, "not found", "link.usb_hid", breaks=False)]
-    ),
+    "a reply has room for more": _case(SMALL, SERVO, "new: in part, ServoPositionsRead"),
+    "a board without a port is gone": _case(SERVO, BOARDLESS, "new: not found, link.usb_hid"),
+    "a board without a port is new": _case(BOARDLESS, SERVO, "+ old: not found, link.usb_hid"),
     # And the others, of which nobody asks.
-    "both ends ask": Case(
-        SERVO,
-        TURNED,
-        [
-            Said("old host, new controller", "no reply", "endpoints"),
-            Said("new host, old controller", "no reply", "endpoints"),
-        ],
-    ),
-    "all is written down": Case(SERVO, with_(SERVO, *BATTERY, "summary", "Ask."), []),
+    "both ends ask": _case(SERVO, TURNED, "old: no reply, endpoints", "new: no reply, endpoints"),
+    "all is written down": _case(SERVO, with_(SERVO, *BATTERY, "summary", "Ask.")),
 }

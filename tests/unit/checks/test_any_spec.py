@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from typing import TYPE_CHECKING, Any
 
@@ -25,24 +26,9 @@ if TYPE_CHECKING:
 
 words = st.sampled_from(
     [
-        "u8",
-        "u17",
-        "i8",
-        "host -> controller",
-        "host",
-        "1..",
-        "0..0",
-        "-5..99999",
-        "55 55",
-        "length",
-        "id",
-        "servo_count + 3",
-        "vendor",
-        "vendor, 1",
-        "query",
-        "1.0.0",
-        "ServoMove",
-        "targets.position",
+        *("u8", "u17", "i8", "host -> controller", "host", "1..", "0..0", "-5..99999", "55 55"),
+        *("length", "id", "servo_count + 3", "vendor", "vendor, 1", "query", "1.0.0"),
+        *("ServoMove", "targets.position"),
     ]
 )
 scalars = (
@@ -58,13 +44,7 @@ structures = st.recursive(
 )
 TREE: Any = data_of(BUSSERVO)
 TOP_KEYS = list(TREE)
-
-
 PATHS = [path for path, _ in nodes(TREE)]
-
-
-def copied(tree: Any) -> Any:
-    return json.loads(json.dumps(tree))
 
 
 def survives(text: str) -> None:
@@ -122,7 +102,7 @@ def test_any_structure_is_checked_without_a_crash(tree: dict[str, Any]) -> None:
 @st.composite
 def mutated(draw: st.DrawFn) -> str:
     """Return the spec of busservo with one to three of its values replaced, removed or doubled."""
-    tree = copied(TREE)
+    tree = copy.deepcopy(TREE)
     for _ in range(draw(st.integers(1, 3))):
         path = draw(st.sampled_from(PATHS))
         try:
@@ -134,13 +114,13 @@ def mutated(draw: st.DrawFn) -> str:
         if action == "replace":
             around[path[-1]] = draw(structures)
         elif action == "borrow":
-            around[path[-1]] = copied(at(TREE, draw(st.sampled_from(PATHS))))
+            around[path[-1]] = copy.deepcopy(at(TREE, draw(st.sampled_from(PATHS))))
         elif action == "remove":
             del around[path[-1]]
         elif isinstance(around, list):
-            around.insert(draw(st.integers(0, len(around))), copied(value))
+            around.insert(draw(st.integers(0, len(around))), copy.deepcopy(value))
         elif action == "repeat":
-            around[draw(words)] = copied(value)
+            around[draw(words)] = copy.deepcopy(value)
         else:
             around[draw(words)] = around.pop(path[-1])
     return json.dumps(tree)

@@ -22,18 +22,18 @@ from tests.mutations.spec_edits import edited
 if TYPE_CHECKING:
     from framegen.checks.rule import AnyRule
 
+    from tests.mutations.spec_edits import Edit
+
 FILED = [rule for rule in RULES if rule not in READING_RULES]
 
 
 @in_turn("rule", lambda: RULES)
 def test_a_rule_says_what_it_is_for(rule: AnyRule) -> None:
     assert re.fullmatch(r"[a-z]+(?:-[a-z]+)*", rule.id)
-    assert rule.title
-    assert not rule.title.endswith(".")
+    assert re.search(r"[^.]$", rule.title)
     assert rule.why.endswith(".")
-    assert rule.bad
-    assert rule.good
     assert rule.bad != rule.good
+    assert all((rule.bad, rule.good))
 
 
 def test_no_two_rules_share_an_id() -> None:
@@ -80,43 +80,31 @@ def test_the_guide_shows_a_case_as_it_is() -> None:
 
 # ------------------------------------------------------------------ what tells frames apart
 
-LAMPS = (bad_specs.BASES / "lamps.yaml").read_text(encoding="utf-8")
+LAMPS = bad_specs.base("lamps")
 
 
 def test_messages_of_the_same_id_are_told_apart_by_lengths_of_their_own() -> None:
     """Those of one are 4, 6, 8 and so on, and that of the other is between them."""
-    read = LAMPS.index("  LampRead:")
-    text = LAMPS[:read] + LAMPS[read:].replace("id: 8", "id: 7", 1).replace(
-        "length: 2", "length: 5", 1
-    ).replace("lamp_id: {type: u8, ", "lamp_id: {type: u32, ", 1).replace(
-        "AA 55 02 08 01", "AA 55 05 07 01 00 00 00", 1
-    )
-    assert compile_spec(Source("lamps.yaml", text)).findings == []
+    edits: list[Edit] = [
+        {"under": "LampRead", "replace": "id: 8", "with": "id: 7"},
+        {"under": "LampRead", "replace": "length: 2", "with": "length: 5"},
+        {"under": "LampRead", "replace": "type: u8", "with": "type: u32"},
+        {"replace": "AA 55 02 08 01", "with": "AA 55 05 07 01 00 00 00"},
+    ]
+    assert compile_spec(Source("lamps.yaml", edited(LAMPS, *edits))).findings == []
 
 
 @in_turn(
     "one, other, are_told",
     lambda: [
-        ("{type: u8, range: 0..99, about: X.}", "{type: u8, range: 100..200, about: X.}", True),
-        ("{type: u8, range: 0..99, about: X.}", "{type: u8, range: 99..200, about: X.}", False),
-        (
-            "{type: u16, range: 0..0x7F, about: X.}",
-            "{type: u16, range: 0x80..0xFF, about: X.}",
-            True,
-        ),
-        (
-            "{type: u16, range: 0..0x17F, about: X.}",
-            "{type: u16, range: 0x180..0x200, about: X.}",
-            False,
-        ),
-        ("{type: i8, range: -5..-1, about: X.}", "{type: u8, range: 0..250, about: X.}", True),
-        ("{type: i8, range: -5..1, about: X.}", "{type: u8, range: 2..250, about: X.}", False),
-        (
-            "{type: u8, count: 2, text: ascii, about: X.}",
-            "{type: u16, range: 0x8080.., about: X.}",
-            True,
-        ),
-        ("{type: u8, always: 5, about: X.}", "{type: u8, range: 6.., about: X.}", True),
+        ("u8, range: 0..99", "u8, range: 100..200", True),
+        ("u8, range: 0..99", "u8, range: 99..200", False),
+        ("u16, range: 0..0x7F", "u16, range: 0x80..0xFF", True),
+        ("u16, range: 0..0x17F", "u16, range: 0x180..0x200", False),
+        ("i8, range: -5..-1", "u8, range: 0..250", True),
+        ("i8, range: -5..1", "u8, range: 2..250", False),
+        ("u8, count: 2, text: ascii", "u16, range: 0x8080..", True),
+        ("u8, always: 5", "u8, range: 6..", True),
     ],
 )
 def test_fields_that_have_no_byte_in_common_tell_messages_apart(
@@ -128,7 +116,7 @@ def test_fields_that_have_no_byte_in_common_tell_messages_apart(
         size = 4 if "16" in field or "count" in field else 3
         text += f"""\
   {name}: {{id: 1, direction: host -> lamp, summary: X., cite: manual, length: {size - 1},
-    fields: {{value: {field}}}}}
+    fields: {{value: {{type: {field}, about: X.}}}}}}
 """
     found = compile_spec(Source("lamps.yaml", text)).findings
     assert ("duplicate-id" not in {finding.rule for finding in found}) == are_told
@@ -137,7 +125,7 @@ def test_fields_that_have_no_byte_in_common_tell_messages_apart(
 
 # ------------------------------------------------------------------ hints at a wrong checksum
 
-BUS = (bad_specs.BASES / "bus.yaml").read_text(encoding="utf-8")
+BUS = bad_specs.base("bus")
 COVERS = "covers: [station, length, family, code, serial, payload, seed]"
 
 
@@ -161,32 +149,23 @@ def test_what_all_examples_agree_with_is_found(wrong: tuple[str, str], right: st
 
 def test_an_unusual_sum_is_not_told_of_where_a_usual_one_agrees() -> None:
     pumps = ROOT / "tests/unit/conformance/device/pumps_of_two_kinds.yaml"
-    text = pumps.read_text(encoding="utf-8")
-    wrong = text.replace("method: sum,", "method: crc-8/smbus,")
-    told = {finding.hint for finding in compile_spec(Source("pumps.yaml", wrong)).findings}
-    assert "all 3 examples would agree with `method: sum`" in told
+    wrong = pumps.read_text(encoding="utf-8").replace("method: sum,", "method: crc-8/smbus,")
+    assert "all 3 examples would agree with `method: sum`" in hints_of(wrong)
     # These agree with no plain sum.
-    text = text.replace("E8 03 EF", "E8 83 70").replace("flow: 1000", "flow: 33768")
-    wrong = text.replace("method: sum,", "method: crc-8/smbus,")
-    told = {finding.hint for finding in compile_spec(Source("pumps.yaml", wrong)).findings}
-    assert "all 3 examples would agree with `method: carried sum`" in told
+    carried = wrong.replace("E8 03 EF", "E8 83 70").replace("flow: 1000", "flow: 33768")
+    assert "all 3 examples would agree with `method: carried sum`" in hints_of(carried)
 
 
 def test_a_frame_that_was_made_up_is_no_evidence_for_a_checksum() -> None:
-    made_up = BUS.replace("00 D9 A0 7F", "00 00 00 7F").replace(
-        "values: {station: 1, serial: 0}, cite: manual}",
-        "values: {station: 1, serial: 0}, constructed: By hand.}",
-        1,
-    )
-    assert made_up.count("constructed") == BUS.count("constructed") + 1
+    cited = "hex: A5 5A 01 02 01 02 00 D9 A0 7F, values: {station: 1, serial: 0}, cite: manual"
+    made_up = cited.replace("D9 A0", "00 00").replace("cite: manual", "constructed: By hand.")
+    made_up = edited(BUS, (cited, made_up))
     told = hints_of(made_up.replace("crc-16/modbus", "crc-16/arc"))
     assert told == {"all 4 published examples would agree with `method: crc-16/modbus`"}
 
 
 def test_what_one_short_checksum_agrees_with_by_chance_is_not_told() -> None:
-    text = BUS.replace(
-        "checksum, type: u16, method: crc-16/modbus", "checksum, type: u8, method: sum"
-    )
+    text = BUS.replace("type: u16, method: crc-16/modbus", "type: u8, method: sum")
     one = text[: text.index("  State:\n")].replace("    reply: State\n    refusal: Refused\n", "")
     wrong = one.replace("00 D9 A0 7F", "00 D9 7F")
     (hint,) = hints_of(wrong)

@@ -53,7 +53,7 @@ def page() -> str:
     parts = [_HEAD, contents()]
     for subject, title in _SUBJECTS.items():
         parts.append(f"## {title}\n")
-        parts += ["\n".join(_told(rule)) for rule in _rules(subject)]
+        parts += [f"{section(rule)}\n\n{verdicts(rule)}\n" for rule in _rules(subject)]
     return "\n".join(parts)
 
 
@@ -76,33 +76,17 @@ def _link(heading: str) -> str:
 
 def section(rule: ChangeRule) -> str:
     """Return what the page says of a rule, without what its example breaks."""
-    return "\n".join(_described(rule))
+    where = f", below {rule.at}" if rule.at else ""
+    shown = [f"### {rule.id}", "", f"{rule.title}. {rule.why}", rule.do, "", "```yaml"]
+    for edition_, lines in (("before", rule.before), ("after", rule.after)):
+        shown.append(f"# {edition_}{where}" if lines else f"# {edition_}: nothing{where}")
+        shown += lines.splitlines()
+    return "\n".join([*shown, "```"])
 
 
 def verdicts(rule: ChangeRule) -> str:
     """Return what the example of a rule breaks, as the page says it."""
     return "\n".join(_verdicts(rule))
-
-
-def _told(rule: ChangeRule) -> Iterator[str]:
-    yield from _described(rule)
-    yield ""
-    yield from _verdicts(rule)
-    yield ""
-
-
-def _described(rule: ChangeRule) -> Iterator[str]:
-    yield f"### {rule.id}"
-    yield ""
-    yield f"{rule.title}. {rule.why}"
-    yield rule.do
-    yield ""
-    yield "```yaml"
-    where = f", below {rule.at}" if rule.at else ""
-    for edition_, lines in (("before", rule.before), ("after", rule.after)):
-        yield f"# {edition_}{where}" if lines else f"# {edition_}: nothing{where}"
-        yield from lines.splitlines()
-    yield "```"
 
 
 def _verdicts(rule: ChangeRule) -> Iterator[str]:

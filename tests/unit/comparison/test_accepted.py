@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from framegen.comparison.accepted import accepted_breaks, ignored_breaks
@@ -19,8 +19,10 @@ from tests.mutations.houses import DATA, DOOR, LIMIT, REASON, WINDOW, house
 if TYPE_CHECKING:
     from framegen.comparison.effect import Effect
 
+    from tests.factories import Data
 
-def effects(old: dict[str, Any], new: dict[str, Any]) -> list[Effect]:
+
+def effects(old: Data, new: Data) -> list[Effect]:
     found = Comparison(edition(old), edition(new)).effects
     return [each for each in found if each.axis in ("wire", "conversation") and each.breaks]
 
@@ -75,22 +77,19 @@ def test_what_check_refuses_accepts_nothing(path: str, wrong: str) -> None:
     assert ignored_breaks(back.pair) == []
 
 
-@pytest.mark.parametrize(
-    ("path", "said"),
-    [
-        (
-            "messages.DoorOpend.id",
-            "messages.DoorOpend.id; there is no message `DoorOpend`, did you mean `DoorOpened`?\n",
-        ),
-        ("messages.Q", "messages.Q; there is no message `Q`\n"),
-        ("messages.VentJammed", "messages.VentJammed\n"),
-        ("link.baud", "link.baud\n"),
+@in_turn(
+    "path, said",
+    lambda: [
+        ("messages.DoorOpend.id", "; there is no message `DoorOpend`, did you mean `DoorOpened`?"),
+        ("messages.Q", "; there is no message `Q`"),
+        ("messages.VentJammed", ""),
+        ("link.baud", ""),
     ],
 )
 def test_a_message_that_neither_edition_has_was_misspelt(path: str, said: str) -> None:
     old, new = house({"DoorOpened": DOOR}), house({}, breaks={path: REASON})
     shown = text(Comparison(edition(old), edition(new)))
-    assert f"version 9.0.0 accepts what breaks nothing: {said}" in shown
+    assert f"version 9.0.0 accepts what breaks nothing: {path}{said}\n" in shown
 
 
 @pytest.mark.parametrize(
@@ -130,15 +129,14 @@ AFRESH = ("reserved", len(DATA.get("reserved", ())))
 NAME_ALONE = {"name": "DoorOpened", "why": LIMIT["why"]}
 
 
-def reuses(reserved: dict[str, Any], new: dict[str, Any]) -> list[Effect]:
+def about(reserved: Data, new: Data) -> list[Effect]:
+    """Return the effects on a reservation: that it is gone has no new place."""
     found = Comparison(edition(house({}, [reserved])), edition(new)).effects
-    return [each for each in found if each.old == AFRESH and each.new is not None]
+    return [each for each in found if each.old == AFRESH]
 
 
-def dropped(reserved: dict[str, Any], new: dict[str, Any]) -> list[str]:
-    """Return the axes on which a reservation that is gone is told of."""
-    found = Comparison(edition(house({}, [reserved])), edition(new)).effects
-    return [each.axis for each in found if each.old == AFRESH and each.new is None]
+def reuses(reserved: Data, new: Data) -> list[Effect]:
+    return [each for each in about(reserved, new) if each.new is not None]
 
 
 @in_turn(
@@ -157,7 +155,7 @@ def dropped(reserved: dict[str, Any], new: dict[str, Any]) -> list[str]:
     ],
 )
 def test_what_was_reserved_is_not_used_again_unawares(
-    reserved: dict[str, Any], name: str, axes: list[str]
+    reserved: Data, name: str, axes: list[str]
 ) -> None:
     found = reuses(reserved, house({name: WINDOW}))
     assert [each.axis for each in found] == axes
@@ -168,15 +166,12 @@ def test_what_was_reserved_is_not_used_again_unawares(
         assert each.accepted == ""
 
 
-def test_a_message_that_had_its_id_all_along_uses_nothing_again() -> None:
-    one, other = (house({"WindowOpened": WINDOW}, [WITHOUT_NAME]), house({"WindowOpened": WINDOW}))
-    found = Comparison(edition(one), edition(other)).effects
-    assert [each for each in found if each.breaks] == []
-
-
-def test_the_reuse_is_accepted_where_the_message_is() -> None:
-    found = reuses(LIMIT, house({"WindowOpened": WINDOW}, breaks={"messages.WindowOpened": REASON}))
+def test_a_reuse_is_accepted_where_the_message_is_and_none_if_it_had_its_id_all_along() -> None:
+    window = {"WindowOpened": WINDOW}
+    found = reuses(LIMIT, house(window, breaks={"messages.WindowOpened": REASON}))
     assert [each.accepted for each in found] == [REASON]
+    found = Comparison(edition(house(window, [WITHOUT_NAME])), edition(house(window))).effects
+    assert [each for each in found if each.breaks] == []
 
 
 @in_turn(
@@ -204,9 +199,10 @@ def test_the_reuse_is_accepted_where_the_message_is() -> None:
     ],
 )
 def test_a_reservation_that_is_dropped_is_told(
-    reserved: dict[str, Any], messages: dict[str, Any], kept: list[dict[str, Any]], axes: list[str]
+    reserved: Data, messages: Data, kept: list[Data], axes: list[str]
 ) -> None:
-    assert dropped(reserved, house(messages, kept)) == axes
+    found = about(reserved, house(messages, kept))
+    assert [each.axis for each in found if each.new is None] == axes
 
 
 def test_a_dropped_reservation_is_no_patch_until_it_is_accepted() -> None:

@@ -7,8 +7,10 @@ import re
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from framegen.checks import RULES
 from framegen.comparison import changes as rules
 from framegen.comparison.changes import CHANGE_RULES, changes
+from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 
 from tests.factories import ROOT, compiled_of, data_of
@@ -64,8 +66,6 @@ def test_what_a_rule_says_is_not_about_its_example(rule: ChangeRule) -> None:
 
 
 def test_no_two_rules_share_an_id_and_none_has_that_of_a_rule_of_check() -> None:
-    from framegen.checks import RULES  # noqa: PLC0415
-
     ids = [rule.id for rule in (*CHANGE_RULES, *RULES)]
     assert sorted(set(ids)) == sorted(ids)
 
@@ -144,15 +144,12 @@ def test_what_is_said_otherwise_of_the_same_message_is_the_same(
 
 
 def test_changes_come_in_the_order_of_the_new_edition_and_what_is_gone_last() -> None:
-    from framegen.comparison.edition import Edition  # noqa: PLC0415
-
     several = {"messages.ServoMove.id": 4, "link.baud": 19200, "pose": GONE}
     count = {"messages.ServoUnload.fields.servo_ids.count": "2.."}
     data = having(SERVO, several | count)
-    compiled = [compiled_of(each) for each in (SERVO, data)]
     editions = []
-    for each in compiled:
-        made = edition(each.tree.data)
-        editions.append(Edition("spec.yaml", each, made.spec, made.model))
+    for compiled in map(compiled_of, (SERVO, data)):
+        made = edition(compiled.tree.data)
+        editions.append(Edition("spec.yaml", compiled, made.spec, made.model))
     told = [each.rule for each in changes(Pair(*editions))]
     assert told == ["baud", "message-id", "count", "pose-removed"]

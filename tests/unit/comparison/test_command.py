@@ -1,9 +1,8 @@
 """`framegen diff`: what it prints, and the exit code that it gives to what breaks."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 from framegen.cli import main
@@ -13,20 +12,27 @@ from framegen.comparison.report.verdict import AXES, FAILURES, USUAL_FAILURES
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from tests.factories import DEMO, ROOT, Data, yaml_of
+from tests.factories import DEMO, ROOT, Data, write_files, yaml_of
 from tests.few_each import few_each
+from tests.in_turn import in_turn
 from tests.mutations.edits import SPECS
 from tests.mutations.places import renamed, with_
 from tests.repository import commit, start
 
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
+Capture: TypeAlias = "pytest.CaptureFixture[str]"
+Writes: TypeAlias = "Callable[..., list[str]]"
+
+LAMP = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
 HOUSE = SPECS["greenhouse"]
 READ = ("messages", "StationRead")
 # Without the examples, which show the frames of before.
 BARE = with_(HOUSE, *READ, "examples", [])
 NUMBERED = with_(BARE, *READ, "id", 0x20)
 RENAMED = renamed(HOUSE, "VentJammed", "VentStuck")
+TOLD = with_(RENAMED, "messages", "VentStuck", "was", "VentJammed")
 WORDED = with_(HOUSE, "protocol", "summary", "Frames.")
 
 
@@ -45,23 +51,29 @@ ACCEPTED = accepting(NUMBERED, "2.0.0", messages__StationRead="No station has it
 
 
 @pytest.fixture
-def written(tmp_path: Path) -> Callable[..., list[str]]:
+def written(tmp_path: Path) -> Writes:
     """Return a function that writes specs into files, and returns their names."""
 
     def write(*specs: Data) -> list[str]:
-        names: list[str] = []
-        for number, data in enumerate(specs):
-            file = tmp_path / f"{number}.yaml"
-            file.write_text(yaml_of(data), encoding="utf-8")
-            names.append(file.as_posix())
-        return names
+        texts = {f"{number}.yaml": yaml_of(data) for number, data in enumerate(specs)}
+        write_files(texts, tmp_path)
+        return [(tmp_path / name).as_posix() for name in texts]
 
     return write
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "fail_on", "code"),
-    [
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a project with two specs, which is the current folder, tagged v1."""
+    start(tmp_path)
+    commit(tmp_path, {"spec/a.yaml": yaml_of(BARE), "spec/b.yaml": LAMP}, "v1")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@in_turn(
+    "old, new, fail_on, code",
+    lambda: [
         (HOUSE, dict(HOUSE), [], 0),
         (BARE, NUMBERED, [], 1),
         (BARE, NUMBERED, ["uncertain", "wire"], 1),
@@ -69,25 +81,20 @@ def written(tmp_path: Path) -> Callable[..., list[str]]:
         (BARE, NUMBERED, ["never"], 0),
         (BARE, ACCEPTED, ["wire,conversation,uncertain,version"], 0),
         (HOUSE, RENAMED, ["wire,uncertain"], 3),
-        (HOUSE, with_(RENAMED, "messages", "VentStuck", "was", "VentJammed"), ["uncertain"], 0),
+        (HOUSE, TOLD, ["uncertain"], 0),
     ],
 )
 def test_the_exit_code_says_what_breaks(
-    written: Callable[..., list[str]],
-    capsys: Capture,
-    old: Data,
-    new: Data,
-    fail_on: list[str],
-    code: int,
+    written: Writes, capsys: Capture, old: Data, new: Data, fail_on: list[str], code: int
 ) -> None:
     options = [f"--fail-on={word}" for word in fail_on]
     assert main(["diff", *written(old, new), *options]) == code
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
+@in_turn(
+    "words, said",
+    lambda: [
         (["--fail-on", "weather"], "'weather' is none of wire, conversation, programs, uncertain"),
         (["--fail-on", "wire,"], "'' is none of wire"),
         (["--fail-on", "never,wire"], "`--fail-on never` and wire exclude each other"),
@@ -112,7 +119,7 @@ def test_the_command_knows_the_formats_and_the_axes_of_the_comparison() -> None:
 
 
 def test_the_text_shows_the_verdict_and_the_frame_of_each_break(
-    written: Callable[..., list[str]], capsys: Capture
+    written: Writes, capsys: Capture
 ) -> None:
     old, new = written(BARE, NUMBERED)
     main(["diff", old, new, "--fail-on", "never"])
@@ -136,9 +143,7 @@ def test_the_text_shows_the_verdict_and_the_frame_of_each_break(
     assert lines.count("C3 5A A5 11 00 00") == 1
 
 
-def test_what_is_accepted_is_shown_with_its_reason(
-    written: Callable[..., list[str]], capsys: Capture
-) -> None:
+def test_what_is_accepted_is_shown_with_its_reason(written: Writes, capsys: Capture) -> None:
     wide = accepting(NUMBERED, "2.0.0", messages__StationRead="Gone.", messages__TextShow="Old.")
     main(["diff", *written(BARE, wide), "--fail-on", "never"])
     lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
@@ -157,14 +162,10 @@ def test_two_protocols_with_nothing_in_common_are_not_compared(capsys: Capture) 
 
 
 def test_every_spec_of_a_project_is_compared_and_the_worst_gives_the_exit_code(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    project: Path, capsys: Capture
 ) -> None:
-    start(tmp_path)
-    lamp = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
-    commit(tmp_path, {"spec/a.yaml": yaml_of(BARE), "spec/b.yaml": lamp}, "v1")
-    (tmp_path / "spec" / "a.yaml").write_text(yaml_of(NUMBERED), encoding="utf-8")
-    (tmp_path / "spec" / "c.yaml").write_text(yaml_of(SPECS["modbus"]), encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
+    texts = {"spec/a.yaml": yaml_of(NUMBERED), "spec/c.yaml": yaml_of(SPECS["modbus"])}
+    write_files(texts, project)
     assert main(["diff", "v1", "--format", "json"]) == 1
     printed = capsys.readouterr()
     reports = [json.loads(line) for line in printed.out.splitlines()]
@@ -177,57 +178,43 @@ def test_every_spec_of_a_project_is_compared_and_the_worst_gives_the_exit_code(
 GONE = "spec/a.yaml is gone: everything of greenhouse breaks"
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (["--format=text"], f"greenhouse: v1:spec/a.yaml (1.1.0) -> nothing\n\n  {GONE}\n"),
-        (["--format=markdown"], f"**{GONE}**"),
-        (["--format=github"], f"::error file=spec/a.yaml,title=greenhouse::{GONE}\n## greenhouse"),
-        (["--format=json"], f'"text": "{GONE}"'),
+@in_turn(
+    "form, said",
+    lambda: [
+        ("text", f"greenhouse: v1:spec/a.yaml (1.1.0) -> nothing\n\n  {GONE}\n"),
+        ("markdown", f"**{GONE}**"),
+        ("github", f"::error file=spec/a.yaml,title=greenhouse::{GONE}\n## greenhouse"),
+        ("json", f'"text": "{GONE}"'),
     ],
-    ids=lambda row: row[0],
 )
 def test_a_spec_that_is_gone_breaks_in_every_format(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: Capture,
-    options: list[str],
-    said: str,
+    project: Path, capsys: Capture, form: str, said: str
 ) -> None:
-    start(tmp_path)
-    commit(tmp_path, {"spec/a.yaml": yaml_of(BARE)}, "v1")
-    (tmp_path / "spec" / "a.yaml").unlink()
-    monkeypatch.chdir(tmp_path)
+    (project / "spec" / "a.yaml").unlink(missing_ok=True)
     codes = {"wire": 1, "programs,version": 1, "conversation,uncertain,version": 0, "never": 0}
     for fail_on, code in codes.items():
-        assert main(["diff", "v1", *options, "--fail-on", fail_on]) == code
+        assert main(["diff", "v1", f"--format={form}", "--fail-on", fail_on]) == code
         assert said in capsys.readouterr().out
     assert main(["diff"]) == 1
 
 
 def test_the_json_of_what_is_gone_has_the_keys_of_every_report(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    project: Path, capsys: Capture
 ) -> None:
-    start(tmp_path)
-    lamp = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
-    commit(tmp_path, {"spec/a.yaml": yaml_of(BARE), "spec/b.yaml": lamp})
-    (tmp_path / "spec" / "a.yaml").unlink()
-    (tmp_path / "spec" / "b.yaml").rename(tmp_path / "spec" / "c.yaml")
-    monkeypatch.chdir(tmp_path)
+    (project / "spec" / "a.yaml").unlink()
+    (project / "spec" / "b.yaml").rename(project / "spec" / "c.yaml")
     main(["diff", "--format", "json"])
     kept, gone = (json.loads(line) for line in capsys.readouterr().out.splitlines())
     assert gone.keys() == kept.keys()
     assert kept["old"]["edition"] == "HEAD:spec/b.yaml"
     assert gone["new"] is None
     assert gone["old"] == {"edition": "HEAD:spec/a.yaml", "version": "1.1.0", "findings": None}
-    assert [(each["axis"], each["standing"]) for each in gone["effects"]] == [
-        ("wire", "breaks"),
-        ("programs", "breaks"),
-    ]
+    effects = [(each["axis"], each["standing"]) for each in gone["effects"]]
+    assert effects == [("wire", "breaks"), ("programs", "breaks")]
 
 
 def test_a_spec_that_contradicts_itself_too_much_is_an_error(
-    written: Callable[..., list[str]], capsys: Capture
+    written: Writes, capsys: Capture
 ) -> None:
     old, new = written(HOUSE, with_(HOUSE, *READ, "reply", "Nobody"))
     assert main(["diff", old, new]) == 2

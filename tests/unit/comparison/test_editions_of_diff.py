@@ -4,6 +4,7 @@ import io
 import sys
 from pathlib import Path
 from shutil import copytree
+from typing import TypeAlias
 
 import pytest
 from framegen.comparison.editions import Editions, find_editions
@@ -16,6 +17,9 @@ from framegen.reading.yamltree import Unusable
 from tests.factories import BUSSERVO, DEMO, ROOT, write_files
 from tests.in_turn import in_turn
 from tests.repository import ALONE, OF_A_HOOK, commit, git, start
+
+Patch: TypeAlias = pytest.MonkeyPatch
+Found: TypeAlias = list[tuple[str, str, str]]
 
 LAMPS = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
 BLINDS = (ROOT / "tests" / "specs" / "blinds.yaml").read_text(encoding="utf-8")
@@ -50,7 +54,7 @@ def origin(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def alone(monkeypatch: Patch) -> None:
     """Have the command run git as the tests do."""
     for name, value in ALONE.items():
         monkeypatch.setenv(name, value)
@@ -59,21 +63,21 @@ def alone(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def clone(origin: Path, alone: None, monkeypatch: pytest.MonkeyPatch) -> Path:
+def clone(origin: Path, alone: None, monkeypatch: Patch) -> Path:
     """Return that project, which is the current folder, and stays as it is."""
     monkeypatch.chdir(origin)
     return origin
 
 
 @pytest.fixture
-def copy(origin: Path, alone: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def copy(origin: Path, alone: None, tmp_path: Path, monkeypatch: Patch) -> Path:
     """Return a copy of it, which can be changed."""
     copytree(origin, tmp_path / "copy")
     monkeypatch.chdir(tmp_path / "copy")
     return tmp_path / "copy"
 
 
-def versions(*words: str | None) -> list[tuple[str, str, str]]:
+def versions(*words: str | None) -> Found:
     """Return the protocols that words name, each with the versions of its two editions."""
     return [
         (new.spec.protocol.name, old.version, new.version)
@@ -85,38 +89,38 @@ BLINDS_VERSION = compile_spec(Source("blinds.yaml", BLINDS)).spec.protocol.versi
 BOTH_BLINDS = ("blinds", BLINDS_VERSION, BLINDS_VERSION)
 
 
+def lamp(old: str, new: str) -> tuple[str, str, str]:
+    return "stage_lamp", old, new
+
+
 @in_turn(
     "words, found",
     lambda: [
-        ((), [BOTH_BLINDS, ("stage_lamp", "0.3.0", "0.5.0")]),
-        (("HEAD",), [BOTH_BLINDS, ("stage_lamp", "0.3.0", "0.5.0")]),
-        (("v0.2.0",), [("stage_lamp", "0.2.0", "0.5.0")]),
-        (("v0.1.0",), [("stage_lamp", "0.1.0", "0.5.0")]),
-        (("v0.1.0", "lamp"), [("stage_lamp", "0.1.0", "0.5.0")]),
-        (("v0.1.0", "HEAD"), [("stage_lamp", "0.1.0", "0.3.0")]),
-        (("v0.2.0", "HEAD"), [("stage_lamp", "0.2.0", "0.3.0")]),
-        (("HEAD~1", "main"), [("stage_lamp", "0.2.0", "0.3.0")]),
-        (("v0.1.0:spec/old_lamp.yaml",), [("stage_lamp", "0.1.0", "0.5.0")]),
-        (("v0.1.0:./spec/old_lamp.yaml", "v0.2.0"), [("stage_lamp", "0.1.0", "0.2.0")]),
-        ((":spec/lamp.yaml",), [("stage_lamp", "0.4.0", "0.5.0")]),
-        (("v0.2.0:spec/lamp.yaml", ":spec/lamp.yaml"), [("stage_lamp", "0.2.0", "0.4.0")]),
-        (("lamp",), [("stage_lamp", "0.3.0", "0.5.0")]),
-        (("spec/blinds.yaml",), [BOTH_BLINDS]),
-        (("HEAD", "lamp"), [("stage_lamp", "0.3.0", "0.5.0")]),
-        (("HEAD", "spec/lamp.yaml"), [("stage_lamp", "0.3.0", "0.5.0")]),
-        (("spec/lamp.yaml", "HEAD"), [("stage_lamp", "0.5.0", "0.3.0")]),
-        (("lamp", "blinds"), [("blinds", "0.5.0", BLINDS_VERSION)]),
+        ("", [BOTH_BLINDS, lamp("0.3.0", "0.5.0")]),
+        ("HEAD", [BOTH_BLINDS, lamp("0.3.0", "0.5.0")]),
+        ("v0.2.0", [lamp("0.2.0", "0.5.0")]),
+        ("v0.1.0", [lamp("0.1.0", "0.5.0")]),
+        ("v0.1.0 lamp", [lamp("0.1.0", "0.5.0")]),
+        ("v0.1.0 HEAD", [lamp("0.1.0", "0.3.0")]),
+        ("v0.2.0 HEAD", [lamp("0.2.0", "0.3.0")]),
+        ("HEAD~1 main", [lamp("0.2.0", "0.3.0")]),
+        ("v0.1.0:spec/old_lamp.yaml", [lamp("0.1.0", "0.5.0")]),
+        ("v0.1.0:./spec/old_lamp.yaml v0.2.0", [lamp("0.1.0", "0.2.0")]),
+        (":spec/lamp.yaml", [lamp("0.4.0", "0.5.0")]),
+        ("v0.2.0:spec/lamp.yaml :spec/lamp.yaml", [lamp("0.2.0", "0.4.0")]),
+        ("lamp", [lamp("0.3.0", "0.5.0")]),
+        ("spec/blinds.yaml", [BOTH_BLINDS]),
+        ("HEAD lamp", [lamp("0.3.0", "0.5.0")]),
+        ("HEAD spec/lamp.yaml", [lamp("0.3.0", "0.5.0")]),
+        ("spec/lamp.yaml HEAD", [lamp("0.5.0", "0.3.0")]),
+        ("lamp blinds", [("blinds", "0.5.0", BLINDS_VERSION)]),
     ],
 )
-def test_words_name_editions(
-    clone: Path, words: tuple[str, ...], found: list[tuple[str, str, str]]
-) -> None:
-    assert versions(*words) == found
+def test_words_name_editions(clone: Path, words: str, found: Found) -> None:
+    assert versions(*words.split()) == found
 
 
-def test_a_folder_within_the_project_finds_the_same(
-    clone: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_folder_within_the_project_finds_the_same(clone: Path, monkeypatch: Patch) -> None:
     monkeypatch.chdir(clone / "docs")
     assert versions("v0.2.0") == [("stage_lamp", "0.2.0", "0.5.0")]
     ((old, new),) = find_editions("v0.2.0").pairs
@@ -131,13 +135,9 @@ def test_the_newest_released_edition_comes_before_the_last_commit(copy: Path) ->
     release(copy, "0.9.0", "0.10.0", "0.10.0-rc.2", "0.10.0-rc.10", "0.9.10")
     others = ("stage_lamp-newest", "stage_lamp-1", "stage_lamps-1.0.0", "lamp-1.0.0")
     write_files({f"spec/released/{name}.yaml": LAMPS for name in others}, copy)
-    assert [file.stem for file in released(copy / "spec", "stage_lamp")] == [
-        "stage_lamp-0.10.0",
-        "stage_lamp-0.10.0-rc.10",
-        "stage_lamp-0.10.0-rc.2",
-        "stage_lamp-0.9.10",
-        "stage_lamp-0.9.0",
-    ]
+    newest_first = ["0.10.0", "0.10.0-rc.10", "0.10.0-rc.2", "0.9.10", "0.9.0"]
+    found = [file.stem for file in released(copy / "spec", "stage_lamp")]
+    assert found == [f"stage_lamp-{each}" for each in newest_first]
     assert versions() == [BOTH_BLINDS, ("stage_lamp", "0.10.0", "0.5.0")]
     assert versions("stage_lamp-0.9.0") == [("stage_lamp", "0.9.0", "0.5.0")]
     assert versions("stage_lamp-0.9.0", "stage_lamp-0.10.0") == [("stage_lamp", "0.9.0", "0.10.0")]
@@ -147,9 +147,9 @@ def test_the_newest_released_edition_comes_before_the_last_commit(copy: Path) ->
     assert caught.value.hint.startswith("did you mean `stage_lamp-0.")
 
 
-@pytest.mark.parametrize(
-    ("words", "kept"),
-    [
+@in_turn(
+    "words, kept",
+    lambda: [
         ((), ["0.2.1", "0.2.0", "0.1.0"]),
         (("lamp",), ["0.2.1", "0.2.0", "0.1.0"]),
         # The last commit says that it is 0.3.0.
@@ -161,7 +161,6 @@ def test_the_newest_released_edition_comes_before_the_last_commit(copy: Path) ->
         (("v0.2.0:spec/lamp.yaml",), []),
         (("v0.2.0", "HEAD"), []),
     ],
-    ids=repr,
 )
 def test_final_editions_before_the_one_that_is_compared_are_kept(
     copy: Path, words: tuple[str, ...], kept: list[str]
@@ -172,7 +171,7 @@ def test_final_editions_before_the_one_that_is_compared_are_kept(
     assert [each.edition.version for each in found.kept(old)] == kept
 
 
-def test_one_edition_can_come_from_the_input(clone: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_edition_can_come_from_the_input(clone: Path, monkeypatch: Patch) -> None:
     def given(data: bytes) -> None:
         monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
 
@@ -188,6 +187,7 @@ def test_one_edition_can_come_from_the_input(clone: Path, monkeypatch: pytest.Mo
         find_editions("-")
 
 
+NOTHING = "a comparison of nothing"
 WRONG = [
     (("v9",), "`v9` is no file and no released edition, and `v9` is no revision", "--tags"),
     (("nope.yaml",), "nope.yaml does not exist", "framegen diff"),
@@ -206,14 +206,10 @@ WRONG = [
     (("a\0b",), "`a\\x00b` names no edition", "two editions"),
     (("HEAD:a\0b",), "`HEAD:a\\x00b` names no edition", "two editions"),
     (("x" * 5000,), "File name too long", "two editions"),
-    (("-", "-"), "a comparison of nothing: `-` is named twice", "from the input"),
-    (("HEAD", "HEAD"), "a comparison of nothing: `HEAD` is named twice", "two editions"),
-    (
-        ("lamp", "spec/lamp.yaml"),
-        "a comparison of nothing: both are spec/lamp.yaml",
-        "two editions",
-    ),
-    (("HEAD:spec/lamp.yaml", "HEAD:spec/lamp.yaml"), "a comparison of nothing", "two editions"),
+    (("-", "-"), f"{NOTHING}: `-` is named twice", "from the input"),
+    (("HEAD", "HEAD"), f"{NOTHING}: `HEAD` is named twice", "two editions"),
+    (("lamp", "spec/lamp.yaml"), f"{NOTHING}: both are spec/lamp.yaml", "two editions"),
+    (("HEAD:spec/lamp.yaml", "HEAD:spec/lamp.yaml"), NOTHING, "two editions"),
 ]
 
 
@@ -227,19 +223,16 @@ def test_what_names_no_edition_is_told_with_the_way_out(
     assert hint in caught.value.hint
 
 
-def test_the_same_file_by_two_ways_is_a_comparison_of_nothing(copy: Path) -> None:
+def test_the_same_file_by_two_ways_is_one_edition_and_two_of_one_text_are_two(copy: Path) -> None:
     (copy / "link.yaml").symlink_to(copy / "spec" / "lamp.yaml")
-    with pytest.raises(Unusable, match=r"a comparison of nothing: both are spec/lamp.yaml"):
+    with pytest.raises(Unusable, match=rf"{NOTHING}: both are spec/lamp.yaml"):
         find_editions("link.yaml", "lamp")
-
-
-def test_two_files_of_the_same_text_are_two_editions(copy: Path) -> None:
     (copy / "copy.yaml").write_text(version(LAMPS, "0.5.0"), encoding="utf-8")
     assert versions("copy.yaml") == [("stage_lamp", "0.5.0", "0.5.0")]
 
 
 def test_without_a_repository_only_files_can_be_named(
-    clone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    clone: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     write_files({"project/spec/lamp.yaml": LAMPS}, tmp_path)
     monkeypatch.chdir(tmp_path / "project")
@@ -251,9 +244,7 @@ def test_without_a_repository_only_files_can_be_named(
     assert versions(str(clone / "spec" / "lamp.yaml"))[0][0] == "stage_lamp"
 
 
-def test_without_git_revisions_cannot_be_named(
-    clone: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_git_revisions_cannot_be_named(clone: Path, monkeypatch: Patch) -> None:
     monkeypatch.setenv("PATH", "")
     with pytest.raises(Unusable, match="there is no git on this machine") as caught:
         find_editions()
@@ -261,7 +252,7 @@ def test_without_git_revisions_cannot_be_named(
 
 
 def test_the_first_edition_of_a_spec_has_nothing_to_be_compared_with(
-    clone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    clone: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     start(tmp_path / "new")
     write_files({"new/spec/lamp.yaml": LAMPS}, tmp_path)
@@ -279,7 +270,7 @@ def test_the_first_edition_of_a_spec_has_nothing_to_be_compared_with(
 
 
 def test_a_shallow_clone_says_how_it_gets_the_rest(
-    clone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    clone: Path, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     shallow = tmp_path / "shallow"
     git(tmp_path, "clone", "--quiet", "--depth", "1", clone.as_uri(), str(shallow))
@@ -295,14 +286,13 @@ def test_a_spec_that_rules_dislike_is_an_edition_all_the_same() -> None:
     source = Source("lamp.yaml", text)
     assert compile_spec(source).findings
     compiled = compile_leniently(source)
-    assert compiled.findings == []
-    assert compiled.tolerated == tuple(compile_spec(source).findings)
+    assert (compiled.findings, compiled.tolerated) == ([], tuple(compile_spec(source).findings))
     assert compiled.model.messages.keys() == compile_spec(Source("x", LAMPS)).model.messages.keys()
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
+@in_turn(
+    "text, said",
+    lambda: [
         ("framegen: 99\n", "edition 99 of the language"),
         ("framegen: 2\n", "finding"),
         ("[]", "holds a list"),
@@ -343,7 +333,7 @@ WEATHER = (ROOT / "tests" / "specs" / "weather.yaml").read_text(encoding="utf-8"
 NO_LAMP = "spec/lamp.yaml is gone: everything of stage_lamp breaks"
 NO_BLINDS = "spec/blinds.yaml is gone: everything of blinds breaks"
 BEACON = ("beacon", "0.3.0", "0.6.0")
-LANTERN = ("stage_lamp", "0.3.0", "0.6.0")
+LANTERN = lamp("0.3.0", "0.6.0")
 MOVED = [
     ([("lantern", named("stage_lamp", "0.6.0")), ("blinds", BLINDS)], [BOTH_BLINDS, LANTERN], []),
     # Two files changed places.
@@ -353,21 +343,17 @@ MOVED = [
     ([("lamp", named("beacon", "0.6.0")), ("blinds", BLINDS)], [BOTH_BLINDS, BEACON], []),
     ([("blinds", BLINDS)], [BOTH_BLINDS], [NO_LAMP]),
     # What came has nothing to do with what went.
-    ([("lamp", LAMPS), ("weather", WEATHER)], [("stage_lamp", "0.3.0", "0.4.0")], [NO_BLINDS]),
+    ([("lamp", LAMPS), ("weather", WEATHER)], [lamp("0.3.0", "0.4.0")], [NO_BLINDS]),
     # Two are gone: either may be the one that has another name.
     ([("beacon", named("beacon", "0.6.0"))], [], [NO_BLINDS, NO_LAMP]),
     ([], [], [NO_BLINDS, NO_LAMP]),
 ]
 
 
-@pytest.mark.parametrize("words", [(), ("HEAD",)], ids=["nothing named", "a revision"])
-@pytest.mark.parametrize(("specs", "pairs", "gone"), MOVED)
+@in_turn("words", lambda: [[], ["HEAD"]])
+@in_turn("specs, pairs, gone", lambda: MOVED)
 def test_a_spec_is_followed_to_its_new_name_or_is_gone(
-    copy: Path,
-    words: tuple[str, ...],
-    specs: list[tuple[str, str]],
-    pairs: list[tuple[str, str, str]],
-    gone: list[str],
+    copy: Path, words: list[str], specs: list[tuple[str, str]], pairs: Found, gone: list[str]
 ) -> None:
     written(copy, *specs)
     assert versions(*words) == pairs
@@ -394,7 +380,7 @@ def test_a_released_protocol_without_a_spec_is_gone(copy: Path) -> None:
 
 
 def test_without_a_project_the_error_is_that(
-    alone: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    alone: None, tmp_path: Path, monkeypatch: Patch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import pytest
+from functools import reduce
+
 from framegen.comparison.changes import changes
 from framegen.comparison.effect import Effect
 from framegen.comparison.explained import explain
 
+from tests.in_turn import in_turn
 from tests.mutations.edits import SERVO, pair_of
 from tests.mutations.places import with_
 
@@ -15,9 +17,7 @@ MOVE = ("messages", "ServoMove")
 
 def explained(effect: Effect, *edits: tuple[object, ...]) -> list[str]:
     """Return the rules of what explains an effect on the servos, which are edited so."""
-    new = SERVO
-    for edit in edits:
-        new = with_(new, *edit)
+    new = reduce(lambda data, edit: with_(data, *edit), edits, SERVO)
     return [each.rule for each in explain(effect, changes(pair_of(SERVO, new)))]
 
 
@@ -28,9 +28,9 @@ METHOD = (*MOVE, "method", "move(targets, time_ms)")
 ELSEWHERE = ("messages", "ServoUnload", "id", 99)
 
 
-@pytest.mark.parametrize(
-    ("edits", "axis", "path", "expected"),
-    [
+@in_turn(
+    "edits, axis, path, expected",
+    lambda: [
         ([WIDER, WORDS, ELSEWHERE], "wire", MOVE, ["field-type"]),
         ([HEADER, WORDS, ELSEWHERE], "wire", MOVE, ["part-bytes"]),
         ([HEADER, METHOD], "wire", MOVE, ["part-bytes"]),

@@ -58,13 +58,8 @@ MISREAD = [
     ("misread", "DoorOpened is read as GateOpened"),
     ("misread", "GateOpened is read as DoorOpened"),
 ]
-PERHAPS = [
-    ("uncertain", "DoorOpened is read as GateOpened, which may be another message"),
-    ("uncertain", "GateOpened is read as DoorOpened, which may be another message"),
-]
-STILL = [
-    ("uncertain", "DoorOpened: programs in use may still know another message of that name"),
-]
+PERHAPS = [("uncertain", f"{text}, which may be another message") for _, text in MISREAD]
+STILL = [("uncertain", "DoorOpened: programs in use may still know another message of that name")]
 
 
 @in_turn(
@@ -97,19 +92,15 @@ def test_what_an_older_edition_misreads_is_told_unless_the_newest_shows_it(
     assert found_in([listed(released)], released, new) == []
 
 
-def readings(data: Data, frame: bytes) -> list[str]:
-    """Return the messages of the stations that a frame is, by a reader of its own."""
-    reader = Reader(data)
-    return [name for name in reader.names([WAY]) if reader.read(name, frame) is not None]
-
-
 def test_a_frame_shows_it_which_means_nothing_to_the_edition_between() -> None:
     gate = house({"GateOpened": OTHER})
     found = found_in([listed(WITH_DOOR)], NONE, gate)
     assert len(found) == len(MISREAD)
+    readers = [Reader(data) for data in (WITH_DOOR, NONE, gate)]
     for each in found:
         assert each.witness is not None
-        read = [readings(data, each.witness.data) for data in (WITH_DOOR, NONE, gate)]
+        frame = each.witness.data
+        read = [[n for n in by.names([WAY]) if by.read(n, frame) is not None] for by in readers]
         assert read == [["DoorOpened"], [], ["GateOpened"]]
 
 
@@ -125,11 +116,8 @@ def test_what_an_older_edition_reserves_is_not_used_unawares() -> None:
     assert (found.axis, found.outcome, found.editions) == ("wire", "uncertain", ("0.5.0",))
     assert str(LIMIT["why"]) in found.text
     # An edition that has the message shows it by its frames.
-    comparison = Comparison(
-        edition(house({}, [LIMIT])),
-        edition(house({"GateOpened": OTHER})),
-        [reserving, listed(WITH_DOOR)],
-    )
+    old, new = edition(house({}, [LIMIT])), edition(house({"GateOpened": OTHER}))
+    comparison = Comparison(old, new, [reserving, listed(WITH_DOOR)])
     wire = [each for each in comparison.effects if each.axis == "wire" and each.breaks]
     assert told(wire) == MISREAD
 
@@ -150,10 +138,8 @@ def refuse() -> Edition:
 
 def test_where_no_message_changed_no_kept_edition_is_read() -> None:
     kept_ones = [Listed(f"{each}.yaml", "", refuse) for each in range(10)]
-    assert (
-        found_in(kept_ones, WITH_DOOR, versioned(house({"DoorOpened": DOOR}, [LIMIT]), "9.9.9"))
-        == []
-    )
+    new = versioned(house({"DoorOpened": DOOR}, [LIMIT]), "9.9.9")
+    assert found_in(kept_ones, WITH_DOOR, new) == []
 
 
 def test_what_cannot_be_read_is_said_and_the_others_are_compared() -> None:
@@ -218,9 +204,8 @@ DO = "If it is the same, write `was: DoorOpened` below `messages.GateOpened`; "
 def test_the_way_out_stands_in_every_format(
     name: str, before: Sequence[Listed], old: Data, remedy: str
 ) -> None:
-    shown = FORMATS[name](
-        View(Comparison(edition(old), edition(house({"GateOpened": GATE})), before))
-    )
+    new = edition(house({"GateOpened": GATE}))
+    shown = FORMATS[name](View(Comparison(edition(old), new, before)))
     assert remedy in shown
     if name == "github":
         (first, *_) = (line for line in shown.splitlines() if line.startswith("::warning"))
@@ -240,6 +225,5 @@ def test_each_format_says_whose_frames_they_are() -> None:
         said = f"old station of 0.4.0, 0.3.0 {arrow} new gateway"
         assert said.replace(",", "%2C" if name == "github" else ",") in FORMATS[name](view), name
     effects = json.loads(FORMATS["json"](view))["effects"]
-    assert [each["editions"] for each in effects if each["standing"] == "breaks"] == [
-        ["0.4.0", "0.3.0"]
-    ] * len(MISREAD)
+    found = [each["editions"] for each in effects if each["standing"] == "breaks"]
+    assert found == [["0.4.0", "0.3.0"]] * len(MISREAD)

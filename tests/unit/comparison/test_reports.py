@@ -10,6 +10,7 @@ import pytest
 from framegen.comparison.accepted import Accepted, accepted_breaks
 from framegen.comparison.changes.change import Change
 from framegen.comparison.comparison import Comparison
+from framegen.comparison.edition import Edition
 from framegen.comparison.effect import Effect, Witness
 from framegen.comparison.report import FORMATS
 from framegen.comparison.report.ends import Ends, all_ends, ends_of, upgrade_order
@@ -37,20 +38,9 @@ from tests.mutations.places import renamed, with_
 HOUSE = SPECS["greenhouse"]
 NAMES = [*HOUSE["messages"]]
 HOSTILE = [
-    "::error::x",
-    "x\n::error::y",
-    "x\r::stop-commands::y",
-    "##[error]z",
-    "%0A::error::x",
-    "a | b ``` c",
-    "```\nend",
-    "<script>alert(1)</script>",
-    "[a](http://b)",
-    "\x1b[31mred\x07",
-    "\u202egnal",
-    "- a: {b: [c",
-    "'\"",
-    "",
+    *("::error::x", "x\n::error::y", "x\r::stop-commands::y", "##[error]z", "%0A::error::x"),
+    *("a | b ``` c", "```\nend", "<script>alert(1)</script>", "[a](http://b)", "\x1b[31mred\x07"),
+    *("\u202egnal", "- a: {b: [c", "'\"", ""),
 ]
 TEXTS = st.one_of(st.sampled_from(HOSTILE), st.text(max_size=30))
 WITNESSES = st.builds(
@@ -63,9 +53,7 @@ WITNESSES = st.builds(
     reading=TEXTS,
 )
 PATHS = st.sampled_from([("messages", name) for name in NAMES] + [("link", "baud"), ()])
-ENDS = st.sampled_from(
-    ["old gateway, new station", "new gateway, old station", "old station, new gateway", ""]
-)
+ENDS = ["old gateway, new station", "new gateway, old station", "old station, new gateway", ""]
 
 
 @st.composite
@@ -78,7 +66,7 @@ def effects(draw: st.DrawFn) -> Effect:
         old=path,
         new=draw(st.sampled_from([path, None])),
         text=draw(TEXTS),
-        ends=draw(ENDS),
+        ends=draw(st.sampled_from(ENDS)),
         breaks=draw(st.booleans()),
         certain=draw(st.booleans()),
         witness=draw(st.none() | WITNESSES),
@@ -92,11 +80,17 @@ CHANGES = st.builds(Change, rule=st.just("field-type"), old=PATHS, new=PATHS, te
 BEFORE, AFTER = edition(HOUSE, "v1:spec/a.yaml"), edition(HOUSE, "spec/a.yaml")
 
 
-def view_of(found: list[Effect], changes: list[Change] | None = None) -> View:
-    """Return the view of a comparison that found these effects and changes."""
-    comparison = Comparison(BEFORE, AFTER)
+def comparison_of(
+    found: list[Effect], changes: list[Change] | None = None, after: Edition = AFTER
+) -> Comparison:
+    """Return a comparison that found these effects and changes."""
+    comparison = Comparison(BEFORE, after)
     vars(comparison).update(effects=found, changes=changes or [], trials=[])
-    return View(comparison)
+    return comparison
+
+
+def view_of(found: list[Effect], changes: list[Change] | None = None) -> View:
+    return View(comparison_of(found, changes))
 
 
 VIEWS = st.builds(view_of, st.lists(effects(), max_size=4), st.lists(CHANGES, max_size=3))
@@ -123,23 +117,15 @@ def test_github_is_given_a_command_for_each_break_and_no_other(view: View) -> No
     commands = [line for line in lines if line.lstrip().startswith("::")]
     levels = {"breaks": "error", "uncertain": "warning", "accepted": "notice"}
     # One for each message and each two ends, on whichever axis it breaks; programs are their own.
-    about = {
-        (
-            standing(each),
-            each.path[:2],
-            each.axis == "programs" or str(ends_of(view.pair, each)),
-        )
-        for each in view.effects
-        if each.breaks
-    }
+    breaking = [each for each in view.effects if each.breaks]
+    ends = [each.axis == "programs" or str(ends_of(view.pair, each)) for each in breaking]
+    about = {(standing(each), each.path[:2], end) for each, end in zip(breaking, ends, strict=True)}
     wanted = Counter(levels[how] for how, *_ in about)
     wanted["warning"] += view.version_finding is not None
     assert Counter(line[2:].partition(" ")[0] for line in commands) == +wanted
-    command = re.compile(
-        r"::(error|warning|notice) file=spec/a\.yaml,line=\d+,col=\d+,title=[^:]*::"
-    )
+    place = r"file=spec/a\.yaml,line=\d+,col=\d+,title=[^:]*::"
     for line in commands:
-        assert command.match(line), line
+        assert re.match(f"::(error|warning|notice) {place}", line), line
     assert not any("##[" in line for line in lines if line not in commands)
     assert not any("\r" in line for line in lines)
 
@@ -163,10 +149,8 @@ def test_an_annotation_is_of_the_file_whatever_it_is_called(
     (tmp_path / "spec").mkdir()
     (tmp_path / name).write_text("")
     for label in (name, "v1:spec/plain.yaml"):
-        comparison = Comparison(BEFORE, edition(HOUSE, label))
-        vars(comparison).update(effects=[CERTAIN], changes=[], trials=[])
         said = name if label == name else "spec/plain.yaml"
-        shown = FORMATS["github"](View(comparison))
+        shown = FORMATS["github"](View(comparison_of([CERTAIN], after=edition(HOUSE, label))))
         assert f"file={said.replace(':', '%3A').replace(',', '%2C')},line=" in shown
 
 
@@ -199,12 +183,13 @@ def test_what_is_reserved_is_no_documentation_and_each_change_has_its_place() ->
     change = Change("reserved-added", None, ("messages",), "reserved[0] is new: id 3")
     words = Change("words", ("link",), ("link",), "link: in other words")
     shown = FORMATS["text"](view_of([], [change, words])).splitlines()
-    at = shown.index("without effect: 1 change that no end and no program notices")
-    assert shown[at + 1] == "  reserved[0] is new: id 3"
-    assert shown[at + 2].startswith("    spec/a.yaml:")
-    at = shown.index("documentation: 1 change that nothing depends on")
-    assert shown[at + 1] == "  link: in other words"
-    assert shown[at + 2].startswith("    spec/a.yaml:")
+    for heading, said in (
+        ("without effect: 1 change that no end and no program notices", change.text),
+        ("documentation: 1 change that nothing depends on", words.text),
+    ):
+        at = shown.index(heading)
+        assert shown[at + 1] == f"  {said}"
+        assert shown[at + 2].startswith("    spec/a.yaml:")
 
 
 @few_each
@@ -227,25 +212,18 @@ def test_json_says_all_that_was_found(view: View) -> None:
     shown = FORMATS["json"](view)
     assert shown.count("\n") == 1
     report = json.loads(shown, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
-    told = [
-        (each["axis"], each["standing"], each["text"], each["old"]) for each in report["effects"]
-    ]
-    assert told == [
-        (each.axis, standing(each), each.text, dotted(each.old or ())) for each in view.effects
-    ]
-    for each, effect in zip(report["effects"], view.effects, strict=True):
-        witness = effect.witness
-        assert (each["witness"] and bytes.fromhex(each["witness"]["hex"])) == (
-            witness and witness.data
-        )
+    for told, effect in zip(report["effects"], view.effects, strict=True):
+        said = [told[key] for key in ("axis", "standing", "text", "old")]
+        assert said == [effect.axis, standing(effect), effect.text, dotted(effect.old or ())]
+        frame = told["witness"] and bytes.fromhex(told["witness"]["hex"])
+        assert frame == (effect.witness and effect.witness.data)
     counted = Counter[str]()
     for verdict in report["verdicts"]:
         for name, outcomes in verdict["counts"].items():
             counted[name] += sum(outcomes.values())
     assert counted == Counter(map(standing, view.effects))
-    assert [each["text"] for each in report["changes"]] == [
-        each.text for each in view.comparison.changes
-    ]
+    texts = [each.text for each in view.comparison.changes]
+    assert [each["text"] for each in report["changes"]] == texts
 
 
 @few_each
@@ -304,14 +282,13 @@ def test_what_breaks_nothing_and_what_is_accepted_never_counts(
     found: list[Effect], fail_on: set[str]
 ) -> None:
     counting = [each for each in found if each.breaks and not each.accepted]
-    assert exit_status(found, None, frozenset(fail_on)) == exit_status(
-        counting, None, frozenset(fail_on)
-    )
+    status, less = (exit_status(some, None, frozenset(fail_on)) for some in (found, counting))
+    assert status == less
 
 
-@pytest.mark.parametrize(
-    ("ends", "said"),
-    [
+@in_turn(
+    "ends, said",
+    lambda: [
         ("old gateway, new station", "old gateway with new station"),
         ("new station, old gateway", "old gateway with new station"),
         ("new gateway, old station", "new gateway with old station"),
@@ -320,8 +297,8 @@ def test_what_breaks_nothing_and_what_is_accepted_never_counts(
     ],
 )
 def test_who_talks_to_whom_does_not_depend_on_who_sends(ends: str, said: str) -> None:
-    pair = pair_of(HOUSE, HOUSE)
-    assert str(ends_of(pair, Effect("wire", "refused", (), (), "", ends))) == said
+    effect = Effect("wire", "refused", (), (), "", ends)
+    assert str(ends_of(pair_of(HOUSE, HOUSE), effect)) == said
 
 
 def test_each_two_ends_between_which_messages_go_have_two_verdicts() -> None:
@@ -339,9 +316,8 @@ SOME = ["name of an end", "direction", "message added"]
 @pytest.mark.parametrize("name", SOME)
 def test_every_effect_is_between_ends_that_have_a_verdict(name: str) -> None:
     old, new = EDITS[name]
-    comparison = Comparison(edition(old), edition(new))
-    vars(comparison)["changes"] = []
-    view = View(comparison)
+    view = View(Comparison(edition(old), edition(new)))
+    vars(view.comparison)["changes"] = []
     known = {*all_ends(view.pair), None}
     for effect in view.effects:
         assert ends_of(view.pair, effect) in known
@@ -353,18 +329,18 @@ HOST, BOARD = Ends("host", "board", old_first=True), Ends("host", "board", old_f
 LAMP = Ends("host", "lamp", old_first=False)
 
 
-@pytest.mark.parametrize(
-    ("broken", "said"),
-    [
+BOTH_AT_ONCE = "both ends at once: each breaks with the old edition of the other"
+
+
+@in_turn(
+    "broken, said",
+    lambda: [
         # An old host breaks with a new board, so that no board is upgraded before its host.
         ([HOST], "every host before any board"),
         ([BOARD], "every board before any host"),
         ([HOST, LAMP], "every host before any board, and every lamp before any host"),
-        (
-            [Ends("host", "host", old_first=True)],
-            "both ends at once: each breaks with the old edition of the other",
-        ),
-        ([HOST, BOARD], "both ends at once: each breaks with the old edition of the other"),
+        ([Ends("host", "host", old_first=True)], BOTH_AT_ONCE),
+        ([HOST, BOARD], BOTH_AT_ONCE),
     ],
 )
 def test_the_end_that_breaks_while_it_is_old_is_upgraded_first(
@@ -396,18 +372,16 @@ def test_what_is_accepted_covers_what_is_below_it(
 
 
 def accepting(*releases: tuple[str, dict[str, str]]) -> dict[str, Any]:
-    history = [
-        {"version": version, "changes": ["It."], "breaks": breaks} for version, breaks in releases
-    ]
-    return with_(HOUSE, "history", history)
+    said = {"changes": ["It."]}
+    return with_(HOUSE, "history", [{**said, "version": v, "breaks": b} for v, b in releases])
 
 
 FIRST, SECOND = ("1.0.0", {"link": "Faster."}), ("2.0.0", {"messages.A": "Gone.", "link": "More."})
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "paths"),
-    [
+@in_turn(
+    "old, new, paths",
+    lambda: [
         ([FIRST], [FIRST], []),
         ([FIRST], [SECOND, FIRST], ["messages.A", "link"]),
         ([SECOND, FIRST], [FIRST], []),
@@ -433,18 +407,14 @@ def compared(accepts: dict[str, str], changes: list[Change]) -> list[Effect]:
     return [each for each in comparison.effects if each.axis == "wire"]
 
 
-ID = Change(
-    "message-id",
-    ("messages", "StationRead", "id"),
-    ("messages", "StationRead", "id"),
-    "0x11 became 0x20",
-)
+PATH = ("messages", "StationRead", "id")
+ID = Change("message-id", PATH, PATH, "0x11 became 0x20")
 SUMMARY = Change("words", ("messages", "TextShow", "summary"), None, "is said otherwise")
 
 
-@pytest.mark.parametrize(
-    ("accepts", "reasons"),
-    [
+@in_turn(
+    "accepts, reasons",
+    lambda: [
         ({}, {""}),
         ({"messages.TextShow": "Old."}, {""}),
         ({"messages.StationRead": "Old."}, {"Old."}),
@@ -463,6 +433,5 @@ def test_a_break_is_accepted_by_its_message_or_by_its_cause(
 def test_what_breaks_only_by_what_the_author_says_is_a_break_that_is_accepted() -> None:
     found = compared({"messages.TextShow.summary": "It was wrong."}, [ID, SUMMARY])
     (declared,) = (each for each in found if each.outcome == "declared")
-    assert declared.breaks
-    assert declared.accepted == "It was wrong."
+    assert (declared.breaks, declared.accepted) == (True, "It was wrong.")
     assert declared.path == ("messages", "TextShow", "summary")

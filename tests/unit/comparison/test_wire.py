@@ -15,7 +15,9 @@ from tests.mutations.houses import DOOR, WAY, house
 from tests.mutations.places import GONE, with_
 
 if TYPE_CHECKING:
-    from framegen.comparison.effect import Which, Witness
+    from framegen.comparison.effect import Which
+    from framegen.comparison.pair import Pair
+    from framegen.model.layout import MessageLayout
 
     from tests.factories import Data, Steps
 
@@ -27,29 +29,21 @@ UNLOADLESS = pair_of(SERVO, with_(SERVO, "messages", "ServoUnload", GONE))
 
 # Of everything, two messages, and of the one the list that is sized.
 SIZED = {name: ALL["messages"]["Lists"]["fields"][name] for name in LIST}
-SOME = with_(
-    ALL, "messages", {"Flags": ALL["messages"]["Flags"], "Lists": ALL["messages"]["Lists"]}
-)
+SOME = with_(ALL, "messages", {name: ALL["messages"][name] for name in ("Flags", "Lists")})
 SOME = with_(SOME, *LISTS, SIZED)
 
 
-def unloaded(servo_ids: list[int]) -> tuple[Witness, bool]:
-    """Return what a controller that knows no ServoUnload makes of one."""
-    trial = next(
+def test_what_is_refused_may_hold_a_frame_that_is_read() -> None:
+    """Of a controller that knows no ServoUnload."""
+    (unload,) = (
         each for each in trials_of(UNLOADLESS, "old") if each.message.name == "ServoUnload"
     )
-    return trial.of({"servo_ids": servo_ids})
-
-
-def test_what_is_refused_may_hold_a_frame_that_is_read() -> None:
-    witness, breaks = unloaded([0x55, 0x55, 2, 15])
+    witness, breaks = unload.of({"servo_ids": [0x55, 0x55, 2, 15]})
     assert witness.data == bytes.fromhex("55 55 07 14 04 55 55 02 0F")
     assert (witness.outcome, witness.reading) == ("misread", "is read as BatteryVoltageRead")
     assert breaks
-
-
-def test_what_is_refused_and_holds_nothing_is_refused() -> None:
-    witness, breaks = unloaded([0x55, 0x54, 2, 15])
+    # Another holds nothing.
+    witness, breaks = unload.of({"servo_ids": [0x55, 0x54, 2, 15]})
     assert (witness.outcome, breaks) == ("refused", True)
 
 
@@ -76,6 +70,15 @@ def broken(old: Data, new: Data) -> set[str]:
     return {each.outcome for each in wire_effects(pair, try_out(pair)) if each.breaks}
 
 
+KIND: Data = {"type": "u8", "about": "Which layout."}
+
+
+def asked(pair: Pair) -> tuple[MessageLayout, MessageLayout]:
+    """Return the message of one more field, of both editions."""
+    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    return old, new
+
+
 def with_field(direction: str, size: int, name: str, field: Data) -> Data:
     """Return the greenhouse with one more message of one more field."""
     message = {**DOOR, "direction": direction, "length": 1 + size}
@@ -88,27 +91,24 @@ def with_field(direction: str, size: int, name: str, field: Data) -> Data:
 def test_a_value_that_is_free_now_was_never_asked_of_an_old_end(
     direction: str, outcomes: set[str]
 ) -> None:
-    kind: Data = {"type": "u8", "about": "Which layout."}
-    old, new = (with_field(direction, 1, "kind", each) for each in ({**kind, "always": 4}, kind))
+    old, new = (with_field(direction, 1, "kind", each) for each in ({**KIND, "always": 4}, KIND))
     # A device that sends what no old end reads is another matter: nobody there chose that.
     assert broken(old, new) == outcomes
 
 
 def test_what_is_not_varied_has_a_value_that_both_ends_allow() -> None:
-    kind: Data = {"type": "u8", "about": "Which layout."}
-    ends = (with_field(WAY, 1, "kind", {**kind, "range": each}) for each in ("0..240", "0..1"))
+    ends = (with_field(WAY, 1, "kind", {**KIND, "range": each}) for each in ("0..240", "0..1"))
     pair = pair_of(*ends)
-    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    old, new = asked(pair)
     usual = next(values_to_try(old, new, {"door": "door", "kind": "kind"}, pairs=False))
     assert usual["kind"] == 1
 
 
 def test_what_stands_behind_a_field_that_is_gone_is_said_again() -> None:
-    kind: Data = {"type": "u8", "about": "Which layout."}
     pair = pair_of(
-        with_field(WAY, 1, "kind", kind), house({"DoorAsked": {**DOOR, "fields": {"kind": kind}}})
+        with_field(WAY, 1, "kind", KIND), house({"DoorAsked": {**DOOR, "fields": {"kind": KIND}}})
     )
-    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    old, new = asked(pair)
     said = translated(pair.fields(old, new), old, new, {"door": 3, "kind": 5})
     assert said == {"kind": 5}
 
@@ -118,6 +118,12 @@ def test_an_address_that_no_old_end_has_is_nobody_in_use(widened: str, outcomes:
     modbus = SPECS["modbus"]
     some = with_(modbus, "messages", {name: modbus["messages"][name] for name in COIL})
     assert broken(some, with_(some, "frame", "unit", "range", widened)) == outcomes
+
+
+def with_gaps(gaps: Data, direction: str = WAY) -> Data:
+    """Return the greenhouse with one more message of a list."""
+    message = {**DOOR, "direction": direction, "length": "2 * door + 1"}
+    return house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": gaps}}})
 
 
 NUMBERS: Data = {"type": "u16", "counted_by": "door", "about": "How far."}
@@ -134,11 +140,7 @@ def test_a_list_of_numbers_is_that_of_elements_with_one_number_each(
     direction: str, type_: str, outcomes: set[str]
 ) -> None:
     named = {**NAMED, "fields": {"gap": {**NAMED["fields"]["gap"], "type": type_}}}
-    message = {**DOOR, "direction": direction, "length": "2 * door + 1"}
-    bare, other = (
-        house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": each}}})
-        for each in (NUMBERS, named)
-    )
+    bare, other = (with_gaps(each, direction) for each in (NUMBERS, named))
     there, back = broken(bare, other), broken(other, bare)
     assert there | back <= outcomes
     assert bool(there) == bool(outcomes)
@@ -150,14 +152,8 @@ def test_numbers_of_a_list_are_said_again_in_the_units_of_the_other(
     sent: list[int], said: list[int] | None, *, named: bool
 ) -> None:
     gaps = with_(NAMED, "fields", "gap", "unit", "m") if named else {**NUMBERS, "unit": "m"}
-    message = {**DOOR, "length": "2 * door + 1"}
-    pair = pair_of(
-        *(
-            house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": each}}})
-            for each in ({**NUMBERS, "unit": "mm"}, gaps)
-        )
-    )
-    old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
+    pair = pair_of(with_gaps({**NUMBERS, "unit": "mm"}), with_gaps(gaps))
+    old, new = asked(pair)
     again = translated(pair.fields(old, new), old, new, {"gaps": sent})
     elements = [{"gap": each} if named else each for each in said or []]
     assert again == (None if said is None else {"gaps": elements})
