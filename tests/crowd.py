@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from framegen.targets.python.reserved import RESERVED
 
+from tests.factories import small_spec
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -67,28 +69,15 @@ def taken_pose() -> Data:
     """Return all other messages, and a pose with names that the client has already."""
     crowd = Crowd("pose", "host", "arm")
     crowd.report("Places", [], listed="found", element="Place", of=["id", "position"])
-    crowd.command(
-        "PlacesRead",
-        [],
-        listed="targets",
-        reply="Places",
-        echoed={"targets": "found.id"},
-        method="read(targets) -> found",
-    )
+    asked: Data = {"reply": "Places", "echoed": {"targets": "found.id"}}
+    crowd.command("PlacesRead", [], listed="targets", method="read(targets) -> found", **asked)
     pair = ["id", "position"]
     crowd.command("Move", ["reply"], listed="goals", element="Goal", of=pair, lasts="reply")
     crowd.command("Release", [], listed="targets")
     for name in filter(_shouted, taken("message")):
         crowd.report(name, [])
-    crowd.data["pose"] = {
-        "read": "PlacesRead",
-        "move": "Move",
-        "release": "Release",
-        "ids": "1..250",
-        "hold": "close",
-        "present": "int",
-        "targets": "lambda",
-    }
+    of_messages = {"read": "PlacesRead", "move": "Move", "release": "Release", "ids": "1..250"}
+    crowd.data["pose"] = {**of_messages, "hold": "close", "present": "int", "targets": "lambda"}
     return crowd.data
 
 
@@ -98,27 +87,13 @@ class Crowd:
     def __init__(self, name: str, client: str, device: str) -> None:
         self._ids = count(1)
         self._ends = client, device
-        self.data: Data = {
-            "framegen": 2,
-            "protocol": {
-                "name": name,
-                "title": "A crowd",
-                "version": "1.0.0",
-                "authority": "none",
-                "summary": "Names that are taken.",
-            },
-            "sources": {"none": {"title": "Nothing", "kind": "document"}},
-            "endpoints": {client: "Asks.", device: "Answers."},
-            "link": {"baud": 9600},
-            "byte_order": "little",
-            "frame": {
-                "header": {"is": "constant", "bytes": "AA 55"},
-                "command": {"is": "id", "type": "u16"},
-                "length": {"is": "length", "type": "u8", "counts": ["parameters"]},
-                "parameters": {"is": "body"},
-            },
-            "messages": {},
+        frame = {
+            "header": {"is": "constant", "bytes": "AA 55"},
+            "command": {"is": "id", "type": "u16"},
+            "length": {"is": "length", "type": "u8", "counts": ["parameters"]},
+            "parameters": {"is": "body"},
         }
+        self.data = small_spec(name, frame, {}, ends=f"{client} {device}")
 
     def command(self, name: str, fields: list[str], **more: Any) -> None:
         """Add a message that the client sends."""
@@ -172,7 +147,7 @@ class Crowd:
         example["values"] = {"level_of_it": 1.0}
 
     def _said(self, direction: str) -> Data:
-        return {"direction": direction, "summary": "Say something.", "cite": "none"}
+        return {"direction": direction, "summary": "Say something.", "cite": "manual"}
 
     def _add(
         self,
@@ -230,12 +205,8 @@ def _frame(id_: int, body: list[int]) -> bytes:
 
 
 def _example(frame: bytes, values: Data) -> Data:
-    return {
-        "title": "An example",
-        "hex": frame.hex(" "),
-        "values": values,
-        "constructed": "From nothing.",
-    }
+    said = {"title": "An example", "constructed": "From nothing."}
+    return {**said, "hex": frame.hex(" "), "values": values}
 
 
 def _shouted(name: str) -> bool:

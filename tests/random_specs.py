@@ -16,6 +16,8 @@ from framegen.model.codec import encode
 from framegen.model.model import derive
 from hypothesis import strategies as st
 
+from tests.factories import small_spec
+
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
@@ -51,7 +53,7 @@ _FEW_BYTES = st.lists(_of(*BYTES), min_size=1, max_size=2)
 _METHODS = _of(*USUAL) | _of(*METHODS)
 _KINDS = _of(*WHOLE[:4]) | _of(*WHOLE)
 
-_NOTE = {"text": "It was seen.", "cite": "dice, 2"}
+_NOTE = {"text": "It was seen.", "cite": "manual, 2"}
 
 
 def _hex(data: Sequence[int]) -> str:
@@ -315,22 +317,9 @@ def specs(draw: st.DrawFn) -> Data:
         if message is not None:
             _name_elements(message, number)
             messages[f"Message{number}"] = {**message, **({"frame": kind} if several else {})}
-    return {
-        "framegen": 2,
-        "protocol": {
-            "name": "made_up",
-            "title": "Made up",
-            "version": "1.0.0",
-            "authority": "dice",
-            "summary": "A protocol that nobody uses.",
-        },
-        "sources": {"dice": {"title": "Dice", "kind": "document"}},
-        "endpoints": {"host": "Asks.", "device": {"about": "Answers.", "notes": [_NOTE]}},
-        "link": {"baud": 9600},
-        "byte_order": draw(orders),
-        **({"frames": kinds} if several else {"frame": first}),
-        "messages": messages,
-    }
+    spec = small_spec("made_up", kinds if several else first, messages)
+    device = {"about": "Answers.", "notes": [_NOTE]}
+    return {**spec, "endpoints": {"host": "Asks.", "device": device}, "byte_order": draw(orders)}
 
 
 def _messages(
@@ -344,7 +333,7 @@ def _messages(
     if any(_ids(each, ids, sent) == [given[name] for name in sent] for each in same):
         return None
     fields, variable, optional = _bodies(draw, parts.get("length"))
-    message: Data = {"direction": way, "summary": "Say something.", "cite": "dice, 1"}
+    message: Data = {"direction": way, "summary": "Say something.", "cite": "manual, 1"}
     message["notes"] = [_NOTE]
     if given:
         message["id"] = given if len(given) > 1 else next(iter(given.values()))

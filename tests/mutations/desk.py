@@ -31,10 +31,8 @@ class Spot:
     inner: bool
 
     @property
-    def field(self) -> Data:
-        """The field itself."""
-        found: Data = self.fields[self.name]
-        return found
+    def field(self) -> Any:
+        return self.fields[self.name]
 
 
 @dataclass(frozen=True)
@@ -51,10 +49,9 @@ class Desk:
             raise Inapplicable
         return self.chance.choice(found)
 
-    def one_of(self, things: Data) -> Data:
+    def one_of(self, things: Data) -> Any:
         """Return one of some things that have names."""
-        found: Data = things[self.pick(things)]
-        return found
+        return things[self.pick(things)]
 
     def fresh(self, stem: str) -> str:
         """Return a name that nothing has."""
@@ -62,18 +59,14 @@ class Desk:
         return next(name for at in range(1, 99) if (name := f"{stem}{at}") not in text)
 
     @property
-    def messages(self) -> Data:
-        """The messages, by name."""
-        found: Data = self.spec["messages"]
-        return found
+    def messages(self) -> Any:
+        return self.spec["messages"]
 
     @property
     def kinds(self) -> dict[str, Data]:
-        """The kinds of frames, by name."""
         return kinds_of(self.spec)
 
     def parts_of(self, message: Data) -> Data:
-        """Return the parts of the frames of a message."""
         return parts_of(self.spec, message)
 
     def spots(self) -> Iterator[Spot]:
@@ -94,12 +87,8 @@ class Desk:
 
     def part(self, fits: Callable[[Data], Any]) -> tuple[Data, str]:
         """Return the parts of some kind of frame, and the name of one that fits."""
-        return self.pick(
-            (parts, name)
-            for parts in self.kinds.values()
-            for name, part in parts.items()
-            if fits(part)
-        )
+        parts = ((each, name) for each in self.kinds.values() for name in each)
+        return self.pick((each, name) for each, name in parts if fits(each[name]))
 
     def rename_field(self, spot: Spot, new: str, *, said: bool) -> None:
         """Give a field another name, wherever it is named."""
@@ -168,11 +157,6 @@ def inserted(around: Data, at: int, name: str, thing: Data) -> None:
     """Insert a thing in front of the one at a place."""
     items = [*around.items()]
     _put(around, dict([*items[:at], (name, thing), *items[at:]]))
-
-
-def removed(around: Data, name: str) -> None:
-    """Remove a thing."""
-    del around[name]
 
 
 def copied(thing: Any) -> Any:

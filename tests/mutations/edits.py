@@ -49,23 +49,21 @@ def _edition(text: str, label: str, *, checked: bool) -> Edition:
 
 def pair_of(old: Data, new: Data, *, checked: bool = True) -> Pair:
     """Return the pair of two editions."""
-    return Pair(
-        *(
-            edition(each, f"{name}.yaml", checked=checked)
-            for name, each in (("old", old), ("new", new))
-        )
-    )
+    named = {"old.yaml": old, "new.yaml": new}
+    return Pair(*(edition(each, name, checked=checked) for name, each in named.items()))
 
 
 SERVO, HOUSE = SPECS["busservo"], SPECS["greenhouse"]
 ALL, BUS = SPECS["everything"], SPECS["modbus"]
-LISTS = ("messages", "Lists", "fields")
+LISTS, JAMMED_FIELDS = ("messages", "Lists", "fields"), ("messages", "VentJammed", "fields")
+TAIL, RUN = "messages.Tail", "messages.ActionGroupRun"
+OPEN, JAMMED = "messages.VentsOpen", "messages.VentJammed"
+OTHER_BOARD, OTHER_BYTES = {"vendor": 0x16C0, "product": 0x486}, "C3 5A A5 10 00 04 00 00 00 01"
+TURNED = dict(reversed(SERVO["endpoints"].items()))
 OTHER = {"mark": {"is": "constant", "bytes": "01"}, **ALL["frames"]["tell"]}
 ANGLE = "messages.VentsOpen.fields.vents.fields.angle"
 LIMITS = "messages.ServoMove.fields.targets.fields.position.limits"
 PLACE = "messages.ServoPositions.fields.positions.fields.position"
-
-
 BEEP: Data = {
     "id": 40,
     "direction": "host -> controller",
@@ -93,9 +91,7 @@ LASTING = with_(HOUSE, "messages", "VentsOpen", "lasts", "ramp_s")
 EDITS: dict[str, tuple[Data, Data]] = {
     "baud": _one(SERVO, "link.baud", 19200),
     "parity": _one(HOUSE, "link.parity", GONE),
-    "HID board of another vendor": _one(
-        HOUSE, "link.usb_hid", [{"vendor": 0x16C0, "product": 0x486}]
-    ),
+    "HID board of another vendor": _one(HOUSE, "link.usb_hid", [OTHER_BOARD]),
     "no HID board": _one(SERVO, "link.usb_hid", GONE),
     "size of a HID report": _one(SERVO, "link.usb_hid.0.report_size", 32),
     "words about a HID board": _one(SERVO, "link.usb_hid.0.about", "Boards of 2016."),
@@ -107,9 +103,7 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "name of the client": _one(HOUSE, "protocol.client", "Climate"),
     "version": _one(HOUSE, "protocol.version", "9.0.0"),
     "name of an end": _called(HOUSE, "display", "screen"),
-    "client and device exchanged": _one(
-        SERVO, "endpoints", dict(reversed(SERVO["endpoints"].items()))
-    ),
+    "client and device exchanged": _one(SERVO, "endpoints", TURNED),
     "method of a checksum": _one(ALL, "frames.ask.check.method", "crc-16/umts"),
     "another kind of frame": _one(ALL, "frames.other", OTHER),
     "range of addresses": _one(ALL, "frames.ask.station.range", "1..400"),
@@ -117,22 +111,15 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "silent address": _one(ALL, "frames.ask.station.values.all.silent", False),
     "name of the address": _called(ALL, "station", "device"),
     "name of a kind of frame": _called(ALL, "ask", "query"),
-    "frame of a message": (
-        ALL,
-        with_(_one(ALL, "messages.Tail.frame", "ask")[1], "messages", "Tail", "id", IDS),
-    ),
+    "frame of a message": (ALL, having(ALL, {f"{TAIL}.frame": "ask", f"{TAIL}.id": IDS})),
     "id of several": _one(ALL, "messages.Lists.id", {"class": 1, "kind": 4, "version": 9}),
     "sizes of optional fields": _one(ALL, "messages.Tail.length", [2, 10]),
     "field not optional any more": _one(ALL, "messages.Tail.fields.second.optional", GONE),
     "failure": _one(ALL, "messages.Texts.failure", "size"),
-    "good value of a failure": (
-        with_(ALL, "messages", "Texts", "failure", "size"),
-        with_(ALL, "messages", "Texts", "failure", "size unless 1"),
+    "good value of a failure": _one(
+        having(ALL, {"messages.Texts.failure": "size"}), "messages.Texts.failure", "size unless 1"
     ),
-    "items asked for": (
-        with_(SPECS["modbus"], "messages", "HoldingRead", "asks_for", GONE),
-        SPECS["modbus"],
-    ),
+    "items asked for": _one(BUS, "messages.HoldingRead.asks_for", GONE)[::-1],
     "local echo": _one(ALL, "link.local_echo", True),
     "bytes of a constant field": _one(ALL, "messages.Flags.fields.layout.always", 5),
     "bytes of a reserved field": _one(ALL, "messages.Flags.fields.unused.reserved", 3),
@@ -154,28 +141,19 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "direction": _one(HOUSE, "messages.TextShow.direction", "gateway -> station"),
     "name of a message": _called(HOUSE, "StationState", "Measured"),
     "no reply": _one(HOUSE, "messages.StationRead.reply", GONE),
-    "message deprecated": _one(
-        HOUSE, "messages.VentJammed.deprecated", "Vents do not jam any more."
-    ),
-    "name and arguments of a method": _one(
-        HOUSE, "messages.VentsOpen.method", "open(ramp_s, vents)"
-    ),
+    "message deprecated": _one(HOUSE, f"{JAMMED}.deprecated", "Vents do not jam any more."),
+    "name and arguments of a method": _one(HOUSE, f"{OPEN}.method", "open(ramp_s, vents)"),
     "verb of a message": _one(SERVO, "messages.ServoMove.verb", "turn"),
     "result of a method": _one(HOUSE, "messages.StationRead.method", "station_read() -> readings"),
     "field that says how long it lasts": _one(HOUSE, "messages.VentsOpen.lasts", "ramp_s"),
     "name of a field named elsewhere": _called(LASTING, "ramp_s", "time_s"),
     "not acknowledged": _one(SERVO, "messages.ActionGroupRun.acknowledged", GONE),
-    "acknowledged by another": _one(
-        SERVO, "messages.ActionGroupRun.acknowledged", "ActionGroupCompleted"
-    ),
+    "acknowledged by another": _one(SERVO, f"{RUN}.acknowledged", "ActionGroupCompleted"),
     "name of a report": _called(SERVO, "ActionGroupStarted", "GroupStarted"),
     "field removed": _one(HOUSE, "messages.VentJammed.fields.trim", GONE),
     "name of the last field": _called(HOUSE, "trim", "offset"),
     "list removed": _one(SERVO, "messages.ServoUnload.fields.servo_ids", GONE),
-    "order of fields": (
-        HOUSE,
-        reordered(HOUSE, ("messages", "VentJammed", "fields"), ["trim", "vent_id"]),
-    ),
+    "order of fields": (HOUSE, reordered(HOUSE, JAMMED_FIELDS, ["trim", "vent_id"])),
     "type of the last field": _one(HOUSE, "messages.VentJammed.fields.trim.type", "i16"),
     "unit": _one(SERVO, "messages.ServoMove.fields.time_ms.unit", "s"),
     "no scale": _one(HOUSE, "messages.StationState.fields.readings.scale", GONE),
@@ -192,12 +170,8 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "name of an element": _one(HOUSE, "messages.VentsOpen.fields.vents.element", "Flap"),
     "named value removed": _one(HOUSE, "messages.VentsOpen.fields.ramp_s.values", GONE),
     "name of a value": _called(HOUSE, "at_once", "now"),
-    "number of a named value": _one(
-        HOUSE, "messages.VentsOpen.fields.ramp_s.values.at_once.value", 1
-    ),
-    "bytes of an example": _one(
-        HOUSE, "messages.TextShow.examples.0.hex", "C3 5A A5 10 00 04 00 00 00 01"
-    ),
+    "number of a named value": _one(HOUSE, f"{OPEN}.fields.ramp_s.values.at_once.value", 1),
+    "bytes of an example": _one(HOUSE, "messages.TextShow.examples.0.hex", OTHER_BYTES),
     "words about a field": _one(HOUSE, f"{ANGLE}.about", "How far it opens."),
     "limits narrowed": _one(SERVO, f"{LIMITS}.usual", "100..900"),
     "limits moved": _one(SERVO, f"{LIMITS}.usual", "100..1100"),
@@ -208,8 +182,9 @@ EDITS: dict[str, tuple[Data, Data]] = {
     "a value not absent any more": _one(SERVO, f"{PLACE}.values.absent.absent", GONE),
     "signed as another type": _one(SERVO, f"{PLACE}.signed_as", "i32")[::-1],
     "no pose": _one(SERVO, "pose", GONE),
-    "names and ids of a pose": _one(
-        SERVO, "pose", {**SERVO["pose"], "hold": "stop_servos", "ids": "1..20"}
+    "names and ids of a pose": (
+        SERVO,
+        having(SERVO, {"pose.hold": "stop_servos", "pose.ids": "1..20"}),
     ),
     "nothing reserved": _one(HOUSE, "reserved", []),
 }

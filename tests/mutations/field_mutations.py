@@ -14,7 +14,6 @@ from tests.mutations.desk import (
     is_single,
     is_whole,
     other_order,
-    removed,
     reordered,
     varies,
 )
@@ -43,14 +42,17 @@ ADDED: dict[str, Data] = {
 }
 
 
+def _without(field: Data, *keys: str) -> None:
+    for key in keys:
+        field.pop(key, None)
+
+
 def _retyped(old: str, new: str, desk: Desk) -> None:
     field = desk.number(lambda field: field["type"] == old).field
     field["type"] = new
-    for key in ("range", "bits", "signed_as", "limits"):
-        field.pop(key, None)
+    _without(field, "range", "bits", "signed_as", "limits")
     if new[0] == "f":
-        for key in ("values", "bits", "scale"):
-            field.pop(key, None)
+        _without(field, "values", "bits", "scale")
 
 
 def counter_retyped(desk: Desk) -> None:
@@ -105,7 +107,7 @@ def _taken_away(where: str, desk: Desk) -> None:
         return place == where and not is_counter(spot)
 
     spot = desk.spot(fits)
-    removed(spot.fields, spot.name)
+    del spot.fields[spot.name]
     _unmentioned(spot)
 
 
@@ -149,22 +151,14 @@ def became_optional(desk: Desk) -> None:
     spot.field["optional"] = True
 
 
-def _optional(desk: Desk) -> list[Data]:
-    """Return the fields of some message that may be absent."""
+def _sure(all_of_them: bool, desk: Desk) -> None:
+    """What may be absent always comes: the first of some message, or all."""
     several = [
         [field for field in message["fields"].values() if "optional" in field]
         for message in desk.messages.values()
     ]
-    return desk.pick(each for each in several if each)
-
-
-def optional_became_sure(desk: Desk) -> None:
-    del _optional(desk)[0]["optional"]
-
-
-def absence_ruled_out(desk: Desk) -> None:
-    """All that may be absent always comes."""
-    for field in _optional(desk):
+    first, *others = desk.pick(each for each in several if each)
+    for field in [first, *others] if all_of_them else [first]:
         del field["optional"]
 
 
@@ -180,8 +174,7 @@ def _renamed_and_moved(said: bool, desk: Desk) -> None:
 def _renamed_and_retyped(said: bool, desk: Desk) -> None:
     spot = desk.number(lambda field: is_whole(field) and field["type"] != "u32")
     spot.field["type"] = "u32"
-    for key in ("bits", "signed_as", "limits"):
-        spot.field.pop(key, None)
+    _without(spot.field, "bits", "signed_as", "limits")
     desk.rename_field(spot, desk.fresh("wide"), said=said)
 
 
@@ -191,7 +184,7 @@ def replaced(desk: Desk) -> None:
     names = [*spot.fields]
     at = names.index(spot.name)
     other = copied(spot.field)
-    removed(spot.fields, spot.name)
+    del spot.fields[spot.name]
     inserted(spot.fields, at, desk.fresh("another"), other)
     _unmentioned(spot)
 
@@ -200,7 +193,7 @@ def split_in_two(desk: Desk) -> None:
     """Two bytes instead of one number of two."""
     spot = desk.number(lambda field: field["type"] == "u16")
     at = [*spot.fields].index(spot.name)
-    removed(spot.fields, spot.name)
+    del spot.fields[spot.name]
     for number, stem in enumerate(("low", "high")):
         inserted(spot.fields, at + number, desk.fresh(stem), {"type": "u8", "about": "Half."})
     _unmentioned(spot)
@@ -218,8 +211,8 @@ def joined(desk: Desk) -> None:
     spot = desk.spot(lambda spot: fits(spot) and not is_counter(spot))
     names = [*spot.fields]
     at = names.index(spot.name)
-    removed(spot.fields, names[at + 1])
-    removed(spot.fields, spot.name)
+    del spot.fields[names[at + 1]]
+    del spot.fields[spot.name]
     inserted(spot.fields, at, desk.fresh("joined"), {"type": "u16", "about": "Both."})
     _unmentioned(spot)
 
@@ -232,17 +225,14 @@ def _constant_changed(key: str, desk: Desk) -> None:
 def _became(key: str, desk: Desk) -> None:
     """A number that was given is always the same, or means nothing any more."""
     spot = desk.number(is_whole)
-    kept = ("type", "about", "byte_order", "#")
-    for name in [*spot.field.keys() - {*kept}]:
-        del spot.field[name]
+    _without(spot.field, *spot.field.keys() - {"type", "about", "byte_order", "#"})
     spot.field[key] = desk.chance.choice([0, 1])
     _unmentioned(spot)
 
 
 def constant_given(desk: Desk) -> None:
     spot = desk.spot(lambda spot: is_constant(spot.field))
-    for key in ("always", "reserved", "count"):
-        spot.field.pop(key, None)
+    _without(spot.field, "always", "reserved", "count")
     _unmentioned(spot)
 
 
@@ -284,8 +274,8 @@ FIELD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a field put last": first_put_last,
     "an optional field added": optional_added,
     "a field became optional": became_optional,
-    "an optional field became sure": optional_became_sure,
-    "no field is optional": absence_ruled_out,
+    "an optional field became sure": partial(_sure, False),
+    "no field is optional": partial(_sure, True),
     "a field replaced by another": replaced,
     "a field split in two": split_in_two,
     "two fields joined": joined,

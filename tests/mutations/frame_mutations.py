@@ -9,7 +9,6 @@ from tests.mutations.desk import (
     Inapplicable,
     inserted,
     other_order,
-    removed,
     renamed_in,
     reordered,
 )
@@ -82,7 +81,7 @@ def checksum_added(desk: Desk) -> None:
 
 def _without(kind: str, desk: Desk) -> None:
     parts, name = desk.part(_is(kind))
-    removed(parts, name)
+    del parts[name]
     for part in parts.values():
         for key in ("counts", "covers"):
             if key in part:
@@ -130,7 +129,7 @@ def _addresses(low_by: int, high_by: int, desk: Desk) -> None:
 
 
 def addresses_bounded(desk: Desk) -> None:
-    parts, name = desk.part(lambda part: part["is"] == "address")
+    parts, name = desk.part(_is("address"))
     if "range" in parts[name]:
         del parts[name]["range"]
     else:
@@ -153,7 +152,7 @@ def _named(desk: Desk) -> Data:
 
 def address_unnamed(desk: Desk) -> None:
     values = _named(desk)
-    removed(values, desk.pick(values))
+    del values[desk.pick(values)]
 
 
 def address_silenced(desk: Desk) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tests.mutations.desk import (
     Inapplicable,
@@ -11,7 +11,6 @@ from tests.mutations.desk import (
     is_constant,
     is_counter,
     other_order,
-    removed,
     reordered,
     varies,
 )
@@ -25,9 +24,7 @@ if TYPE_CHECKING:
 
 def _how(old: str, new: str, desk: Desk) -> None:
     """Count elements where bytes were counted, or the other way round."""
-    field = desk.spot(
-        lambda spot: spot.field.get(old) in spot.fields and new not in spot.field
-    ).field
+    field = desk.spot(lambda at: at.field.get(old) in at.fields and new not in at.field).field
     field[new] = field.pop(old)
 
 
@@ -42,7 +39,7 @@ def _uncounted(spot: Spot) -> None:
     """Let nothing say how many there are."""
     named = {spot.field.pop(key, None) for key in ("counted_by", "sized_by")}
     for name in named & spot.fields.keys():
-        removed(spot.fields, name)
+        del spot.fields[name]
 
 
 def _counted_by_a_field(key: str, desk: Desk) -> None:
@@ -128,7 +125,7 @@ def element_grown(desk: Desk) -> None:
 
 def element_shrunk(desk: Desk) -> None:
     field = desk.spot(lambda spot: len(spot.field.get("fields", ())) > 1).field
-    removed(field["fields"], desk.pick(field["fields"]))
+    del field["fields"][desk.pick(field["fields"])]
 
 
 def element_renamed(desk: Desk) -> None:
@@ -176,10 +173,8 @@ def _is_listed(spot: Spot) -> bool:
     return varies(spot.field) or _is_fixed(spot)
 
 
-def _packed(desk: Desk) -> Data:
-    return desk.spot(
-        lambda spot: _is_fixed(spot) and int(spot.field.get("type", "u8")[1:]) % 8
-    ).field
+def _packed(desk: Desk) -> Any:
+    return desk.spot(lambda at: _is_fixed(at) and int(at.field.get("type", "u8")[1:]) % 8).field
 
 
 def packed_otherwise(desk: Desk) -> None:

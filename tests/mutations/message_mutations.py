@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.mutations.authors import MARK
-from tests.mutations.desk import copied, in_words, removed, renamed_in, reordered
+from tests.mutations.desk import copied, in_words, renamed_in, reordered
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -48,7 +48,7 @@ def added(desk: Desk) -> None:
 
 
 def taken_away(desk: Desk) -> None:
-    removed(desk.messages, desk.pick(desk.messages))
+    del desk.messages[desk.pick(desk.messages)]
 
 
 def renumbered(desk: Desk) -> None:
@@ -56,15 +56,11 @@ def renumbered(desk: Desk) -> None:
 
 
 def ids_swapped(desk: Desk) -> None:
-    one = desk.pick(each for each in desk.messages.values() if "id" in each)
-    other = desk.pick(
-        each
-        for each in desk.messages.values()
-        if "id" in each
-        and each["id"] != one["id"]
-        and each["direction"] == one["direction"]
-        and each.get("frame") == one.get("frame")
-    )
+    with_id = [each for each in desk.messages.values() if "id" in each]
+    one = desk.pick(with_id)
+    like = [one.get(key) for key in ("direction", "frame")]
+    same = [each for each in with_id if [each.get(key) for key in ("direction", "frame")] == like]
+    other = desk.pick(each for each in same if each["id"] != one["id"])
     one["id"], other["id"] = other["id"], one["id"]
 
 
@@ -80,34 +76,24 @@ def moved(desk: Desk) -> None:
     reordered(desk.messages, names)
 
 
-def _renamed(said: bool, desk: Desk) -> None:
-    desk.rename_message(desk.pick(desk.messages), desk.fresh("Renamed"), said=said)
-
-
-def _renamed_and_renumbered(said: bool, desk: Desk) -> None:
+def _renamed(said: bool, desk: Desk, *, renumbered: bool = False) -> None:
     name = desk.pick(desk.messages)
-    _renumber(desk, desk.messages[name])
+    if renumbered:
+        _renumber(desk, desk.messages[name])
     desk.rename_message(name, desk.fresh("Renamed"), said=said)
 
 
-def replaced(desk: Desk) -> None:
-    """Another message has the id of one that is gone."""
-    name = desk.pick(desk.messages)
-    other = copied(desk.messages[name])
-    other["fields"] = {desk.fresh("only"): {"type": "u8", "about": "Something else."}}
-    other.pop("method", None)
-    removed(desk.messages, name)
-    desk.messages[desk.fresh("Another")] = other
-
-
-def replaced_alike(desk: Desk) -> None:
-    """Another message has the id and the layout of one that is gone."""
+def _replaced(alike: bool, desk: Desk) -> None:
+    """Another message has the id of one that is gone, and perhaps its layout."""
     name = desk.pick(desk.messages)
     other = copied(desk.messages[name])
     other.pop("method", None)
-    _element_names(desk, other)
-    removed(desk.messages, name)
-    desk.messages[desk.fresh("Alike")] = other
+    if alike:
+        _element_names(desk, other)
+    else:
+        other["fields"] = {desk.fresh("only"): {"type": "u8", "about": "Something else."}}
+    del desk.messages[name]
+    desk.messages[desk.fresh("Alike" if alike else "Another")] = other
 
 
 def split(desk: Desk) -> None:
@@ -116,8 +102,8 @@ def split(desk: Desk) -> None:
     first, *others = message["fields"]
     rest = copied(message)
     for name in others:
-        removed(message["fields"], name)
-    removed(rest["fields"], first)
+        del message["fields"][name]
+    del rest["fields"][first]
     for each in (message, rest):
         each.pop("method", None)
     _renumber(desk, rest)
@@ -126,9 +112,8 @@ def split(desk: Desk) -> None:
 
 
 # What only says something of what the client sends.
-_OF_A_CLIENT = (
-    *("method", "reply", "refusal", "echoed", "asks_for", "failure", "acknowledged", "lasts"),
-)
+_ANSWERED = ("reply", "refusal", "failure", "echoed", "asks_for")
+_OF_A_CLIENT = (*_ANSWERED, "acknowledged", "lasts", "method")
 
 
 def end_renamed(desk: Desk) -> None:
@@ -159,9 +144,8 @@ def reply_changed(desk: Desk) -> None:
     message = desk.pick(each for each in desk.messages.values() if "reply" in each)
     others = {each["reply"] for each in desk.messages.values() if "reply" in each}
     message["reply"] = desk.pick(others - {message["reply"]})
-    message.pop("echoed", None)
-    message.pop("asks_for", None)
-    message.pop("method", None)
+    for key in ("echoed", "asks_for", "method"):
+        message.pop(key, None)
 
 
 def _said(key: str, text: str, desk: Desk) -> None:
@@ -177,10 +161,10 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "messages in another order": moved,
     "a message renamed, said": partial(_renamed, True),
     "a message renamed, unsaid": partial(_renamed, False),
-    "a message renamed and renumbered, said": partial(_renamed_and_renumbered, True),
-    "a message renamed and renumbered, unsaid": partial(_renamed_and_renumbered, False),
-    "a message replaced by another": replaced,
-    "a message replaced by another like it": replaced_alike,
+    "a message renamed and renumbered, said": partial(_renamed, True, renumbered=True),
+    "a message renamed and renumbered, unsaid": partial(_renamed, False, renumbered=True),
+    "a message replaced by another": partial(_replaced, False),
+    "a message replaced by another like it": partial(_replaced, True),
     "a message split in two": split,
     "an end renamed": end_renamed,
     "ends in another order": ends_in_other_order,
@@ -190,9 +174,6 @@ MESSAGE_MUTATIONS: dict[str, Callable[[Desk], None]] = {
     "a vendor's name": partial(_said, "vendor_name", "CMD_OTHER"),
     **{
         f"{key} dropped": partial(_dropped, key)
-        for key in (
-            *("reply", "refusal", "failure", "echoed", "asks_for"),
-            *("reports", "acknowledged", "lasts", "method"),
-        )
+        for key in (*_ANSWERED, "reports", "acknowledged", "lasts", "method")
     },
 }

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from tests.mutations.desk import Inapplicable, bounds_of, is_whole, removed, renamed_in
+from tests.mutations.desk import Inapplicable, bounds_of, is_whole, renamed_in
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -80,7 +80,7 @@ def value_added(desk: Desk) -> None:
     field.setdefault("values", {})[desk.fresh("case")] = added
 
 
-def _with(key: str, desk: Desk, least: int = 1) -> Data:
+def _with(key: str, desk: Desk, least: int = 1) -> Any:
     """Return a number with so many named values, or bits, at least."""
     return desk.number(lambda field: len(field.get(key, ())) >= least).field
 
@@ -91,7 +91,7 @@ def _none_named(key: str, desk: Desk) -> None:
 
 def _one_removed(key: str, least: int, desk: Desk) -> None:
     named = _with(key, desk, least)[key]
-    removed(named, desk.pick(named))
+    del named[desk.pick(named)]
 
 
 def _one_renamed(key: str, said: bool, desk: Desk) -> None:
@@ -137,8 +137,7 @@ def _free_bits(field: Data) -> set[int]:
 
 def bit_added(desk: Desk) -> None:
     field = _with("bits", desk)
-    free = desk.pick(_free_bits(field))
-    field["bits"][desk.fresh("flag")] = {"at": free}
+    field["bits"][desk.fresh("flag")] = {"at": desk.pick(_free_bits(field))}
 
 
 def _range(at: int | str) -> range:

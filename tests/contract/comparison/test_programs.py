@@ -17,7 +17,7 @@ from framegen.comparison.surface import Argument, Entry, Surface, read_surface
 
 from tests.contract.comparison.program_verdicts import Verdict, names_about, verdict_on
 from tests.in_turn import in_turn
-from tests.mutations.edits import ALL, EDITS, HOUSE, SPECS, edition, pair_of
+from tests.mutations.edits import ALL, EDITS, SPECS, edition, pair_of
 from tests.mutations.mutations import after
 from tests.mutations.places import with_
 
@@ -101,9 +101,9 @@ def test_an_argument_takes_what_it_took(old: str, new: str, fits: bool) -> None:
     assert takes(old, new) is fits
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "fits"),
-    [
+@in_turn(
+    "old, new, fits",
+    lambda: [
         ("Sent", "Run", True),
         ("Run", "Sent", False),
         ("int | None", "int", True),
@@ -118,21 +118,26 @@ def test_a_result_is_what_it_was(old: str, new: str, fits: bool) -> None:
 
 # ------------------------------------------------------------------ what is told
 
+
 # Of an edit, what programs written before it notice, and what those notice that were written after
 # it, when they are given what was before.
+# What is other values only is turned round by `_turned`: {0} is the old one in front.
+def _turned(text: str, old: str, new: str) -> tuple[list[str], list[str]]:
+    return [text.format(old, new)], [text.format(new, old)]
+
+
+NOTHING: tuple[list[str], list[str]] = ([], [])
 CASES: dict[str, tuple[list[str], list[str]]] = {
-    "words about a field": ([], []),
-    "bytes of an example": ([], []),
-    "byte order of all": ([], []),
-    "bytes of the header": ([], []),
-    "version": ([], []),
-    "baud": (
-        ["+ value: `open_controller(baud=19200)` is the default; it was 9600"],
-        ["+ value: `open_controller(baud=9600)` is the default; it was 19200"],
+    "words about a field": NOTHING,
+    "bytes of an example": NOTHING,
+    "byte order of all": NOTHING,
+    "bytes of the header": NOTHING,
+    "version": NOTHING,
+    "baud": _turned(
+        "+ value: `open_controller(baud={1})` is the default; it was {0}", "9600", "19200"
     ),
-    "name of the library": (
-        ["renamed: `import busservo` is now `import servobus`"],
-        ["renamed: `import servobus` is now `import busservo`"],
+    "name of the library": _turned(
+        "renamed: `import {0}` is now `import {1}`", "busservo", "servobus"
     ),
     "name of the client": (
         [
@@ -149,36 +154,14 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
         ],
     ),
     "no HID board": (["removed: `hid://` does not find 0483:5750 any more"], []),
-    "id": (
-        ["value: `ServoMove.COMMAND` is 4; it was 3"],
-        ["value: `ServoMove.COMMAND` is 3; it was 4"],
-    ),
-    "unit": (
-        ["meaning: `ServoMove`: time_ms = 1 ms means 1 s"],
-        ["meaning: `ServoMove`: time_ms = 1 s means 1 ms"],
-    ),
+    "id": _turned("value: `ServoMove.COMMAND` is {1}; it was {0}", "3", "4"),
+    "unit": _turned("meaning: `ServoMove`: time_ms = 1 {0} means 1 {1}", "ms", "s"),
     "name of a message": (
-        [
-            (
-                "renamed: `StationState` is now `Measured`, "
-                "`strategies.station_state` is now `measured`"
-            )
-        ],
-        [
-            (
-                "renamed: `Measured` is now `StationState`, "
-                "`strategies.measured` is now `station_state`"
-            )
-        ],
+        ["renamed: `StationState` is now `Measured`, `strategies.station_state` is now `measured`"],
+        ["renamed: `Measured` is now `StationState`, `strategies.measured` is now `station_state`"],
     ),
-    "name of the last field": (
-        ["renamed: `VentJammed.trim` is now `offset`"],
-        ["renamed: `VentJammed.offset` is now `trim`"],
-    ),
-    "name of an element": (
-        ["renamed: `Vent` is now `Flap`"],
-        ["renamed: `Flap` is now `Vent`"],
-    ),
+    "name of the last field": _turned("renamed: `VentJammed.{0}` is now `{1}`", "trim", "offset"),
+    "name of an element": _turned("renamed: `{0}` is now `{1}`", "Vent", "Flap"),
     "field removed": (
         ["removed: `VentJammed.trim` is gone"],
         [
@@ -186,9 +169,8 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
             "+ added: `VentJammed.trim` is new",
         ],
     ),
-    "order of fields": (
-        ["order: `VentJammed()`: takes (trim, vent_id) now; it took (vent_id, trim)"],
-        ["order: `VentJammed()`: takes (vent_id, trim) now; it took (trim, vent_id)"],
+    "order of fields": _turned(
+        "order: `VentJammed()`: takes ({1}) now; it took ({0})", "vent_id, trim", "trim, vent_id"
     ),
     "type of the last field": (
         [],
@@ -221,16 +203,11 @@ CASES: dict[str, tuple[list[str], list[str]]] = {
         ["type: `Tail.second` is int | None; it was int"],
     ),
     "number of a named value": (
-        [
-            "value: `VentsOpen.RAMP_S_AT_ONCE` is 1; it was 0, so ramp_s = 1 means at_once",
-        ],
-        [
-            "value: `VentsOpen.RAMP_S_AT_ONCE` is 0; it was 1, so ramp_s = at_once means 1",
-        ],
+        ["value: `VentsOpen.RAMP_S_AT_ONCE` is 1; it was 0, so ramp_s = 1 means at_once"],
+        ["value: `VentsOpen.RAMP_S_AT_ONCE` is 0; it was 1, so ramp_s = at_once means 1"],
     ),
-    "place of a bit": (
-        ["value: `Flags.ERROR_HEAT` is 4; it was 2, so error.heat = 1 means 0"],
-        ["value: `Flags.ERROR_HEAT` is 2; it was 4, so error.heat = 1 means 0"],
+    "place of a bit": _turned(
+        "value: `Flags.ERROR_HEAT` is {1}; it was {0}, so error.heat = 1 means 0", "2", "4"
     ),
     "bits removed": (
         ["removed: `Flags.ERROR_CODE` and `Flags.error_code` are gone"],
@@ -271,14 +248,10 @@ def test_programs_are_told_what_becomes_of_the_names_that_they_use(name: str) ->
     old, new = EDITS[name]
     if old is ALL and old["messages"] != new["messages"]:
         # The messages that are as they were take most of the time.
-        same = {each for each in old["messages"] if old["messages"][each] == new["messages"][each]}
+        before, after_ = old["messages"], new["messages"]
+        other = [each for each in before if before[each] != after_[each]]
         old, new = (
-            {
-                **data,
-                "messages": {
-                    each: data["messages"][each] for each in data["messages"] if each not in same
-                },
-            }
+            with_(data, "messages", {each: data["messages"][each] for each in other})
             for data in (old, new)
         )
     pair = pair_of(old, new)
@@ -328,10 +301,7 @@ def test_names_that_cannot_be_compared_are_uncertain_and_every_report_says_so(na
 
 
 def test_what_keeps_a_library_from_being_made_is_no_example() -> None:
-    bad = with_(
-        HOUSE, "messages", "TextShow", "examples", 0, "hex", "C3 5A A5 10 00 04 00 00 00 01"
-    )
-    pair = pair_of(HOUSE, bad)
+    pair = pair_of(*EDITS["bytes of an example"])
     assert pair.new.compiled.tolerated
     assert told(pair) == []
 
