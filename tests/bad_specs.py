@@ -62,7 +62,6 @@ def tables() -> list[str]:
 
 
 def names(table: str = "") -> list[str]:
-    """List the names of the cases of a table, or of all."""
     return [case["name"] for each in [table] * bool(table) or tables() for case in _cases(each)]
 
 
@@ -119,7 +118,6 @@ def base_names() -> list[str]:
 
 @cache
 def base(name: str) -> str:
-    """Return the text of a good spec that cases begin with."""
     for variant in _load(VARIANTS):
         if variant["name"] == name:
             return _text(variant)

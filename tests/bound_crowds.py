@@ -51,7 +51,6 @@ def functions(crowd: Crowd, names: Sequence[str]) -> None:
 
 
 def methods(crowd: Crowd, names: Sequence[str]) -> None:
-    """Make every name a method."""
     for at, name in enumerate(names):
         crowd.command(f"Call{at}", [], method=f"{name}()")
 
@@ -115,13 +114,11 @@ def parts(crowd: Crowd, names: Sequence[str]) -> None:
 
 
 def messages(crowd: Crowd, names: Sequence[str]) -> None:
-    """Make every name a message, of either end in turn."""
     for at, name in enumerate(names):
         (crowd.report if at % 2 else crowd.command)(name, [])
 
 
 def elements(crowd: Crowd, names: Sequence[str]) -> None:
-    """Make every name an element."""
     for at, name in enumerate(names):
         add = crowd.report if at % 2 else crowd.command
         add(f"Listed{at}", [], listed="items", element=name, of=["level"])

@@ -66,7 +66,6 @@ def _in_classes(module: ast.Module) -> Iterator[str]:
 
 
 def imported() -> frozenset[str]:
-    """Return the packages that they import by their own name, wherever they do."""
     modules = [module for alike in _modules().values() for module in alike]
     return frozenset(name.partition(".")[0] for each in modules for name in _packages(each))
 

@@ -96,11 +96,9 @@ class Crowd:
         self.data = small_spec(name, frame, {}, ends=f"{client} {device}")
 
     def command(self, name: str, fields: list[str], **more: Any) -> None:
-        """Add a message that the client sends."""
         self._add(name, " -> ".join(self._ends), fields, **more)
 
     def report(self, name: str, fields: list[str], **more: Any) -> None:
-        """Add a message that the device sends."""
         self._add(name, " -> ".join(reversed(self._ends)), fields, **more)
 
     def send(self, name: str, sender: str, receiver: str) -> None:

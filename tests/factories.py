@@ -67,7 +67,6 @@ Steps: TypeAlias = "tuple[str | int, ...]"
 
 
 def data_of(file: Path) -> Data:
-    """Return the values of a spec file."""
     return _values(read_source(file))
 
 
@@ -92,7 +91,6 @@ def first_edition() -> Data:
 
 @cache
 def first_model() -> Model:
-    """Return the model of it; models never change."""
     return layout_of(first_edition())
 
 
@@ -183,7 +181,6 @@ def rules_broken(data: Data) -> list[str]:
 
 
 def layout_of(data: Data) -> Model:
-    """Return the model of a spec without findings."""
     compiled = compiled_of(data)
     assert [finding.message for finding in compiled.findings] == []
     return compiled.model
@@ -195,7 +192,6 @@ def files_of(data: Data, name: str = "made_up.yaml") -> dict[str, str]:
 
 
 def library_files(compiled: Compiled) -> dict[str, str]:
-    """Return the library of a compiled spec."""
     assert [finding.message for finding in compiled.findings] == []
     return render_target(python.TARGET, compiled)
 

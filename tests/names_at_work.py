@@ -41,7 +41,6 @@ def plain(value: Any) -> Any:
 
 
 def made_of(lib: ModuleType, model: Model, message: MessageLayout) -> Any:
-    """Return the first example of a message, in the library's names."""
     names = names_of(model)
     values = names.values(message.name, message.message.examples[0].values)
     kind = getattr(lib, names.of("message", message.name))
@@ -74,7 +73,6 @@ def examples_work(lib: ModuleType, model: Model) -> None:
 
 
 def _cells(message: Any) -> tuple[list[str], list[str]]:
-    """Return the bytes and the names that a notebook shows."""
     rows = re.findall(r"<tr>(.*?)</tr>", message._repr_html_())
     names, data, *_ = (re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in rows)
     return data, names

@@ -239,7 +239,6 @@ _LISTED = _bare() | _elements()
 @cache
 @st.composite
 def _single_fields(draw: st.DrawFn) -> Data:
-    """Draw a field of a fixed size."""
     if not _sometimes(draw):
         return draw(numbers())
     kind = draw(_of("text", "packed", "list", "list"))

@@ -137,7 +137,6 @@ class Reader:
         return self._length(message, cells) in message["length"]
 
     def _length(self, message: Data, cells: Sequence[Cell]) -> int:
-        """Return the number of bytes that the length counts; of all, where there is none."""
         parts = self.frames[self._kind(message)]
         counted = next((part["counts"] for part in parts.values() if part["is"] == "length"), None)
         return sum(cell.size for cell in cells if counted is None or cell.part in counted)
@@ -340,7 +339,6 @@ class Reader:
         return max(found, key=lambda each: each[1], default=None)
 
     def largest(self, directions: Sequence[str]) -> int:
-        """Return the size of the largest frame of these directions."""
         return max((self._largest(name) for name in self.names(directions)), default=0)
 
     def _largest(self, name: str) -> int:
@@ -424,7 +422,6 @@ def _varies(field: Data) -> bool:
 
 
 def _element_size(field: Data) -> int:
-    """Return the size of one element of a list."""
     if "element" not in field:
         return _size(field)
     return sum(_size(each) * int(each.get("count", 1)) for each in field["fields"].values())

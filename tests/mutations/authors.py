@@ -76,20 +76,17 @@ def marked(data: Data) -> Data:
 
 
 def unmarked(value: Any) -> Any:
-    """Return the spec itself."""
     if isinstance(value, dict):
         return {key: unmarked(each) for key, each in value.items() if key != MARK}
     return [unmarked(each) for each in value] if isinstance(value, list) else value
 
 
 def kinds_of(spec: Data) -> dict[str, Data]:
-    """Return the kinds of frames, by name; the only one is called `frame`."""
     found: dict[str, Data] = spec.get("frames") or {"frame": spec["frame"]}
     return found
 
 
 def parts_of(spec: Data, message: Data) -> Data:
-    """Return the parts of the frames of a message."""
     kinds = kinds_of(spec)
     parts: Data = kinds[message.get("frame") or next(iter(kinds))]
     return parts
@@ -179,12 +176,10 @@ class Names:
 
     @cached_property
     def to_old(self) -> dict[str, str]:
-        """The new names, each with its old one."""
         return {new: old for old, new in self.to_new.items()}
 
     @property
     def turned(self) -> Names:
-        """The same the other way round."""
         unsaid = frozenset(self.to_new[name] for name in self.unsaid)
         return Names(self.to_old, unsaid, self.added, self.removed)
 
@@ -221,17 +216,14 @@ class Author:
 
     @property
     def turned(self) -> Author:
-        """The author of the way back."""
         return Author(self.new, self.old)
 
     @cached_property
     def ends(self) -> Names:
-        """The ends of the line."""
         return names_of(self.old["endpoints"], self.new["endpoints"])
 
     @cached_property
     def messages(self) -> Names:
-        """The messages."""
         return names_of(self.old["messages"], self.new["messages"])
 
     def fields(self, old: str, new: str) -> Names:

@@ -50,7 +50,6 @@ class Crossed:
 
 @cache
 def crossed(seed: int) -> Crossed:
-    """Return the spec of a seed."""
     chance = random.Random(f"crossed {seed}")  # noqa: S311 - no secret
     for tries in range(1, _MOST):
         words, compiled = _tried(chance)

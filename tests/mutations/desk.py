@@ -54,7 +54,6 @@ class Desk:
         return things[self.pick(things)]
 
     def fresh(self, stem: str) -> str:
-        """Return a name that nothing has."""
         text = repr(self.spec)
         return next(name for at in range(1, 99) if (name := f"{stem}{at}") not in text)
 
@@ -70,7 +69,6 @@ class Desk:
         return parts_of(self.spec, message)
 
     def spots(self) -> Iterator[Spot]:
-        """Yield every field, those of elements included."""
         for message in self.messages.values():
             for name, field in message["fields"].items():
                 yield Spot(message, message["fields"], name, inner=False)
@@ -78,7 +76,6 @@ class Desk:
                     yield Spot(message, field["fields"], inner, inner=True)
 
     def spot(self, fits: Callable[[Spot], Any]) -> Spot:
-        """Return some field that fits."""
         return self.pick(spot for spot in self.spots() if fits(spot))
 
     def number(self, fits: Callable[[Data], Any] = lambda _: True) -> Spot:
@@ -91,7 +88,6 @@ class Desk:
         return self.pick((each, name) for each, name in parts if fits(each[name]))
 
     def rename_field(self, spot: Spot, new: str, *, said: bool) -> None:
-        """Give a field another name, wherever it is named."""
         old = spot.name
         renamed_in(spot.fields, old, new, said=said)
         if not spot.inner:
@@ -104,7 +100,6 @@ class Desk:
                     spot.message[key] = in_words(spot.message[key], old, new)
 
     def rename_part(self, parts: Data, old: str, new: str) -> None:
-        """Give a part of a frame another name, wherever other parts name it."""
         renamed_in(parts, old, new)
         for part in parts.values():
             for key in ("counts", "covers"):
@@ -112,7 +107,6 @@ class Desk:
                     part[key] = [new if each == old else each for each in part[key]]
 
     def rename_message(self, old: str, new: str, *, said: bool) -> None:
-        """Give a message another name, wherever it is named."""
         renamed_in(self.messages, old, new, said=said)
         for each in self.messages.values():
             for key in ("reply", "refusal", "acknowledged"):
@@ -123,7 +117,6 @@ class Desk:
 
 
 def in_words(text: str, old: str, new: str) -> str:
-    """Return a text with one name instead of another."""
     return re.sub(rf"\b{re.escape(old)}\b", new, text)
 
 
@@ -137,7 +130,6 @@ def renamed_in(things: Data, old: str, new: str, *, said: bool = False) -> None:
 
 
 def other_order(desk: Desk, thing: Data) -> None:
-    """Have the bytes of a number come the other way round."""
     order = thing.get("byte_order", desk.spec["byte_order"])
     thing["byte_order"] = "little" if order == "big" else "big"
 
@@ -154,7 +146,6 @@ def reordered(around: Data, names: Iterable[str]) -> None:
 
 
 def inserted(around: Data, at: int, name: str, thing: Data) -> None:
-    """Insert a thing in front of the one at a place."""
     items = [*around.items()]
     _put(around, dict([*items[:at], (name, thing), *items[at:]]))
 
@@ -188,12 +179,10 @@ def is_number(spot: Spot) -> bool:
 
 
 def is_whole(field: Data) -> bool:
-    """Tell whether a number has no fractions."""
     return field["type"][0] in "ui"
 
 
 def varies(field: Data) -> bool:
-    """Tell whether a field is a list of a size that varies."""
     return "counted_by" in field or "sized_by" in field
 
 

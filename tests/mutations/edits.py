@@ -48,7 +48,6 @@ def _edition(text: str, label: str, *, checked: bool) -> Edition:
 
 
 def pair_of(old: Data, new: Data, *, checked: bool = True) -> Pair:
-    """Return the pair of two editions."""
     named = {"old.yaml": old, "new.yaml": new}
     return Pair(*(edition(each, name, checked=checked) for name, each in named.items()))
 

@@ -44,7 +44,6 @@ def healed(data: Data) -> Data | None:
 
 
 def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
-    """Return frames with every value that an example has to show."""
     fields = message.numbers_by_path.values()
     shown = [_values(message, number) for number in range(max(map(_many, fields), default=1))]
     return [

@@ -43,7 +43,6 @@ def other_facts(path: Steps, value: Any) -> list[Any]:
 
 
 def _fewer(names: list[str]) -> list[list[str]]:
-    """Leave out one name after the other."""
     return [names[:at] + names[at + 1 :] for at in range(len(names))]
 
 

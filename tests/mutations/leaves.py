@@ -55,7 +55,6 @@ def mirrored(told: Iterable[Change]) -> list[tuple[str, str, str]]:
 
 
 def turned(told: Iterable[Change]) -> list[tuple[str, str, str]]:
-    """Return changes as they are."""
     return sorted((each.rule, repr(each.old), repr(each.new)) for each in told)
 
 

@@ -63,7 +63,6 @@ def _length_of(desk: Desk, spot: Spot) -> str:
 
 
 def _bounded(field: Data) -> None:
-    """Have a list say that it may have few elements only."""
     field["count"] = f"{_low(field)}..{_low(field) + 8}"
 
 

@@ -39,7 +39,6 @@ class Mutant:
 
     @property
     def data(self) -> Data:
-        """The values of the spec; made anew, since there are many."""
         return self.make()
 
     def __str__(self) -> str:
@@ -50,7 +49,6 @@ class Mutant:
 
 @cache
 def specs() -> dict[str, Data]:
-    """Return the specs at hand, by name."""
     return {"greenhouse": data_of(DEMO), "kiln": kiln(), "busservo": data_of(BUSSERVO)}
 
 
@@ -65,7 +63,6 @@ def _places(spec: str) -> tuple[Data, tuple[Steps, ...]]:
 
 
 def rotations() -> int:
-    """Return how many specs it takes to have each text in each place."""
     return len(TEXTS)
 
 
@@ -91,7 +88,6 @@ def with_texts(spec: str, given: dict[Steps, str]) -> Mutant:
 
 
 def singly(mutant: Mutant) -> list[Mutant]:
-    """Return one mutant for each of the texts of this one."""
     _, places = _places(mutant.spec)
     by_path = {dotted(path): path for path in places}
     return [with_texts(mutant.spec, {by_path[each.path]: each.new}) for each in mutant.changes]

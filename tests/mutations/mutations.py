@@ -63,7 +63,6 @@ class Editions:
 
     @property
     def turned(self) -> Editions:
-        """The same the other way round."""
         return Editions(f"{self.name}, turned", self.new, self.old, self.author.turned)
 
 
@@ -83,7 +82,6 @@ def after(spec: str, names: Sequence[str], seed: int = 0) -> Editions | None:
 
 
 def after_data(data: Data, names: Sequence[str], seed: int = 0) -> Editions | None:
-    """Return a spec, given as its data, before and after some mutations."""
     before = marked(data)
     old = edition_of(before, "old")
     return None if old is None else _mutated("made up", before, old, names, seed)

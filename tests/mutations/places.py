@@ -43,7 +43,6 @@ def having(data: Data, values: Mapping[str, Any]) -> Data:
 
 
 def texts(value: Any) -> Iterator[tuple[Steps, str]]:
-    """Yield every text with its place."""
     yield from ((path, leaf) for path, leaf in leaves(value) if isinstance(leaf, str))
 
 
@@ -67,7 +66,6 @@ def _inside(value: Any) -> Iterable[tuple[Any, Any]]:
 
 
 def at(data: Any, path: Iterable[str | int]) -> Any:
-    """Return what stands at a place."""
     for step in path:
         data = data[step]
     return data
@@ -115,7 +113,6 @@ def renamed(value: Any, old: str, new: str) -> Any:
 
 
 def differs(one: Any, other: Any) -> bool:
-    """Tell whether two values are written otherwise, if only in their order."""
     return json.dumps(one) != json.dumps(other)
 
 
@@ -126,17 +123,14 @@ def reordered(data: Data, path: Steps, order: Iterable[str]) -> Data:
 
 
 def swaps(names: Iterable[str]) -> Iterator[list[str]]:
-    """Yield names with each two neighbours swapped."""
     whole = [*names]
     for second in range(1, len(whole)):
         yield [*whole[: second - 1], whole[second], whole[second - 1], *whole[second + 1 :]]
 
 
 def other_way(direction: str) -> str:
-    """Return the direction the other way round."""
     return " -> ".join(reversed(direction.split(" -> ")))
 
 
 def dotted(path: Iterable[str | int]) -> str:
-    """Return a place as a text."""
     return ".".join(map(str, path))

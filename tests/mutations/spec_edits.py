@@ -32,7 +32,6 @@ class EditError(ValueError):
 
 
 def unmarked(text: str) -> str:
-    """Remove the marks from a text."""
     return _MARKS.sub("", text)
 
 
@@ -82,7 +81,6 @@ def _edited(text: str, edit: Edit) -> str:
 
 
 def repeated(text: str, times: int) -> list[str]:
-    """Repeat a text with # counting up from 0."""
     return [text.replace("#", str(number)) for number in range(times)]
 
 

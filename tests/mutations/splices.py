@@ -272,7 +272,6 @@ def _small_names(desk: Desk) -> set[str]:
 
 
 def _word(host: Desk, donor: Desk) -> str:
-    """Return a name that something else has."""
     return host.pick(
         host.pick([_small_names(host), _small_names(host), _small_names(donor), _WORDS])
     )

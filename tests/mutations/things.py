@@ -42,7 +42,6 @@ def match(names: Names, old: Mapping[str, Any], new: Mapping[str, Any]) -> Match
 
 
 def match_messages(editions: Editions) -> Match:
-    """Match the messages of two editions."""
     author = editions.author
     ends = author.ends.to_new
     same = {name: name for name in author.new["endpoints"]}
@@ -149,7 +148,6 @@ def size_of(field: Data) -> int:
 
 
 def arguments_of(fields: Data) -> Data:
-    """Return the fields that a user gives."""
     counting = {each.get(key) for each in fields.values() for key in ("counted_by", "sized_by")}
     return {
         name: each

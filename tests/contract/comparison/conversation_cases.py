@@ -47,8 +47,6 @@ class Said(NamedTuple):
 
 
 class Case(NamedTuple):
-    """Two editions, and what is said of the first exchanges of both pairs of ends."""
-
     old: Data
     new: Data
     said: list[Said]

@@ -55,23 +55,19 @@ class Ends:
         self._made: dict[Which, ModuleType] = {}
 
     def library(self, which: Which) -> ModuleType:
-        """Return the library of an edition, made when it is first asked for."""
         if which not in self._made:
             files = _library_files(self.pair.edition(which), which)
             self._made[which] = self._until.enter_context(library(files))
         return self._made[which]
 
     def part(self, which: Which, name: str) -> Any:
-        """Return a module of the library of an edition."""
         return importlib.import_module(f"{self.library(which).__name__}.{name}")
 
     def exchange(self, which: Which, kind: type) -> Any:
-        """Return the exchange of a request, as the library of an edition has it."""
         return self.part(which, "_exchanges").EXCHANGES[kind]
 
     @contextmanager
     def client(self, which: Which, device: Any, *, echo: bool = False) -> Iterator[Any]:
-        """Return a client of an edition on a line to a device; nothing in it sleeps."""
         line = DeviceLine(device, echo=echo)
         with client_on(line, handed_by(self.library(which).__name__).client, limits=None) as client:
             yield client
@@ -261,7 +257,6 @@ def _said(play: Play) -> Seen:
 
 
 def _ending(made: Any, controller: Any, exchange: Any, request: Any) -> str:
-    """Return how a question ends."""
     errors = [getattr(made, name, None) for name in ("RefusedError", "FailureError")]
     try:
         reply = controller.request(request)
@@ -280,7 +275,6 @@ def _nothing(_message: Any) -> None:
 
 
 def _library_files(edition: Edition, which: Which) -> dict[str, str]:
-    """Return the library of an edition under a name of its own: its modules name no package."""
     name = edition.spec.protocol.name
     made = render_target(python.TARGET, _with_examples(edition))
     return {path.replace(f"/{name}/", f"/{name}_{which}/"): text for path, text in made.items()}
@@ -302,6 +296,5 @@ def _with_examples(edition: Edition) -> Compiled:
 
 @contextmanager
 def ends_of(pair: Pair) -> Iterator[Ends]:
-    """Return the generated ends of two editions, and forget them again."""
     with ExitStack() as until:
         yield Ends(until, pair)

@@ -61,11 +61,9 @@ class Oracle:
 
     @cached_property
     def messages(self) -> Match:
-        """The messages of the sender, each with what it is to the receiver."""
         return match_messages(self.editions)
 
     def way(self, direction: Direction) -> Any:
-        """Return a direction as the receiver has it; None where it has no such end."""
         ends = self.ends
         sender, receiver = ends.get(direction.sender), ends.get(direction.receiver)
         if sender is None or receiver is None:
@@ -74,7 +72,6 @@ class Oracle:
 
     @cached_property
     def _found(self) -> dict[Any, Any]:
-        """What was matched before, by what it is of."""
         return {}
 
     def _matched(self, before: Data, after: Data, key: str = "") -> Match:
@@ -89,7 +86,6 @@ class Oracle:
 
     @cached_property
     def ends(self) -> Mapping[str, str]:
-        """The ends of the line, by the author's map."""
         return self.editions.author.ends.to_new
 
     def judge(self, layout: MessageLayout, values: Mapping[str, Any]) -> Judgement:
@@ -104,7 +100,6 @@ class Oracle:
     def judge_data(
         self, layout: MessageLayout, values: Mapping[str, Any], data: bytes, way: Direction
     ) -> Judgement:
-        """Judge what the receiver makes of a frame."""
         events = self.heard(way, data)
         said = [event for event in events if isinstance(event, self.theirs.Message)]
         if not said:
@@ -129,7 +124,6 @@ class Oracle:
         return any(each.DIRECTION.name == name for each in self.theirs.MESSAGES)
 
     def heard(self, way: Direction, data: bytes) -> list[Any]:
-        """Return what the receiver hears of a frame, and then nothing."""
         known = {each.name for each in self.theirs.Direction}
         if f"{way.sender}_to_{way.receiver}".upper() not in known:
             return []
@@ -313,12 +307,10 @@ def _number_of(items: Data) -> Data | None:
 
 
 def _bare(value: Any) -> Any:
-    """Return the number that an element holds."""
     return next(iter(value.values())) if isinstance(value, dict) else value
 
 
 def _letters(value: Any) -> Any:
-    """Return bytes of text without its padding."""
     if isinstance(value, str):
         return value.encode("ascii").rstrip(b"\0")
     try:

@@ -69,12 +69,10 @@ def accepted(method: Callable[..., object], names: list[str]) -> None:
 
 
 def matched(message: Any, *names: str) -> list[Any]:
-    """Return what a `match` by position takes out of a message."""
     return [getattr(message, name) for name in type(message).__match_args__[: len(names)]]
 
 
 def run(statement: str, names: dict[str, Any]) -> object:
-    """Return what a statement gives, in plain values; the name of the error that it raises."""
     try:
         return plain(eval(statement, names))  # noqa: S307 - it is our own
     except Exception as error:  # noqa: BLE001 - whatever a broken program runs into
@@ -82,7 +80,6 @@ def run(statement: str, names: dict[str, Any]) -> object:
 
 
 def fails(result: object) -> bool:
-    """Tell whether a statement raised an error."""
     return isinstance(result, str) and result.startswith("raises ")
 
 
@@ -102,7 +99,6 @@ def plain(value: Any) -> object:
 
 
 def program(made: ModuleType) -> Iterator[str]:
-    """Yield the statements of a program that uses all of a library."""
     for kind in made.MESSAGES:
         yield from _of_message(made, kind)
     yield from _of_ends(made)
@@ -281,7 +277,6 @@ def _reply(exchange: Any, asked: Mapping[str, Any]) -> str | None:
 
 
 def made_by_name(name: str, values: Mapping[str, Any]) -> str:
-    """Return the call that makes a message, every argument by its name."""
     return f"{name}({', '.join(f'{each}={value!r}' for each, value in values.items())})"
 
 
@@ -304,7 +299,6 @@ def usual_values(kind: Any) -> dict[str, Any]:
 
 
 def _attributes(kind: Any) -> list[str]:
-    """Return the fields and the properties of a message."""
     return [
         name
         for name, value in vars(kind).items()
@@ -313,7 +307,6 @@ def _attributes(kind: Any) -> list[str]:
 
 
 def _properties(kind: Any) -> list[str]:
-    """Return the properties that are not fields."""
     return [name for name in _attributes(kind) if type(vars(kind)[name]) is property]
 
 

@@ -33,12 +33,10 @@ class Verdict:
 
     @property
     def breaking(self) -> list[Effect]:
-        """The effects that break programs."""
         return [each for each in self.effects if each.breaks]
 
     @property
     def seen(self) -> list[Effect]:
-        """Those that a program sees which is run."""
         return [
             each
             for each in self.breaking

@@ -98,7 +98,6 @@ def _cells(trials: Iterable[Trials]) -> dict[tuple[str, str], dict[Any, int]]:
 
 
 def assert_no_effect(pair: Pair) -> None:
-    """Every frame is read alike, and nothing is reported."""
     trials = try_out(pair)
     assert {outcome for each in trials for outcome in each.counts} <= {"same"}
     assert [*wire_effects(pair, trials)] == []
@@ -183,17 +182,14 @@ def assert_words_alone_change_no_code(pair: Pair) -> None:
 
 
 def assert_same_code(one: Edition, other: Edition) -> None:
-    """Both libraries are the same but for docstrings and for what the command prints."""
     assert [*_other_code(one, other)] == []
 
 
 def assert_other_code(one: Edition, other: Edition) -> None:
-    """The libraries differ in their code."""
     assert [*_other_code(one, other)] != []
 
 
 def _other_code(one: Edition, other: Edition) -> Iterator[str]:
-    """Yield the modules whose code differs."""
     before, after = library_files(one.compiled), library_files(other.compiled)
     for name in before.keys() | after.keys():
         texts = before.get(name, ""), after.get(name, "")

@@ -33,7 +33,6 @@ atexit.register(_UNTIL_THE_END.close)
 
 
 def library_of(edition: Edition, name: str, until: ExitStack) -> ModuleType:
-    """Return the library of an edition, imported under a name of its own."""
     data: Data = edition.compiled.tree.data
     named = edition_of({**data, "protocol": {**data["protocol"], "name": name}}, name)
     assert named is not None
@@ -64,7 +63,6 @@ class Talk:
 
     @cached_property
     def tried(self) -> list[Trials]:
-        """What the comparison says of each message of each sender."""
         return [trial.found_in(frames) for trial, frames in self._frames]
 
     @cached_property

@@ -184,7 +184,6 @@ class _Messages:
 
     @cached_property
     def _layouts(self) -> dict[str, Any]:
-        """The layouts of the messages, by the names that the library has for them."""
         return dict(names_of(self.model).library.messages)
 
     def _shown(self, message: Any) -> Iterator[str]:

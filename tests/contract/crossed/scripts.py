@@ -46,5 +46,4 @@ class Scripts:
         return reply.lines
 
     def close(self) -> None:
-        """End the process."""
         self._program.close()

@@ -42,7 +42,6 @@ def test_a_crossed_spec_is_read_alike_by_all(scripts: Scripts, seed: int) -> Non
 
 
 def read_alike(scripts: Scripts, seed: int) -> None:
-    """Assert that nothing is wrong with a spec."""
     spec = crossed(seed)
     found = faults(spec, scripts)
     if found:

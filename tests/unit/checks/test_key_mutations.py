@@ -99,7 +99,6 @@ def findings(spec: Data) -> set[str]:
 
 @cache
 def found(name: str) -> set[str]:
-    """Return what is found in a spec as it is."""
     return findings(SPECS[name])
 
 

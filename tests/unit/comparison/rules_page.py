@@ -49,7 +49,6 @@ _SUBJECTS = {
 
 
 def page() -> str:
-    """Return the whole page."""
     parts = [_HEAD, contents()]
     for subject, title in _SUBJECTS.items():
         parts.append(f"## {title}\n")
@@ -58,7 +57,6 @@ def page() -> str:
 
 
 def contents() -> str:
-    """Return the list of all rules, with a link to each."""
     lines = [
         f"- {_link(title)}: " + ",\n  ".join(_link(rule.id) for rule in _rules(subject))
         for subject, title in _SUBJECTS.items()
@@ -117,7 +115,6 @@ def _said(effects: Iterable[Effect]) -> str:
 
 
 def write() -> None:
-    """Write the page."""
     text = page()
     if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
         PAGE.write_text(text, encoding="utf-8", newline="\n")

@@ -23,7 +23,6 @@ BASH = shutil.which("bash")
 
 
 def read(file: Path) -> Any:
-    """Return what a file of YAML says, its comments aside."""
     return yaml.safe_load(file.read_text(encoding="utf-8"))
 
 

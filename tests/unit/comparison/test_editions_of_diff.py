@@ -32,7 +32,6 @@ def version(text: str, number: str) -> str:
 
 
 def release(project: Path, *numbers: str) -> None:
-    """Keep editions of the lamp in a project."""
     kept = {f"spec/released/stage_lamp-{each}.yaml": version(LAMPS, each) for each in numbers}
     write_files(kept, project)
 
@@ -318,7 +317,6 @@ def test_where_an_edition_is_from_does_not_show_in_what_is_made_of_it() -> None:
 
 
 def named(name: str, number: str) -> str:
-    """Return the lamp as another protocol, or as itself."""
     return version(LAMPS, number).replace("name: stage_lamp", f"name: {name}")
 
 

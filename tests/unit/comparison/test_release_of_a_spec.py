@@ -78,12 +78,10 @@ def _project(first: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 
 @pytest.fixture
 def programs(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let programs count as well."""
     monkeypatch.setattr(comparison, "program_effects", program_effects)
 
 
 def history(*entries: str) -> dict[str, Any]:
-    """Put entries in front of the first one."""
     return {"before": '- version: "1.0.0"', "add": "\n".join(entries)}
 
 

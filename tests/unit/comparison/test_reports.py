@@ -83,7 +83,6 @@ BEFORE, AFTER = edition(HOUSE, "v1:spec/a.yaml"), edition(HOUSE, "spec/a.yaml")
 def comparison_of(
     found: list[Effect], changes: list[Change] | None = None, after: Edition = AFTER
 ) -> Comparison:
-    """Return a comparison that found these effects and changes."""
     comparison = Comparison(BEFORE, after)
     vars(comparison).update(effects=found, changes=changes or [], trials=[])
     return comparison

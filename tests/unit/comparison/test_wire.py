@@ -74,7 +74,6 @@ KIND: Data = {"type": "u8", "about": "Which layout."}
 
 
 def asked(pair: Pair) -> tuple[MessageLayout, MessageLayout]:
-    """Return the message of one more field, of both editions."""
     old, new = (each.model.messages["DoorAsked"] for each in (pair.old, pair.new))
     return old, new
 
@@ -121,7 +120,6 @@ def test_an_address_that_no_old_end_has_is_nobody_in_use(widened: str, outcomes:
 
 
 def with_gaps(gaps: Data, direction: str = WAY) -> Data:
-    """Return the greenhouse with one more message of a list."""
     message = {**DOOR, "direction": direction, "length": "2 * door + 1"}
     return house({"DoorAsked": {**message, "fields": {**DOOR["fields"], "gaps": gaps}}})
 

@@ -25,7 +25,6 @@ CORE = {
 
 
 def words(text: str) -> list[str]:
-    """Return a scalar as a row of words."""
     return text.split(" ")
 
 
