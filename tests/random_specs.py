@@ -7,6 +7,7 @@ without fields. Whatever is drawn besides is as small as can be.
 from __future__ import annotations
 
 from functools import cache, lru_cache
+from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
 from framegen.cases.valid import frames_of, values_at
@@ -17,6 +18,7 @@ from framegen.model.model import derive
 from hypothesis import strategies as st
 
 from tests.factories import small_spec
+from tests.second_reader import part_size, varies
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
@@ -169,6 +171,11 @@ def _with_unsent(draw: st.DrawFn, parts: Data) -> Data:
 # ------------------------------------------------------------------ fields
 
 
+def _bounds(kind: str) -> tuple[int, int]:
+    bits = int(kind[1:])
+    return (-(1 << bits - 1), (1 << bits - 1) - 1) if kind[0] == "i" else (0, (1 << bits) - 1)
+
+
 @cache
 @st.composite
 def numbers(draw: st.DrawFn, *, whole: bool = False) -> Data:
@@ -180,7 +187,7 @@ def numbers(draw: st.DrawFn, *, whole: bool = False) -> Data:
     if kind[0] == "f":
         return field
     bits, signed = int(kind[1:]), kind[0] == "i"
-    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
+    low, high = _bounds(kind)
     if not whole and _sometimes(draw, 5):
         value = draw(_of(0, 1, high))
         return {**field, draw(_of("always", "reserved")): value}
@@ -247,9 +254,7 @@ def _single_fields(draw: st.DrawFn) -> Data:
     if kind == "packed":
         return draw(_packed())
     listed = draw(_LISTED)
-    if listed.get("text"):
-        return {**listed, "count": draw(st.integers(1, 4))}
-    return {**listed, "count": draw(st.integers(1, 3))}
+    return {**listed, "count": draw(st.integers(1, 4 if listed.get("text") else 3))}
 
 
 _SINGLE = st.lists(_single_fields(), max_size=3)
@@ -394,49 +399,27 @@ def _counted(parts: Data) -> int:
     """Return the number of bytes besides the body that a length counts."""
     length = parts.get("length")
     names = parts if length is None else length["counts"]
-    return sum(
-        _bytes(part) for name, part in parts.items() if name in names and part.get("sent", True)
-    )
-
-
-def _bytes(part: Data) -> int:
-    if part["is"] == "body":
-        return 0
-    return len(bytes.fromhex(part["bytes"])) if "bytes" in part else int(part["type"][1:]) // 8
+    return sum(part_size(parts[name]) for name in names if parts[name].get("sent", True))
 
 
 def _width(field: Data) -> int:
     """Return the size of a field in bytes; of a list that varies, of an element."""
+    times = 1 if varies(field) else int(field.get("count", 1))
     if "element" in field:
-        size = sum(_width(each) for each in field["fields"].values())
-    else:
-        size = int(field["type"][1:])
-        if "count" in field and "counted_by" not in field and "sized_by" not in field:
-            return size * int(field["count"]) // 8
-        return size // 8
-    fixed = "counted_by" not in field and "sized_by" not in field
-    return size * int(field.get("count", 1) if fixed else 1)
+        return times * sum(map(_width, field["fields"].values()))
+    return times * int(field["type"][1:]) // 8
 
 
 def _rule(parts: Data, fields: Data, variable: str) -> str:
     constant = _counted(parts)
     constant += sum(_width(field) for name, field in fields.items() if name != "items")
-    if not variable:
-        return str(constant)
-    factor = _width(fields["items"])
-    return f"{factor} * {variable} + {constant}"
+    return f"{_width(fields['items'])} * {variable} + {constant}" if variable else str(constant)
 
 
 def _optional_lengths(parts: Data, fields: Data) -> list[int]:
-    size = _counted(parts) + sum(
-        _width(field) for field in fields.values() if not field.get("optional")
-    )
-    sizes = [size]
-    for field in fields.values():
-        if field.get("optional"):
-            size += _width(field)
-            sizes.append(size)
-    return sizes
+    optional = [field for field in fields.values() if field.get("optional")]
+    least = _counted(parts) + sum(map(_width, fields.values())) - sum(map(_width, optional))
+    return [*accumulate(map(_width, optional), initial=least)]
 
 
 # ------------------------------------------------------------------ values
@@ -459,10 +442,8 @@ def values_of(draw: st.DrawFn, spec: Data, name: str) -> Data:
     for key, field in fields.items():
         if key in counters or "always" in field or "reserved" in field:
             continue
-        if field.get("optional"):
-            values[key] = draw(_values(field)) if key in there else None
-        else:
-            values[key] = draw(_values(field))
+        is_there = key in there or not field.get("optional")
+        values[key] = draw(_values(field)) if is_there else None
     return values
 
 
@@ -483,14 +464,13 @@ def _address_values(what: Data) -> st.SearchStrategy[int]:
 
 
 def _values(field: Data) -> st.SearchStrategy[Any]:
-    varies = "counted_by" in field or "sized_by" in field
     letters = st.text(st.sampled_from("aZ~\x01\0"), max_size=0x7F)
-    if field.get("text") and not varies:
+    if field.get("text") and not varies(field):
         return letters.map(lambda text: text[: field["count"]].rstrip("\0"))
-    if "count" not in field and not varies:
+    if "count" not in field and not varies(field):
         return _number_values(field)
     low = high = field.get("count", 0)
-    if varies:
+    if varies(field):
         bottom, _, top = str(field.get("count", "0..")).partition("..")
         low, high = int(bottom), int(top or int(bottom) + 5)
     if field.get("text"):
@@ -509,7 +489,7 @@ def _number_values(field: Data) -> st.SearchStrategy[Any]:
     kind, bits = field["type"][0], int(field["type"][1:])
     if kind == "f":
         return st.floats(width=32 if bits == 32 else 64, allow_nan=False)
-    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if kind == "i" else (0, (1 << bits) - 1)
+    low, high = _bounds(field["type"])
     if "range" in field:
         low, high = (int(each) for each in field["range"].split(".."))
     near = [each for each in (0x55, 0xAA, 1, 0) if low <= each <= high]

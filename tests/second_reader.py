@@ -72,7 +72,7 @@ class Reader:
     def _shapes(self, name: str, size: int) -> Iterator[list[Cell]]:
         """Yield the cells of frames of `size` bytes: for each number of elements, or of fields."""
         message = self.spec["messages"][name]
-        varying = [field for field in message.get("fields", {}).values() if _varies(field)]
+        varying = [field for field in message.get("fields", {}).values() if varies(field)]
         for number in self._numbers(name, size):
             cells = self._cells(name, number)
             if sum(cell.size for cell in cells) != size:
@@ -86,7 +86,7 @@ class Reader:
     def _numbers(self, name: str, size: int) -> range:
         """Return how many elements, or optional fields, frames of up to `size` bytes may have."""
         fields: Data = self.spec["messages"][name].get("fields", {})
-        if not any(map(_varies, fields.values())):
+        if not any(map(varies, fields.values())):
             return range(1 + sum("optional" in field for field in fields.values()))
         least, step = self._least_and_step(name)
         number = (size - least) // step
@@ -101,7 +101,7 @@ class Reader:
     def _sizes(self, name: str, most: int) -> list[int]:
         """Return the sizes up to `most` that frames of a message may have, or more."""
         fields: Data = self.spec["messages"][name].get("fields", {})
-        if any(map(_varies, fields.values())):
+        if any(map(varies, fields.values())):
             least, step = self._least_and_step(name)
             return [*range(least, most + 1, step)]
         numbers = self._numbers(name, most)
@@ -113,7 +113,7 @@ class Reader:
         message = self.spec["messages"][name]
         fields: Data = message.get("fields", {})
         optional = [key for key, field in fields.items() if field.get("optional")]
-        varying = any(map(_varies, fields.values()))
+        varying = any(map(varies, fields.values()))
         absent = set() if varying else set(optional[number:])
         body = [
             cell
@@ -126,7 +126,7 @@ class Reader:
             if what["is"] == "body":
                 cells += [Cell(part, *rest) for rest in body]
             elif what.get("sent", True):
-                cells.append(Cell(part, what, _part_size(what)))
+                cells.append(Cell(part, what, part_size(what)))
         return cells
 
     def _may_have(self, field: Data, number: int) -> bool:
@@ -144,7 +144,7 @@ class Reader:
     def _field(self, key: str, field: Data, number: int) -> Iterator[tuple[Any, ...]]:
         """Yield the cells of a field, without their part."""
         times: int | None = None
-        if _varies(field):
+        if varies(field):
             times = number
         elif "count" in field:
             times = int(field["count"])
@@ -153,7 +153,7 @@ class Reader:
                 for inner, each in field["fields"].items():
                     yield each, _size(each) * int(each.get("count", 1)), inner, index, key
             return
-        single = {"always", "reserved", "text"} & field.keys() and not _varies(field)
+        single = {"always", "reserved", "text"} & field.keys() and not varies(field)
         if times is None or single or _bits(field) % 8:
             yield field, _bits(field) * (times or 1) // 8, key
             return
@@ -206,14 +206,14 @@ class Reader:
         return by_part | {part: self._id(message, part) for part in hidden}
 
     def _checksum(self, what: Data, by_part: dict[str, bytes]) -> bytes:
-        size = _part_size(what)
+        size = part_size(what)
         covered = b"".join(by_part[each] for each in what["covers"])
         return CHECKSUMS[what["method"]].of(covered, 8 * size).to_bytes(size, self._order(what))
 
     def _id(self, message: Data, part: str) -> bytes:
         what = self.frames[self._kind(message)][part]
         number = message["id"][part] if isinstance(message["id"], dict) else message["id"]
-        return int(number).to_bytes(_part_size(what), self._order(what))
+        return int(number).to_bytes(part_size(what), self._order(what))
 
     @staticmethod
     def _is_address(what: Data, number: int) -> bool:
@@ -287,7 +287,7 @@ class Reader:
             if "always" in field or "reserved" in field:
                 del values[key]
         for key, field in fields.items():
-            if not _varies(field):
+            if not varies(field):
                 continue
             number = len(values[key])
             if isinstance(field.get("text"), str):
@@ -331,7 +331,7 @@ class Reader:
         most = min(len(data), self.largest(directions))
         for kind in self.frames:
             known = self._known(kind, tuple(directions))
-            least = sum(map(_part_size, self.frames[kind].values()))
+            least = sum(map(part_size, self.frames[kind].values()))
             sizes = range(least, most + 1) if known else ()
             found += [
                 ("unknown", size) for size in sizes if self._is_unknown(kind, known, data[:size])
@@ -344,42 +344,29 @@ class Reader:
     def _largest(self, name: str) -> int:
         message = self.spec["messages"][name]
         parts, fields = self.frames[self._kind(message)], message.get("fields", {})
-        fixed: int = sum(_part_size(part) for part in parts.values() if part["is"] != "body")
-        fixed -= sum(_part_size(part) for part in parts.values() if not part.get("sent", True))
-        shapes = [
-            sum(
-                cell[1] for key, field in fields.items() for cell in self._field(key, field, number)
-            )
-            for number in range(3)
-        ]
-        if not any(map(_varies, fields.values())):
-            if isinstance(message["length"], list):
-                return fixed + max(self._bodies(message))
-            return int(fixed + shapes[0])
-        field, *_ = (field for field in fields.values() if _varies(field))
-        step = shapes[1] - shapes[0]
+        fixed: int = sum(part_size(part) for part in parts.values() if part.get("sent", True))
+        none, one = (
+            sum(cell[1] for key, each in fields.items() for cell in self._field(key, each, number))
+            for number in (0, 1)
+        )
         length = next((part for part in parts.values() if part["is"] == "length"), None)
+        counted = 0 if length is None else sum(part_size(parts[each]) for each in length["counts"])
+        field = next(filter(varies, fields.values()), None)
+        if field is None:
+            listed = isinstance(message["length"], list)
+            return fixed + (max(message["length"]) - counted if listed else int(none))
+        step = one - none
         most = 0xFFFF
         if length is not None:
-            counted = [_part_size(parts[each]) for each in length["counts"]]
-            uncounted = fixed - sum(counted)
-            most = (1 << 8 * _part_size(length)) - 1 + uncounted
-        number: int = (most - fixed - shapes[0]) // step
+            most = (1 << 8 * part_size(length)) - 1 + fixed - counted
+        number: int = (most - fixed - none) // step
         high = str(field.get("count", "0..")).partition("..")[2]
         number = min(number, int(high)) if high else number
         for how, unit in (("counted_by", 1), ("sized_by", step)):
             counter = fields.get(field.get(how))
             if counter is not None:
                 number = min(number, ((1 << _bits(counter)) - 1) // unit)
-        return int(fixed + shapes[0] + number * step)
-
-    def _bodies(self, message: Data) -> Iterator[int]:
-        """Yield the sizes of the body that the lengths of a message leave."""
-        parts = self.frames[self._kind(message)]
-        (length,) = (part for part in parts.values() if part["is"] == "length")
-        counted = sum(_part_size(parts[each]) for each in length["counts"])
-        for each in message["length"]:
-            yield each - counted
+        return int(fixed + none + number * step)
 
     @cache  # noqa: B019
     def _known(self, kind: str, directions: tuple[str, ...]) -> list[dict[str, bytes]]:
@@ -398,10 +385,10 @@ class Reader:
 
     def _is_unknown(self, kind: str, known: list[dict[str, bytes]], frame: bytes) -> bool:
         parts: Data = self.frames[kind]
-        body = len(frame) - sum(map(_part_size, parts.values()))
+        body = len(frame) - sum(map(part_size, parts.values()))
         by_part, at = {}, 0
         for part, what in parts.items():
-            size = body if what["is"] == "body" else _part_size(what)
+            size = body if what["is"] == "body" else part_size(what)
             by_part[part] = frame[at : at + size]
             at += size
         others = {part: what for part, what in parts.items() if what["is"] != "id"}
@@ -417,7 +404,7 @@ class Reader:
         )
 
 
-def _varies(field: Data) -> bool:
+def varies(field: Data) -> bool:
     return "counted_by" in field or "sized_by" in field
 
 
@@ -435,7 +422,7 @@ def _size(field: Data) -> int:
     return _bits(field) // 8
 
 
-def _part_size(part: Data) -> int:
+def part_size(part: Data) -> int:
     if part["is"] == "body":
         return 0
     return len(bytes.fromhex(part["bytes"])) if "bytes" in part else _bits(part) // 8

@@ -23,12 +23,8 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 # What goes with any change, and what is there for the library itself.
-_PASSING = frozenset(
-    (
-        *("VENDOR_NAME", "DEPRECATED", "LENGTHS", "FRAME", "IDS", "DEFAULTS", "CONSTANTS"),
-        *("SHAPE", "FIELDS"),
-    )
-)
+_PASSING = {"VENDOR_NAME", "DEPRECATED", "LENGTHS", "FRAME", "IDS", "DEFAULTS", "CONSTANTS"}
+_PASSING |= {"SHAPE", "FIELDS"}
 _MOST_VALUES = 24
 
 
@@ -121,11 +117,8 @@ def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
     call = made_by_name(name, usual)
     yield call
     # A field between may only be absent with those behind it.
-    by_place = [
-        each.name
-        for each in inspect.signature(kind).parameters.values()
-        if each.kind is each.POSITIONAL_OR_KEYWORD
-    ]
+    given_ = inspect.signature(kind).parameters.values()
+    by_place = [each.name for each in given_ if each.kind is each.POSITIONAL_OR_KEYWORD]
     yield f"{name}({', '.join(repr(usual[each]) for each in by_place)}) == {call}"
     yield f"{call} != {call} or hash({call}) == hash({call})"
     yield f"repr({call}) == repr({call})"
@@ -136,7 +129,8 @@ def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
         yield f"{call}.{each}"
     for each in _constants(kind):
         yield f"{name}.{each}"
-    yield from _of_columns(kind, call)
+    if hasattr(kind, "columns"):
+        yield f"{call}.columns()"
     for field, values in {each: _values(kind, each) for each in usual}.items():
         for value in islice(values, _MOST_VALUES):
             changed = made_by_name(name, {**usual, field: value})
@@ -153,11 +147,6 @@ def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
         if inspect.signature(kind).parameters[each].default is not inspect.Parameter.empty:
             del given[each]
             yield made_by_name(name, given)
-
-
-def _of_columns(kind: Any, call: str) -> Iterator[str]:
-    if hasattr(kind, "columns"):
-        yield f"{call}.columns()"
 
 
 def _of_elements(field: Any, listed: str) -> Iterator[str]:
@@ -299,11 +288,8 @@ def usual_values(kind: Any) -> dict[str, Any]:
 
 
 def _attributes(kind: Any) -> list[str]:
-    return [
-        name
-        for name, value in vars(kind).items()
-        if isinstance(value, property) and not name.startswith("_")
-    ]
+    found = vars(kind).items()
+    return [name for name, each in found if isinstance(each, property) and name[0] != "_"]
 
 
 def _properties(kind: Any) -> list[str]:

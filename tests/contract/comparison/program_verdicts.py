@@ -53,9 +53,8 @@ def files_of(edition: Edition) -> dict[str, str] | None:
         files = rendered(edition)
     except NoLibrary:
         return None
-    return {
-        f"generated/{edition.model.spec.protocol.name}/{path}": text for path, text in files.items()
-    }
+    folder = f"generated/{edition.model.spec.protocol.name}"
+    return {f"{folder}/{path}": text for path, text in files.items()}
 
 
 @cache

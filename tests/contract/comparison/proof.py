@@ -122,17 +122,13 @@ def assert_no_frame_is_lost(talk: Talk) -> None:
 
 def _on_the_line(talk: Talk, receiver: str, way: Any) -> list[tuple[Any, bytes]]:
     """Return frames of both editions in turn, each with the direction that the receiver has."""
-    several = [
-        [
-            (trial.way if sender != receiver else trial.message.direction, witness.data)
-            for _, trial, tried in talk.frames()
-            if trial.sender == sender and trial.message.direction == way
-            for witness, _ in tried[:_ON_A_LINE]
-            if len(witness.data) < _SHORT
-        ]
-        for sender in SENDERS
-    ]
-    turns = zip_longest(*several)
+    several: dict[str, list[tuple[Any, bytes]]] = {sender: [] for sender in SENDERS}
+    for _, trial, tried in talk.frames():
+        if trial.message.direction == way:
+            here = trial.way if trial.sender != receiver else way
+            data = (witness.data for witness, _ in tried[:_ON_A_LINE])
+            several[trial.sender] += [(here, each) for each in data if len(each) < _SHORT]
+    turns = zip_longest(*several.values())
     return [frame for turn in turns for frame in turn if frame is not None]
 
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 from typing import Any
 from zlib import adler32
 
-import pytest
 from crccheck.checksum import Checksum8, Checksum16, Checksum32, ChecksumXor8, ChecksumXor16
 from crccheck.crc import ALLCRCCLASSES
 from crccheck.crc import Crc as Peer
@@ -70,14 +69,9 @@ def _peer(method: Crc) -> Peer:
 
 @in_turn("method", lambda: CRCS, ids=named)
 def test_a_crc_with_any_number_changed_misses_its_check_value(method: Crc) -> None:
-    changes: dict[str, Any] = {
-        "poly": method.poly ^ 8,
-        "init": method.init ^ 8,
-        "xor_out": method.xor_out ^ 8,
-        "reflected": not method.reflected,
-    }
-    if method.reflected:
-        changes["mixed"] = not method.mixed
+    changes: dict[str, Any] = {n: getattr(method, n) ^ 8 for n in ("poly", "init", "xor_out")}
+    for name in ("reflected", "mixed") if method.reflected else ("reflected",):
+        changes[name] = not getattr(method, name)
     for number, value in changes.items():
         changed = replace(method, **{number: value})
         assert changed.of(CHECK_DATA, method.width) != method.checks[method.width], number
@@ -86,11 +80,9 @@ def test_a_crc_with_any_number_changed_misses_its_check_value(method: Crc) -> No
 @given(data=st.binary(max_size=300))
 def test_sums_are_what_crccheck_adds_up(data: bytes) -> None:
     # In its wider sums bytes are taken in groups, of which each has one of ours, and zeros.
-    totals = {
-        8: Checksum8.calc(data),
-        16: Checksum16.calc(b"".join(bytes([0, byte]) for byte in data)),
-        32: Checksum32.calc(b"".join(bytes([0, 0, 0, byte]) for byte in data)),
-    }
+    wide = (b"".join(bytes([*[0] * zeros, byte]) for byte in data) for zeros in (1, 3))
+    totals = {8: Checksum8.calc(data), 16: Checksum16.calc(next(wide))}
+    totals[32] = Checksum32.calc(next(wide))
     for width, total in totals.items():
         assert CHECKSUMS["sum"].of(data, width) == total
         assert CHECKSUMS["inverted sum"].of(data, width) == total ^ (1 << width) - 1
@@ -140,6 +132,12 @@ def test_adler_32_is_what_zlib_makes_of_the_same_data(data: bytes) -> None:
     assert CHECKSUMS["adler-32"].of(data, 32) == adler32(data)
 
 
+SCAN = (
+    "54 2C 68 08 AB 7E E0 00 E4 DC 00 E2 D9 00 E5 D5 00 E3 D3 00 E4 D0 00 E9 CD 00 E4"
+    "CA 00 E2 C7 00 E9 C5 00 E5 C2 00 E5 C0 00 E5 BE 82 3A 1A"
+)
+
+
 @in_turn(
     "method, data, value",
     lambda: [
@@ -150,14 +148,7 @@ def test_adler_32_is_what_zlib_makes_of_the_same_data(data: bytes) -> None:
         # Of a frame that turns a message of a receiver off: `… FF 19` on the wire, low byte first.
         ("fletcher-8", bytes.fromhex("06 01 03 00 F0 05 00"), 0x19FF),
         # Of the frame in the document of a laser scanner.
-        (
-            "crc-8/ldrobot",
-            bytes.fromhex(
-                "54 2C 68 08 AB 7E E0 00 E4 DC 00 E2 D9 00 E5 D5 00 E3 D3 00 E4 D0 00 E9 CD 00 E4"
-                "CA 00 E2 C7 00 E9 C5 00 E5 C2 00 E5 C0 00 E5 BE 82 3A 1A"
-            ),
-            0x50,
-        ),
+        ("crc-8/ldrobot", bytes.fromhex(SCAN), 0x50),
         # To read the register GCONF and the counter IFCNT of a motor driver.
         ("crc-8/trinamic", bytes.fromhex("05 00 00"), 0x48),
         ("crc-8/trinamic", bytes.fromhex("05 00 02"), 0x8F),
@@ -201,29 +192,25 @@ def test_every_kind_of_method_is_in_the_catalogue() -> None:
     assert {type(method) for method in CHECKSUMS.values()} == {Sum, Xor, Fletcher, Crc}
 
 
+SAME = [
+    *(("crc-16/ccitt-false", "crc-16/ibm-3740"), ("CRC16_MODBUS", "crc-16/modbus")),
+    *(("Sum", "sum"), ("x-25", "crc-16/ibm-sdlc"), ("dvb-s2", "crc-8/dvb-s2"), ("BCC", "xor")),
+    *(("crc-24q", "crc-24/lte-a"), ("two's complement", "negated sum")),
+    *(("TMC2209", "crc-8/trinamic"), ("end-around carry", "carried sum")),
+]
+LRC = (
+    "write `negated sum`, what makes zero of all bytes added up: the two's complement of their sum;"
+    " or `xor`, the exclusive or of all bytes"
+)
+
+
 @in_turn(
     "method, hint",
     lambda: [
-        ("crc-16/ccitt-false", "write `crc-16/ibm-3740`, which is the same method"),
-        ("CRC16_MODBUS", "write `crc-16/modbus`, which is the same method"),
-        ("Sum", "write `sum`, which is the same method"),
-        ("x-25", "write `crc-16/ibm-sdlc`, which is the same method"),
-        ("dvb-s2", "write `crc-8/dvb-s2`, which is the same method"),
-        ("crc-24q", "write `crc-24/lte-a`, which is the same method"),
-        ("BCC", "write `xor`, which is the same method"),
-        ("two's complement", "write `negated sum`, which is the same method"),
-        ("TMC2209", "write `crc-8/trinamic`, which is the same method"),
-        ("end-around carry", "write `carried sum`, which is the same method"),
+        *((name, f"write `{same}`, which is the same method") for name, same in SAME),
         ("negatd sum", "did you mean `negated sum`?"),
         ("crc-16/modbud", "did you mean `crc-16/modbus`?"),
-        (
-            "LRC",
-            (
-                "that name stands for several methods: write `negated sum`, what makes zero of all "
-                "bytes added up: the two's complement of their sum; or `xor`, the exclusive or of "
-                "all bytes"
-            ),
-        ),
+        ("LRC", f"that name stands for several methods: {LRC}"),
     ],
 )
 def test_a_method_by_another_name_is_known(method: str, hint: str) -> None:
@@ -237,9 +224,9 @@ def test_a_method_that_is_none_is_answered_with_those_that_most_protocols_use() 
     assert hint.endswith(f"or {len(CHECKSUMS) - named} others")
 
 
-@pytest.mark.parametrize(
-    ("method", "width"),
-    [("crc-16/acme", 16), ("crc-8/zz", 8), ("CRC16-MY-OWN", 16), ("crc-32/ogg", 32)],
+@in_turn(
+    "method, width",
+    lambda: [("crc-16/acme", 16), ("crc-8/zz", 8), ("CRC16-MY-OWN", 16), ("crc-32/ogg", 32)],
 )
 def test_another_crc_is_not_suggested_for_one_that_is_unknown(method: str, width: int) -> None:
     hint = suggest(method)

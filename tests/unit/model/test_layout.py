@@ -68,17 +68,10 @@ def test_a_message_lies_as_the_document_has_it(name: str) -> None:
 
 
 def test_how_many_servos_a_frame_has_room_for() -> None:
-    counts = {
-        name: (message.counts[0], message.counts[-1])
-        for name, message in SERVO.messages.items()
-        if message.items is not None
-    }
-    assert counts == {
-        "ServoMove": (1, 83),
-        "ServoUnload": (1, 252),
-        "ServoPositionsRead": (1, 252),
-        "ServoPositions": (0, 84),
-    }
+    listed = {name: each for name, each in SERVO.messages.items() if each.items is not None}
+    counts = {name: (each.counts[0], each.counts[-1]) for name, each in listed.items()}
+    ids = {"ServoUnload": (1, 252), "ServoPositionsRead": (1, 252)}
+    assert counts == {"ServoMove": (1, 83), **ids, "ServoPositions": (0, 84)}
     assert SERVO.messages["ActionGroupStop"].counts == range(1)
 
 
@@ -111,12 +104,11 @@ def test_the_frame_of_the_greenhouse() -> None:
 
 
 def test_a_header_may_be_written_in_parts() -> None:
-    frame = {
-        "first": {"is": "constant", "bytes": "C3"},
-        "rest": {"is": "constant", "bytes": "5A A5"},
-        **{name: part for name, part in SPECS["greenhouse"]["frame"].items() if name != "preamble"},
-    }
-    parted = layout_of({**SPECS["greenhouse"], "frame": frame})
+    whole = SPECS["greenhouse"]["frame"]
+    parts = {"first": {**whole["preamble"], "bytes": "C3"}}
+    parts |= {"rest": {**whole["preamble"], "bytes": "5A A5"}, **whole}
+    del parts["preamble"]
+    parted = layout_of({**SPECS["greenhouse"], "frame": parts})
     assert parted.frame.header == HOUSE.frame.header
     example = SPECS["greenhouse"]["messages"]["VentsOpen"]["examples"][0]
     data = bytes.fromhex(example["hex"])
@@ -277,9 +269,8 @@ def test_directions_come_in_the_order_in_which_they_first_appear() -> None:
     ]
     for way in (HOST, CONTROLLER):
         sent = SERVO.sent(way)
-        assert {row.id for row in DOCUMENT.values() if row.sender == way.sender} <= {
-            message.id for message in sent
-        }
+        documented = {row.id for row in DOCUMENT.values() if row.sender == way.sender}
+        assert documented <= {message.id for message in sent}
         assert {message.direction for message in sent} == {way}
     assert list(SERVO.sent(Direction("host", "host"))) == []
 
