@@ -57,16 +57,12 @@ def marked(data: Data) -> Data:
         message["examples"] = []
         message.setdefault("fields", {})
         message[MARK] = next(_fresh)
-    for numbers in _all_fields(spec):
-        for field in numbers.values():
-            field[MARK] = next(_fresh)
-            if "bits" in field:
-                field["bits"] = {
-                    name: each if isinstance(each, dict) else {"at": each}
-                    for name, each in field["bits"].items()
-                }
-            for each in (*field.get("values", {}).values(), *field.get("bits", {}).values()):
-                each[MARK] = next(_fresh)
+    for field in _all_fields(spec):
+        field[MARK] = next(_fresh)
+        for name, each in field.get("bits", {}).items():
+            field["bits"][name] = each if isinstance(each, dict) else {"at": each}
+        for each in (*field.get("values", {}).values(), *field.get("bits", {}).values()):
+            each[MARK] = next(_fresh)
     for parts in kinds_of(spec).values():
         for part in parts.values():
             part[MARK] = next(_fresh)
@@ -82,20 +78,18 @@ def unmarked(value: Any) -> Any:
 
 
 def kinds_of(spec: Data) -> dict[str, Data]:
-    found: dict[str, Data] = spec.get("frames") or {"frame": spec["frame"]}
-    return found
+    return spec.get("frames") or {"frame": spec["frame"]}
 
 
 def parts_of(spec: Data, message: Data) -> Data:
     kinds = kinds_of(spec)
-    parts: Data = kinds[message.get("frame") or next(iter(kinds))]
-    return parts
+    return kinds[message.get("frame") or next(iter(kinds))]
 
 
 def _all_fields(spec: Data) -> Iterator[Data]:
-    for message in spec["messages"].values():
-        yield message["fields"]
-        yield from (each["fields"] for each in message["fields"].values() if "fields" in each)
+    outer = [each for message in spec["messages"].values() for each in message["fields"].values()]
+    yield from outer
+    yield from (each for field in outer for each in field.get("fields", {}).values())
 
 
 def edition_of(spec: Data, label: str) -> Edition | None:
@@ -127,9 +121,8 @@ def _published(label: str, values: Data) -> Edition:
     shown = with_examples(values)
     read = Spec.model_validate(shown)
     model = derive(read)
-    return Edition(
-        label, Compiled(Source("made_up.yaml", ""), Tree(shown), [], read, model), read, model
-    )
+    compiled = Compiled(Source("made_up.yaml", ""), Tree(shown), [], read, model)
+    return Edition(label, compiled, read, model)
 
 
 def _lengthened(spec: Data, model: Any) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tests.mutations.authors import MARK, kinds_of, parts_of
@@ -91,20 +92,18 @@ class Desk:
         old = spot.name
         renamed_in(spot.fields, old, new, said=said)
         if not spot.inner:
-            for field in spot.fields.values():
-                for key in ("counted_by", "sized_by"):
-                    if field.get(key) == old:
-                        field[key] = new
+            for field, key in product(spot.fields.values(), ("counted_by", "sized_by")):
+                if field.get(key) == old:
+                    field[key] = new
             for key in ("method", "lasts", "failure", "asks_for"):
                 if key in spot.message:
                     spot.message[key] = in_words(spot.message[key], old, new)
 
     def rename_part(self, parts: Data, old: str, new: str) -> None:
         renamed_in(parts, old, new)
-        for part in parts.values():
-            for key in ("counts", "covers"):
-                if key in part:
-                    part[key] = [new if each == old else each for each in part[key]]
+        for part, key in product(parts.values(), ("counts", "covers")):
+            if key in part:
+                part[key] = [new if each == old else each for each in part[key]]
 
     def rename_message(self, old: str, new: str, *, said: bool) -> None:
         renamed_in(self.messages, old, new, said=said)

@@ -74,10 +74,6 @@ def _next(value: Any) -> list[Any]:
     return [value + 1] if isinstance(value, int) else []
 
 
-def _gone(_: Any) -> list[Any]:
-    return [GONE]
-
-
 OTHER_FACTS: dict[str, Callable[[Any], list[Any]]] = {
     "type": lambda _: [*NUMBER_TYPES],
     "covers": lambda names: [*_fewer(names), names[:1], names[::-1]],
@@ -85,10 +81,7 @@ OTHER_FACTS: dict[str, Callable[[Any], list[Any]]] = {
     "method": _methods,
     "bytes": _flipped,
     "is": lambda role: {"counter": ["address"], "reserved": ["constant"]}.get(role, []),
-    "id": _next,
-    "class": _next,
-    "kind": _next,
-    "version": _next,
+    **dict.fromkeys(("id", "class", "kind", "version"), _next),
     "frame": lambda kind: ["tell" if kind == "ask" else "ask"],
     "always": lambda value: [value + 1, GONE],
     "count": lambda many: [many + 1, many - 1] if isinstance(many, int) else ["0..0", "0..4"],
@@ -97,7 +90,7 @@ OTHER_FACTS: dict[str, Callable[[Any], list[Any]]] = {
     "byte_order": lambda order: ["big" if order == "little" else "little", GONE],
     "direction": lambda direction: [other_way(direction)],
     "sent": lambda _: [True, GONE],
-    **dict.fromkeys(("reserved", "sized_by", "counted_by", "text", "optional"), _gone),
+    **dict.fromkeys(("reserved", "sized_by", "counted_by", "text", "optional"), lambda _: [GONE]),
 }
 
 # ------------------------------------------------------------------ anything

@@ -155,22 +155,16 @@ def _renamings(spec: str) -> Iterator[Mutant]:
 def stretched(spec: str, length: int) -> Mutant:
     """Return a spec whose names all have one length, if allowed: lines that just fit, or not."""
     messages = specs()[spec]["messages"]
-    fields = {name for message in messages.values() for name in message.get("fields", {})}
-    lists = [
-        field
-        for message in messages.values()
-        for field in message.get("fields", {}).values()
-        if "element" in field
-    ]
-    fields |= {name for field in lists for name in field["fields"]}
+    several = [message.get("fields", {}) for message in messages.values()]
+    lists = [field for each in several for field in each.values() if "element" in field]
+    fields = {name for each in several + [each["fields"] for each in lists] for name in each}
     # What is a key of the language as well would be renamed there, too.
     fields -= specs()[spec].get("pose", {}).keys()
     classes = [*messages, *(field["element"] for field in lists)]
     new = {name: _long(f"f{at}_", length) for at, name in enumerate(sorted(fields))}
     new |= {name: _long(f"C{at}x", length * 2 // 3) for at, name in enumerate(classes)}
-    new |= {
-        name: _long(f"e{at}x", length // 3) for at, name in enumerate(specs()[spec]["endpoints"])
-    }
+    ends = enumerate(specs()[spec]["endpoints"])
+    new |= {name: _long(f"e{at}x", length // 3) for at, name in ends}
 
     def make() -> Data:
         data = specs()[spec]
@@ -207,6 +201,9 @@ def _given(message: Data) -> list[str]:
     return [name for name in fields if name not in counts][::-1]
 
 
+_ABSENT = {"about": "None.", "absent": True}
+
+
 def _crowds(spec: str) -> Iterator[Mutant]:
     """Yield specs with more of everything: fields, named values, messages, notes."""
     data = specs()[spec]
@@ -223,11 +220,8 @@ def _crowds(spec: str) -> Iterator[Mutant]:
                 ("signed_as", "i16"),
                 ("unit", "degrees"),
                 ("limits", {"usual": "0..1", "others": {'Other\'s "boards"' * 9: "0..9"}}),
-                ("values", {"none": {"value": 255, "about": "None.", "absent": True}}),
-                (
-                    "values",
-                    {f"n{n}": {"value": n, "about": "-", "absent": True} for n in range(40)},
-                ),
+                ("values", {"none": {"value": 255, **_ABSENT}}),
+                ("values", {f"n{n}": {"value": n, **_ABSENT} for n in range(40)}),
             ):
                 yield _mutated(spec, (*path, key), value.get(key), new)
     for name, message in data["messages"].items():

@@ -48,15 +48,11 @@ def texts(value: Any) -> Iterator[tuple[Steps, str]]:
 
 def facts(value: Any, path: Steps = ()) -> Iterator[tuple[Steps, Any]]:
     """Yield every fact with its place: leaves, and lists of leaves as one."""
-    if isinstance(value, dict) or (value and isinstance(value, list) and _is_mapping(value[0])):
+    if isinstance(value, dict) or (isinstance(value, list) and isinstance([*value, 0][0], dict)):
         for step, inner in _inside(value):
             yield from facts(inner, (*path, step))
     else:
         yield path, value
-
-
-def _is_mapping(value: Any) -> bool:
-    return isinstance(value, dict)
 
 
 def _inside(value: Any) -> Iterable[tuple[Any, Any]]:

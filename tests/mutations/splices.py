@@ -37,9 +37,9 @@ def _part(kind: str, host: Desk, donor: Desk) -> str:
     if kind in ("length", "address", "counter") and _of_kind(parts, kind):
         raise Inapplicable
     new = name if name not in parts else host.fresh(name)
-    inserted(
-        parts, _place(host, parts, in_front=_is_in_front(theirs, name)), new, _bare(theirs[name])
-    )
+    names = [*theirs]
+    in_front = names.index(name) < names.index(_of_kind(theirs, "body")[0])
+    inserted(parts, _place(host, parts, in_front=in_front), new, _bare(theirs[name]))
     part = parts[new]
     if kind == "length":
         part["counts"] = _some(host, parts)
@@ -54,35 +54,29 @@ def _of_kind(parts: Data, kind: str) -> list[str]:
     return [name for name, part in parts.items() if part["is"] == kind]
 
 
-def _is_in_front(parts: Data, name: str) -> bool:
-    names = [*parts]
-    (body,) = _of_kind(parts, "body")
-    return names.index(name) < names.index(body)
-
-
 def _place(host: Desk, parts: Data, *, in_front: bool) -> int:
-    (name,) = _of_kind(parts, "body")
-    body = [*parts].index(name)
+    body = [*parts].index(_of_kind(parts, "body")[0])
     return host.chance.randint(0, body) if in_front else host.chance.randint(body + 1, len(parts))
 
 
 def _some(host: Desk, parts: Data) -> list[str]:
     """Return some parts in their order, the body among them."""
     sent = {name: part for name, part in parts.items() if part.get("sent", True)}
-    return [
-        name for name, part in sent.items() if part["is"] == "body" or host.chance.random() < 0.7
-    ]
+    return [name for name, each in sent.items() if each["is"] == "body" or _likely(host)]
+
+
+def _likely(host: Desk) -> bool:
+    return host.chance.random() < 0.7
 
 
 def _bare(thing: Data) -> Data:
     """Return a copy of a thing that cites no source of the spec that it comes from."""
-    return {
-        key: {name: _bare(each) if isinstance(each, dict) else each for name, each in value.items()}
-        if isinstance(value, dict)
-        else value
-        for key, value in copied(thing).items()
-        if key not in ("cite", "notes")
-    }
+    kept = {key: each for key, each in copied(thing).items() if key not in ("cite", "notes")}
+    for key, value in kept.items():
+        if isinstance(value, dict):
+            inner = value.items()
+            kept[key] = {n: _bare(each) if isinstance(each, dict) else each for n, each in inner}
+    return kept
 
 
 def _other_length(host: Desk, donor: Desk) -> str:
@@ -104,15 +98,11 @@ def _part_moved(host: Desk, donor: Desk) -> str:
     """Put a part where the other spec has one of the kind in front of which it stands."""
     parts = host.pick(host.kinds.values())
     roles = [part["is"] for part in donor.pick(donor.kinds.values()).values()]
-    order = sorted(parts, key=lambda name: _rank(roles, parts[name]["is"]))
+    order = sorted(parts, key=lambda name: [*roles, parts[name]["is"]].index(parts[name]["is"]))
     if order == [*parts]:
         raise Inapplicable
     reordered(parts, order)
     return f"the order of its parts: {', '.join(order)}"
-
-
-def _rank(roles: list[str], role: str) -> int:
-    return roles.index(role) if role in roles else len(roles)
 
 
 def _order(host: Desk, donor: Desk) -> str:
@@ -164,9 +154,8 @@ def _taken_message(host: Desk, donor: Desk, name: str, kind: str) -> str:
 
 
 def _way(host: Desk) -> str:
-    ends = [*host.spec["endpoints"]]
-    ways = {f"{ends[0]} -> {ends[1]}", f"{ends[1]} -> {ends[0]}"}
-    return host.pick(ways)
+    one, other, *_ = host.spec["endpoints"]
+    return host.pick({f"{one} -> {other}", f"{other} -> {one}"})
 
 
 def _give_ids(host: Desk, parts: Data) -> None:
@@ -262,19 +251,14 @@ def _small_names(desk: Desk) -> set[str]:
     """Return whatever has a name in a spec that is no class."""
     parts = {name for kind in desk.kinds.values() for name in kind}
     fields = {spot.name for spot in desk.spots()}
-    values = {
-        name
-        for spot in desk.spots()
-        for key in ("values", "bits")
-        for name in spot.field.get(key, ())
-    }
+    named = (spot.field.get(key, ()) for spot in desk.spots() for key in ("values", "bits"))
+    values = {name for names in named for name in names}
     return {*parts, *fields, *values, *desk.spec["endpoints"], *desk.kinds}
 
 
 def _word(host: Desk, donor: Desk) -> str:
-    return host.pick(
-        host.pick([_small_names(host), _small_names(host), _small_names(donor), _WORDS])
-    )
+    ours, theirs = _small_names(host), _small_names(donor)
+    return host.pick(host.pick([ours, ours, theirs, _WORDS]))
 
 
 def _class_word(host: Desk, donor: Desk) -> str:

@@ -31,11 +31,8 @@ def match(names: Names, old: Mapping[str, Any], new: Mapping[str, Any]) -> Match
     told |= {name: name for name in old if name in new and name not in {*told, *told.values()}}
     guessed: dict[str, str] = {}
     for name, looks in old.items():
-        alike = [
-            other
-            for other in new
-            if new[other] == looks and other not in {*told.values(), *guessed.values()}
-        ]
+        taken = {*told.values(), *guessed.values()}
+        alike = [each for each in new if new[each] == looks and each not in taken]
         if name not in told and alike and looks is not None:
             guessed[name] = alike[0]
     return Match({**told, **guessed}, frozenset(guessed))
@@ -127,33 +124,26 @@ def _type(name: str, field: Data, fields: Data) -> Any:
         return "text", count
     if varies or count is not None:
         return "list", ((0, (field["type"], "number")),)
-    counts = [
-        key
-        for key in ("counted_by", "sized_by")
-        for each in fields.values()
-        if each.get(key) == name
-    ]
+    both = ((key, each) for key in ("counted_by", "sized_by") for each in fields.values())
+    counts = [key for key, each in both if each.get(key) == name]
     return field["type"], (counts or ["number"])[0]
 
 
 def size_of(field: Data) -> int:
     """Return the size of a field in bytes; of a list that varies, of its fewest elements."""
-    size = (
-        8 * sum(map(size_of, field["fields"].values()))
-        if "fields" in field
-        else int(field["type"][1:])
-    )
+    inner = sum(map(size_of, field.get("fields", {}).values()))
+    size = 8 * inner if "fields" in field else int(field["type"][1:])
     varies = "counted_by" in field or "sized_by" in field
     return size * int(str(field.get("count", 0 if varies else 1)).partition("..")[0]) // 8
 
 
 def arguments_of(fields: Data) -> Data:
     counting = {each.get(key) for each in fields.values() for key in ("counted_by", "sized_by")}
-    return {
-        name: each
-        for name, each in fields.items()
-        if name not in counting and "always" not in each and "reserved" not in each
-    }
+    unsaid = (
+        *counting,
+        *(name for name, each in fields.items() if {"always", "reserved"} & {*each}),
+    )
+    return {name: each for name, each in fields.items() if name not in unsaid}
 
 
 def worked_out(fields: Data, values: Mapping[str, Any]) -> dict[str, int]:
