@@ -124,16 +124,7 @@ def elements(crowd: Crowd, names: Sequence[str]) -> None:
         add(f"Listed{at}", [], listed="items", element=name, of=["level"])
 
 
-_OF_FIELDS: tuple[Makes, ...] = (
-    fields,
-    results,
-    functions,
-    methods,
-    values,
-    halves,
-    ends,
-    parts,
-)
+_OF_FIELDS: tuple[Makes, ...] = (fields, results, functions, methods, values, halves, ends, parts)
 _OF_CLASSES = (messages, elements)
 CROWDS = [each.__name__ for each in (*_OF_FIELDS, *_OF_CLASSES)]
 

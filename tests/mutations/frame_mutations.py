@@ -5,13 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from tests.mutations.desk import (
-    Inapplicable,
-    inserted,
-    other_order,
-    renamed_in,
-    reordered,
-)
+from tests.mutations.desk import Inapplicable, inserted, other_order, renamed_in, reordered
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

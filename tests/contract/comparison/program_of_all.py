@@ -129,8 +129,7 @@ def _of_message(made: ModuleType, kind: Any) -> Iterator[str]:
         yield f"{call}.{each}"
     for each in _constants(kind):
         yield f"{name}.{each}"
-    if hasattr(kind, "columns"):
-        yield f"{call}.columns()"
+    yield from [f"{call}.columns()"] * hasattr(kind, "columns")
     for field, values in {each: _values(kind, each) for each in usual}.items():
         for value in islice(values, _MOST_VALUES):
             changed = made_by_name(name, {**usual, field: value})

@@ -155,10 +155,7 @@ def test_an_edit_that_no_longer_applies_is_reported(edit: dict[str, Any], why: s
     lambda: [
         ({"edits": [{"mark": "«id»: 7"}], "massage": "is wrong"}, "a case has no `massage`"),
         ({"edits": [{"mark": "id: 7"}], "message": "is wrong"}, MARKS.format(0, 0)),
-        (
-            {"edits": [{"mark": "«id»: 7"}], "message": "is it", "see": ["it"]},
-            MARKS.format(1, 1),
-        ),
+        ({"edits": [{"mark": "«id»: 7"}], "message": "is it", "see": ["it"]}, MARKS.format(1, 1)),
     ],
 )
 def test_an_incomplete_case_is_reported(case: dict[str, Any], why: str) -> None:
