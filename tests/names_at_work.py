@@ -85,11 +85,8 @@ def methods_work(lib: ModuleType, model: Model) -> None:
     received: list[Any] = []
     device.accepted = received.append
     pairs = [*zip(names.library.exchanges, model.exchanges, strict=True)]
-    replies = {
-        exchange.request.name: made_of(lib, model, author.reply)
-        for exchange, author in pairs
-        if author.reply is not None
-    }
+    replied = ((exchange.request.name, author.reply) for exchange, author in pairs)
+    replies = {name: made_of(lib, model, each) for name, each in replied if each is not None}
     for request, reply in replies.items():
         setattr(device, f"on_{snake_case(request)}", lambda _message, reply=reply: reply)
     with client_of(device) as controller:

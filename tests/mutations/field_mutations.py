@@ -25,14 +25,10 @@ if TYPE_CHECKING:
     from tests.mutations.desk import Desk, Spot
 
 # Types that an author might take for each other.
-RETYPED = [
-    pair.split("-")
-    for pair in (
-        *("u8-u16", "u16-u8", "u16-u32", "u32-u16", "u8-i8", "i8-u8", "u16-i16", "i16-u16"),
-        *("u16-u24", "u24-u16", "u32-f32", "f32-u32", "f32-f64", "f64-f32", "i32-u32"),
-        *("u64-i64", "u32-i32"),
-    )
-]
+RETYPED = (
+    *("u8-u16", "u16-u8", "u16-u32", "u32-u16", "u8-i8", "i8-u8", "u16-i16", "i16-u16", "u16-u24"),
+    *("u24-u16", "u32-f32", "f32-u32", "f32-f64", "f64-f32", "i32-u32", "u64-i64", "u32-i32"),
+)
 ADDED: dict[str, Data] = {
     "a byte": {"type": "u8"},
     "a number": {"type": "u16"},
@@ -47,7 +43,8 @@ def _without(field: Data, *keys: str) -> None:
         field.pop(key, None)
 
 
-def _retyped(old: str, new: str, desk: Desk) -> None:
+def _retyped(pair: str, desk: Desk) -> None:
+    old, new = pair.split("-")
     field = desk.number(lambda field: field["type"] == old).field
     field["type"] = new
     _without(field, "range", "bits", "signed_as", "limits")
@@ -132,13 +129,11 @@ def _put_in(where: str, what: Data, desk: Desk) -> None:
 
 
 def optional_added(desk: Desk) -> None:
-    with_length = [
-        message
-        for message in desk.messages.values()
-        if any(part["is"] == "length" for part in desk.parts_of(message).values())
-        and not any(varies(field) for field in message["fields"].values())
+    fixed = [
+        each for each in desk.messages.values() if not any(map(varies, each["fields"].values()))
     ]
-    message = desk.pick(with_length)
+    roles = [[part["is"] for part in desk.parts_of(each).values()] for each in fixed]
+    message = desk.pick(m for m, parts in zip(fixed, roles, strict=True) if "length" in parts)
     kind = desk.chance.choice(["u8", "u16"])
     message["fields"][desk.fresh("extra")] = {"type": kind, "optional": True, "about": "New."}
     message.pop("method", None)
@@ -247,7 +242,7 @@ def unused_checked(desk: Desk) -> None:
 
 
 FIELD_MUTATIONS: dict[str, Callable[[Desk], None]] = {
-    **{f"{old} became {new}": partial(_retyped, old, new) for old, new in RETYPED},
+    **{each.replace("-", " became "): partial(_retyped, each) for each in RETYPED},
     **{
         f"a field in {where} removed": partial(_taken_away, where)
         for where in ("front", "middle", "end")

@@ -46,15 +46,8 @@ def healed(data: Data) -> Data | None:
 def _examples(model: Model, message: MessageLayout) -> list[dict[str, Any]]:
     fields = message.numbers_by_path.values()
     shown = [_values(message, number) for number in range(max(map(_many, fields), default=1))]
-    return [
-        {
-            "title": f"Example {number}",
-            "hex": encode(message, values).hex(" "),
-            "values": values,
-            "constructed": "From the layout.",
-        }
-        for number, values in enumerate(shown)
-    ]
+    said = {"title": "An example", "constructed": "From the layout."}
+    return [{**said, "hex": encode(message, each).hex(" "), "values": each} for each in shown]
 
 
 def _values(message: MessageLayout, number: int) -> dict[str, Any]:

@@ -18,29 +18,18 @@ DATA = {
 }
 del DATA["messages"]["StationRead"]["reply"]
 WAY = "station -> gateway"
+ID = {"id": 0x77, "direction": WAY}
 DOOR: dict[str, Any] = {
-    "id": 0x77,
-    "direction": WAY,
+    **ID,
     "summary": "A door is open.",
     "cite": "manual, section 9",
     "length": 1,
     "fields": {"door": {"type": "u8", "about": "Which door."}},
 }
-WINDOW = {
-    **DOOR,
-    "summary": "A window is open.",
-    "length": 3,
-    "fields": {
-        "room": {"type": "u8", "about": "Where."},
-        "window": {"type": "u16", "about": "Which window."},
-    },
-}
-LIMIT: dict[str, Any] = {
-    "id": 0x77,
-    "direction": WAY,
-    "name": "DoorOpened",
-    "why": "Up to 1.0.0 it was that.",
-}
+ROOM, WHICH = {"type": "u8", "about": "Where."}, {"type": "u16", "about": "Which window."}
+WINDOW = DOOR | {"summary": "A window is open.", "length": 3}
+WINDOW["fields"] = {"room": ROOM, "window": WHICH}
+LIMIT: dict[str, Any] = {**ID, "name": "DoorOpened", "why": "Up to 1.0.0 it was that."}
 REASON = "No station has it."
 
 

@@ -61,8 +61,7 @@ def _parts(data: Data) -> list[Data]:
 
 
 def _numbers(fields: dict[str, Any]) -> list[dict[str, Any]]:
-    return [
-        number
-        for field in fields.values()
-        for number in (field["fields"].values() if "element" in field else [field])
-    ]
+    several = (
+        (each["fields"].values() if "element" in each else [each]) for each in fields.values()
+    )
+    return [number for numbers in several for number in numbers]

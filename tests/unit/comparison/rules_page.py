@@ -93,10 +93,9 @@ def _verdicts(rule: ChangeRule) -> Iterator[str]:
     effects = comparison.effects
     for axis in ("wire", "conversation"):
         ours = [effect for effect in effects if effect.axis == axis]
+        told = [(ends_of(comparison.pair, effect), effect) for effect in ours]
         said = {
-            str(ends): _said(
-                each for each in ours if ends_of(comparison.pair, each) in (ends, None)
-            )
+            str(ends): _said(effect for between, effect in told if between in (ends, None))
             for ends in all_ends(comparison.pair)
         }
         alike = len(set(said.values())) == 1

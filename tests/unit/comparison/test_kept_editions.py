@@ -165,15 +165,15 @@ def test_of_ten_editions_that_say_the_same_only_the_new_message_is_tried(
     assert tried == ["WindowOpened"] * len(before)
 
 
-CHAINS = [
-    ("demo", "a named value removed", "u16 became i16"),
-    ("demo", "u16 became i16", "u16 became i16"),
-    ("modbus", "u16 became i16", "words: the protocol"),
-    ("busservo", "padding added in front", "u16 became i16"),
-]
-
-
-@pytest.mark.parametrize(("spec", "first", "last"), CHAINS, ids=str)
+@pytest.mark.parametrize(
+    ("spec", "first", "last"),
+    [
+        ("demo", "a named value removed", "u16 became i16"),
+        ("demo", "u16 became i16", "u16 became i16"),
+        ("modbus", "u16 became i16", "words: the protocol"),
+        ("busservo", "padding added in front", "u16 became i16"),
+    ],
+)
 def test_what_is_not_tried_again_would_show_nothing(
     spec: str, first: str, last: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

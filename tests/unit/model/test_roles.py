@@ -61,13 +61,10 @@ def test_a_spec_whose_roles_differ_in_an_older_edition_is_reported(
 
 def test_a_kind_follows_from_the_sender() -> None:
     model = layout_of(report_first(HOUSE))
-    assert {name: model.kind(name) for name in sorted(model.messages)} == {
-        "StationRead": "query",
-        "StationState": "reply",
-        "TextShow": "command",
-        "VentJammed": "report",
-        "VentsOpen": "command",
-    }
+    kinds = {name: model.kind(name) for name in model.messages}
+    assert kinds.pop("StationRead") == "query"
+    assert kinds.pop("StationState") == "reply"
+    assert kinds == {"TextShow": "command", "VentJammed": "report", "VentsOpen": "command"}
 
 
 def test_a_third_endpoint_is_read_and_ignored() -> None:
