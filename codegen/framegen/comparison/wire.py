@@ -50,11 +50,6 @@ class Trials:
     adding: Witness | None = None
     all_tried: bool = True
 
-    @property
-    def tried(self) -> int:
-        """How many frames were tried."""
-        return sum(self.counts.values())
-
     def add(self, witness: Witness, *, breaks: bool) -> None:
         """Count a frame, and keep it if it is the worst so far."""
         self.counts[witness.outcome] = self.counts.get(witness.outcome, 0) + 1
