@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from itertools import count, groupby
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias
 
 from tests.bound_names import pascal_names, snake_names
-from tests.crowd import Crowd
+from tests.crowd import FIELDS, Crowd, in_parts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
     from tests.factories import Data
 
 Makes: TypeAlias = "Callable[[Crowd, Sequence[str]], None]"
-_Word = TypeVar("_Word")
-# More fields than that, and a method has more arguments than linters like.
-_FIELDS = 6
 _LONGEST_END = 20
 _LONGEST_CLASS = 40
 # The bits of a number, as wide as it may be here.
@@ -27,7 +24,7 @@ _PARTS = 9
 
 def fields(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name a field, there and back, and one of an element."""
-    for at, some in enumerate(_in_parts(names, _FIELDS)):
+    for at, some in enumerate(in_parts(names, FIELDS)):
         crowd.command(f"Sent{at}", some)
         crowd.report(f"Received{at}", some)
         crowd.command(f"Put{at}", [], listed=f"list{at}", element=f"Each{at}", of=some)
@@ -35,7 +32,7 @@ def fields(crowd: Crowd, names: Sequence[str]) -> None:
 
 def results(crowd: Crowd, names: Sequence[str]) -> None:
     """Make names what is asked for and returned, a list, and what counts one."""
-    for at, (first, *others) in enumerate(_in_parts(names, 3)):
+    for at, (first, *others) in enumerate(in_parts(names, 3)):
         crowd.report(f"Answer{at}", [first])
         crowd.command(
             f"Ask{at}", [first], reply=f"Answer{at}", method=f"ask{at}({first}) -> {first}"
@@ -57,7 +54,7 @@ def methods(crowd: Crowd, names: Sequence[str]) -> None:
 
 def values(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name a named value, and a bit."""
-    for at, some in enumerate(_in_parts(names, _BITS)):
+    for at, some in enumerate(in_parts(names, _BITS)):
         _named(crowd, at, {"level": some})
 
 
@@ -74,8 +71,8 @@ def halves(crowd: Crowd, names: Sequence[str]) -> None:
     # has no more values there than bits.
     beginnings = sorted(split, key=lambda field: field.count("_"))
     for _, alike in groupby(beginnings, key=lambda field: field.count("_")):
-        for some in _in_parts([*alike], _FIELDS):
-            parted = {field: [*_in_parts(split[field], _BITS)] for field in some}
+        for some in in_parts([*alike], FIELDS):
+            parted = {field: [*in_parts(split[field], _BITS)] for field in some}
             for turn in range(max(map(len, parted.values()))):
                 _named(
                     crowd,
@@ -101,7 +98,7 @@ def _named(crowd: Crowd, number: int, names: dict[str, list[str]]) -> None:
 def ends(crowd: Crowd, names: Sequence[str]) -> None:
     """Make every name an end of the line, which may have more than two."""
     short = [name for name in names if len(name) <= _LONGEST_END]
-    for at, (one, *other) in enumerate(_in_parts(short, 2)):
+    for at, (one, *other) in enumerate(in_parts(short, 2)):
         crowd.send(f"Said{at}", one, *(other or ["somebody"]))
 
 
@@ -147,8 +144,3 @@ def crowd_of(*kinds: str, plain: bool = True, everywhere: bool = False) -> Data:
 
 def _as_class(name: str) -> str:
     return "".join(word.capitalize() for word in name.split("_"))[:_LONGEST_CLASS]
-
-
-def _in_parts(words: Sequence[_Word], most: int) -> Iterator[list[_Word]]:
-    for at in range(0, len(words), most):
-        yield [*words[at : at + most]]

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from framegen.targets.python.reserved import RESERVED
 
 from tests.factories import small_spec
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from tests.factories import Data
 
+Word = TypeVar("Word")
 # More fields than that, and a method has more arguments than linters like.
-_FIELDS = 6
+FIELDS = 6
 # One as a number of each type that there is in a crowd.
 _ONE = {"u8": [1], "u32": [1, 0, 0, 0]}
 
@@ -28,10 +29,10 @@ def taken(kind: str) -> list[str]:
 def taken_names() -> Data:
     """Return every taken word but those of elements, as a name of the kind it is taken for."""
     crowd = Crowd("taken_words", "any", "noise")
-    for at, words in enumerate(_in_parts(taken("field"))):
+    for at, words in enumerate(in_parts(taken("field"))):
         crowd.command(f"Sent{at}", words)
         crowd.report(f"Received{at}", words)
-    for at, words in enumerate(_in_parts(taken("field of an element"))):
+    for at, words in enumerate(in_parts(taken("field of an element"))):
         crowd.command(f"Listed{at}", [], listed=f"list{at}", element=f"Listed{at}Each", of=words)
     for at, word in enumerate(["class", "latest", "reply", "replies", "self", "kind", "each"]):
         crowd.report(f"Answer{at}", [word])
@@ -211,6 +212,6 @@ def _shouted(name: str) -> bool:
     return name.isupper() and len(name) > 1
 
 
-def _in_parts(words: list[str]) -> Iterator[list[str]]:
-    for at in range(0, len(words), _FIELDS):
-        yield words[at : at + _FIELDS]
+def in_parts(words: Sequence[Word], most: int = FIELDS) -> Iterator[list[Word]]:
+    for at in range(0, len(words), most):
+        yield [*words[at : at + most]]

@@ -7,30 +7,14 @@ from fractions import Fraction
 from typing import Any
 
 # By hand: a unit as a number of another one. A unit that is not here is only equal to itself.
-UNITS = {
-    "ms": ("0.001", "s"),
-    "us": ("0.000001", "s"),
-    "mV": ("0.001", "V"),
-    "dV": ("0.1", "V"),
-    "mA": ("0.001", "A"),
-    "mm": ("0.001", "m"),
-    "cm": ("0.01", "m"),
-    "km": ("1000", "m"),
-    "mAh": ("0.001", "Ah"),
-    "cK": ("0.01", "K"),
-    "mg": ("0.001", "g"),
-    "kHz": ("1000", "Hz"),
-    "ns": ("0.000000001", "s"),
-    "hPa": None,
-    "°C": ("1", "K"),
-    "K": ("1", "K"),
-    "%": ("0.01", ""),
-    "‰": ("0.001", ""),
-    "min": ("60", "s"),
-    "h": ("3600", "s"),
-    "cm/s": None,
-    "rpm": None,
-}
+_ROWS = (
+    *(("ns", "0.000000001", "s"), ("us", "0.000001", "s"), ("ms", "0.001", "s")),
+    *(("min", "60", "s"), ("h", "3600", "s"), ("mV", "0.001", "V"), ("dV", "0.1", "V")),
+    *(("mA", "0.001", "A"), ("mAh", "0.001", "Ah"), ("kHz", "1000", "Hz"), ("mg", "0.001", "g")),
+    *(("mm", "0.001", "m"), ("cm", "0.01", "m"), ("km", "1000", "m")),
+    *(("cK", "0.01", "K"), ("°C", "1", "K"), ("%", "0.01", ""), ("‰", "0.001", "")),
+)
+UNITS = {unit: (factor, base) for unit, factor, base in _ROWS}
 ZEROS = {"°C": Fraction("273.15")}
 # Of two of these, neither is another spelling of the other.
 KNOWN = {"s", "V", "A", "m", "Ah", "K", "g", "Hz", "", "°", "rad"}
@@ -49,7 +33,7 @@ def quantity_of(field: dict[str, Any]) -> Quantity | None:
             offset = Fraction(words[1]) * (-1 if words[0] == "-" else 1)
     elif not unit:
         return None
-    factor, base = UNITS.get(unit) or ("1", unit)
+    factor, base = UNITS.get(unit, ("1", unit))
     zero = ZEROS.get(unit, Fraction(0))
     return step * Fraction(factor), offset * Fraction(factor) + zero, base
 
