@@ -9,6 +9,8 @@ import subprocess
 import sys
 import unicodedata
 from functools import partial
+from operator import attrgetter
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import busservo.__main__
@@ -24,18 +26,18 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from tests.documents import ROOT
 from tests.in_turn import in_turn
+from tests.programs import ran
 from tests.rows import Rows
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
-
+    from collections.abc import Iterator, Sequence
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 
 not_windows = pytest.mark.skipif(sys.platform == "win32", reason="its streams close otherwise")
 SPEC = str(ROOT / "spec" / "busservo.yaml")
+FULL = Path("/dev/full")
 
 # -- One and the same, whatever the environment and the streams ------------------------------------
 
@@ -43,36 +45,37 @@ SPEC = str(ROOT / "spec" / "busservo.yaml")
 class Command(NamedTuple):
     """A command line that prints something, and its error stream when all is well."""
 
-    words: list[str]
+    line: str
     errors: str = ""
     stdin: str = ""
 
     @property
     def program(self) -> str:
-        return self.words[1].replace("_", "-")
+        return self.line.split()[1].replace("_", "-")
 
 
 COMMANDS = [
-    Command(["-m", "busservo", "--version"]),
-    Command(["-m", "busservo", "decode"], "4 bytes: 1 message, 0 bytes of noise\n", "55 55 02 07"),
-    Command(["-m", "busservo", "encode", "--raw", "ActionGroupStop"]),
-    Command(["-m", "busservo", "answer"], stdin="encode ActionGroupStop\n"),
-    Command(["-m", "framegen", "--help"]),
-    Command(["-m", "busservo_simulator", "--help"]),
+    Command("-m busservo --version"),
+    Command("-m busservo decode", "4 bytes: 1 message, 0 bytes of noise\n", "55 55 02 07"),
+    Command("-m busservo encode --raw ActionGroupStop"),
+    Command("-m busservo answer", stdin="encode ActionGroupStop\n"),
+    Command("-m framegen --help"),
+    Command("-m busservo_simulator --help"),
 ]
 # It ends by itself only where nobody can be given the name of its port.
-SIMULATOR = Command(["-m", "busservo_simulator", "--tcp"])
+SIMULATOR = Command("-m busservo_simulator --tcp")
 
 
-def commands(*typical: int, also: Sequence[Command] = ()) -> Rows:
-    """Return commands; tests/world has those that go the same ways."""
+def each(*typical: int, also: Sequence[Command] = ()) -> pytest.MarkDecorator:
+    """Try commands; tests/world has those that go the same ways."""
     others = [command for at, command in enumerate(COMMANDS) if at not in typical]
-    return Rows([*(COMMANDS[at] for at in typical), *also], others)
+    rows = Rows([*(COMMANDS[at] for at in typical), *also], others)
+    return pytest.mark.parametrize("command", rows, ids=attrgetter("line"))
 
 
 # One of each program, and of each way to read and write.
 EACH, TWO = (1, 3, 4), (1, 4)
-EXAMPLE = Command([str(ROOT / "examples" / "virtual_arm.py")])
+EXAMPLE = Command("examples/virtual_arm.py")
 
 
 def environments() -> list[dict[str, str]]:
@@ -81,10 +84,7 @@ def environments() -> list[dict[str, str]]:
     switches = ("PYTHONUNBUFFERED", "PYTHONDONTWRITEBYTECODE", "PYTHONPYCACHEPREFIX")
     plain = {name: value for name, value in os.environ.items() if name not in switches}
     plain |= {"PYTHONPATH": path, "LC_ALL": "C.UTF-8", "COLUMNS": "80"}
-    return [
-        plain,
-        plain | {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1"},
-    ]
+    return [plain, plain | {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1"}]
 
 
 def run(
@@ -100,7 +100,8 @@ def run(
     """
     started = [
         subprocess.Popen(
-            [sys.executable, *command.words],
+            [sys.executable, *command.line.split()],
+            cwd=ROOT,
             env=environment,
             stdin=subprocess.PIPE,
             stdout=stdout,
@@ -123,17 +124,13 @@ def close_all(streams: tuple[int, ...]) -> None:
         os.close(stream)
 
 
-def shown(command: Command) -> str:
-    return " ".join(command.words)
-
-
-@pytest.mark.parametrize("command", commands(*EACH, also=[EXAMPLE]), ids=shown)
+@each(*EACH, also=[EXAMPLE])
 def test_each_command_succeeds_with_open_streams(command: Command) -> None:
     assert run(command, is_written=False) == (0, command.errors)
 
 
 @not_windows
-@pytest.mark.parametrize("command", commands(*TWO, also=[SIMULATOR]), ids=shown)
+@each(*TWO, also=[SIMULATOR])
 def test_the_reader_has_gone(command: Command) -> None:
     ours, theirs = os.pipe()
     os.close(ours)
@@ -143,39 +140,32 @@ def test_the_reader_has_gone(command: Command) -> None:
         os.close(theirs)
 
 
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")  # noqa: PTH110
-@pytest.mark.parametrize("command", commands(*TWO, also=[SIMULATOR]), ids=shown)
+@pytest.mark.skipif(not FULL.exists(), reason="needs a device that is always full")
+@each(*TWO, also=[SIMULATOR])
 def test_the_disk_is_full(command: Command) -> None:
-    full = os.open("/dev/full", os.O_WRONLY)
-    try:
-        status, errors = run(command, stdout=full)
-    finally:
-        os.close(full)
-    assert status == 2
     problem = "the output cannot be written: No space left on device"
-    assert errors == f"{command.program}: error: {problem}\n"
+    with FULL.open("wb") as full:
+        assert run(command, stdout=full.fileno()) == (2, f"{command.program}: error: {problem}\n")
 
 
 @not_windows
-@pytest.mark.parametrize("command", commands(*TWO, also=[SIMULATOR]), ids=shown)
+@each(*TWO, also=[SIMULATOR])
 def test_the_output_is_closed(command: Command) -> None:
     errors = f"{command.program}: error: the output cannot be written: it is closed\n"
     assert run(command, closed=(1,)) == (2, errors)
 
 
 @not_windows
-@pytest.mark.parametrize("command", commands(*TWO), ids=shown)
+@each(*TWO)
 def test_the_error_stream_is_closed(command: Command) -> None:
     assert run(command, closed=(2,), is_written=False) == (0, "")
 
 
 @not_windows
-@pytest.mark.parametrize("command", commands(*EACH), ids=shown)
+@each(*EACH)
 def test_the_input_is_closed(command: Command) -> None:
-    if command.stdin:
-        expected = (2, "busservo: error: standard input cannot be read: it is closed\n")
-    else:
-        expected = (0, command.errors)
+    closed = (2, "busservo: error: standard input cannot be read: it is closed\n")
+    expected = closed if command.stdin else (0, command.errors)
     assert run(command._replace(stdin=""), (0,), is_written=False) == expected
 
 
@@ -185,14 +175,8 @@ def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
         "import os, sys; from framewire.command.console import run;"
         "sys.exit(run('it', lambda: os.open(os.devnull, os.O_RDONLY)))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", program],
-        env=environments()[1],
-        preexec_fn=lambda: close_all((0, 1, 2)),
-        timeout=GENEROUS,
-        check=False,
-    )
-    assert done.returncode == 3
+    closed = {"preexec_fn": partial(close_all, (0, 1, 2)), "capture_output": False}
+    assert ran(sys.executable, "-c", program, status=3, **closed)
 
 
 # -- Text of strangers -----------------------------------------------------------------------------
@@ -200,99 +184,57 @@ def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
 # It clears the screen, colours what follows, turns the writing round, and forges a line of
 # its own; at its end are a byte that is no text and a bell.
 HOSTILE = "\x1b[2J\x9b31m\u202eevil\nbusservo: all is well\udcff\x07"
-ADDRESS = f"socket://{HOSTILE}:1"
-LINE = ["--port", "loop://"]
-
-BUSSERVO = [
-    [HOSTILE],
-    [f"--{HOSTILE}"],
-    ["--print-completion", HOSTILE],
-    ["decode", HOSTILE],
-    ["decode", "--file", HOSTILE],
-    ["decode", "--direction", HOSTILE],
-    ["decode", "--format", HOSTILE],
-    ["docs", HOSTILE],
-    ["explain", HOSTILE],
-    ["explain", "55", "--direction", HOSTILE],
-    ["encode", HOSTILE],
-    ["encode", "BatteryVoltage", HOSTILE],
-    ["encode", "BatteryVoltage", f"{HOSTILE}=1"],
-    ["encode", "BatteryVoltage", f"voltage_mv={HOSTILE}"],
-    ["encode", "ServoMove", "time_ms=1", f"targets={HOSTILE}"],
-    ["monitor", "--port", HOSTILE],
-    ["monitor", "--port", ADDRESS],
-    ["monitor", "--port", f"hwgrep://{HOSTILE}"],
-    ["monitor", "--port", f"{HOSTILE}://"],
-    ["monitor", "--port", f"spy://loop://?file={HOSTILE}"],
-    ["monitor", *LINE, "--baud", HOSTILE],
-    ["monitor", *LINE, "--only", HOSTILE],
-    ["monitor", *LINE, "--log", f"{HOSTILE}/log"],
-    ["monitor", *LINE, "-n", HOSTILE],
-    ["send", "--port", HOSTILE, "BatteryVoltageRead"],
-    ["send", *LINE, HOSTILE],
-    ["send", *LINE, "BatteryVoltageRead", "--timeout", HOSTILE],
-    ["replay", HOSTILE, "--dry-run"],
-    ["replay", "hostile", "--dry-run"],
-    ["replay", "log.hex", "--port", HOSTILE],
-    ["replay", "log.hex", "--dry-run", "--speed", HOSTILE],
-    ["bench-line", "--port", HOSTILE],
-    ["bench-line", *LINE, HOSTILE],
-    ["doctor", "--port", HOSTILE],
-    ["doctor", "--port", HOSTILE, "--json"],
-    ["doctor", "--report", f"{HOSTILE}/report"],
-    ["teach", "pose.json", "--port", HOSTILE],
-    ["teach", f"{HOSTILE}/pose.json", *LINE],
-    ["teach", "hostile", *LINE],
-    ["teach", "pose.json", *LINE, "--ids", HOSTILE],
-    ["play", HOSTILE, "--dry-run"],
-    ["play", "hostile", "--dry-run"],
-    ["play", "pose.json", "--dry-run"],
-    ["play", "pose.json", "--dry-run", "--pause", HOSTILE],
-    ["ports", HOSTILE],
-    ["simulate", HOSTILE],
-    ["simulate", "--link", f"{HOSTILE}/link"],
-    ["simulate", "--tcp", HOSTILE],
-    ["simulate", "--tcp", "99999"],
-    ["simulate", "--tcp", "--host", HOSTILE],
-    ["simulate", "--tcp", "--host", "\0"],
-    ["simulate", "--servos", HOSTILE],
-    ["simulate", "--battery", HOSTILE],
-    ["simulate", "--fault", HOSTILE],
-    ["simulate", "--fault", f"noise={HOSTILE}"],
-]
-FRAMEGEN = [
-    [HOSTILE],
-    [f"--{HOSTILE}"],
-    ["check", HOSTILE],
-    ["check", f"{HOSTILE}.yaml"],
-    ["check", "--json", f"{HOSTILE}.yaml"],
-    ["check", "escaped.yaml"],
-    ["check", "--json", "escaped.yaml"],
-    ["check", "raw.yaml"],
-    ["generate", f"{HOSTILE}.yaml"],
-    ["generate", SPEC, "--out", "log.hex"],
-    ["docs", f"{HOSTILE}.yaml"],
-    ["diff", f"{HOSTILE}.yaml", SPEC],
-    ["diff", HOSTILE],
-    ["diff", SPEC, f"{HOSTILE}:{HOSTILE}"],
-    ["diff", "--fail-on", HOSTILE],
-    ["release", f"{HOSTILE}.yaml"],
-    ["explain", HOSTILE],
-    ["explain", f"{HOSTILE}.yaml", "55"],
-    ["explain", SPEC, "55", "--direction", HOSTILE],
-    ["rules", HOSTILE],
-    ["schema", HOSTILE],
-]
+# Calls with it in the place of @, by program.
+BUSSERVO = """
+@ | --@ | --print-completion @ | decode @ | decode --file @ | decode --direction @ | docs @
+decode --format @ | explain 55 --direction @ | encode @ | encode BatteryVoltage @
+encode BatteryVoltage @=1 | encode BatteryVoltage voltage_mv=@ | explain @
+encode ServoMove time_ms=1 targets=@
+monitor --port @ | monitor --port socket://@:1 | monitor --port hwgrep://@ | monitor --port @://
+monitor --port spy://loop://?file=@ | monitor --port loop:// --baud @ | monitor --port loop:// -n @
+monitor --port loop:// --only @ | monitor --port loop:// --log @/log | send --port loop:// @
+send --port @ BatteryVoltageRead | send --port loop:// BatteryVoltageRead --timeout @
+replay @ --dry-run | replay hostile --dry-run | replay log.hex --port @ | ports @
+replay log.hex --dry-run --speed @ | bench-line --port @ | bench-line --port loop:// @
+doctor --port @ | doctor --port @ --json | doctor --report @/report | teach pose.json --port @
+teach @/pose.json --port loop:// | teach hostile --port loop:// | play @ --dry-run
+teach pose.json --port loop:// --ids @ | play hostile --dry-run | play pose.json --dry-run
+play pose.json --dry-run --pause @
+"""
+SIMULATE = """
+@ | --link @/link | --tcp @ | --tcp 99999 | --tcp --host @ | --tcp --host \0 | --servos @
+--battery @ | --fault @ | --fault noise=@
+"""
+FRAMEGEN = """
+@ | --@ | check @ | check @.yaml | check --json @.yaml | check escaped.yaml | check raw.yaml
+check --json escaped.yaml | generate @.yaml | generate SPEC --out log.hex | docs @.yaml | diff @
+diff @.yaml SPEC | diff SPEC @:@ | diff --fail-on @ | release @.yaml | explain @ | rules @
+explain @.yaml 55 | explain SPEC 55 --direction @ | schema @
+"""
 MAINS = {
     "busservo": busservo.__main__.main,
     "framegen": framegen.cli.main,
     "busservo-simulator": busservo_simulator.cli.main,
 }
-CALLS = [
-    *(("busservo", words) for words in BUSSERVO),
-    *(("framegen", words) for words in FRAMEGEN),
-    *(("busservo-simulator", words[1:]) for words in BUSSERVO if words[0] == "simulate"),
-]
+
+
+def calls() -> Iterator[tuple[str, list[str]]]:
+    """Yield the program and the words of each call."""
+    of_simulator = [f"simulate {each}" for each in listed(SIMULATE)]
+    for program, lines in {
+        "busservo": [*listed(BUSSERVO), *of_simulator],
+        "framegen": listed(FRAMEGEN),
+        "busservo-simulator": listed(SIMULATE),
+    }.items():
+        for line in lines:
+            yield (
+                program,
+                [word.replace("@", HOSTILE).replace("SPEC", SPEC) for word in line.split(" ")],
+            )
+
+
+def listed(lines: str) -> list[str]:
+    return [each for line in lines.strip("\n").split("\n") for each in line.split(" | ")]
 
 
 @pytest.fixture
@@ -317,7 +259,7 @@ def _hostile_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("_hostile_files")
-@in_turn("program, words", lambda: CALLS, ids=ascii)
+@in_turn("program, words", calls, ids=ascii)
 def test_a_hostile_call_is_refused_in_visible_text(
     capsys: Capture, program: str, words: list[str]
 ) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from pathlib import Path
+from typing import NamedTuple, TypeAlias
 
 import pytest
 from framegen.cli import main
@@ -15,79 +16,43 @@ from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, ROOT, data_of
 from tests.in_turn import in_turn
 from tests.mutations.spec_edits import change
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
 # Kind, file and subject.
 Missing: TypeAlias = "tuple[str, str, str]"
 
 CASES, ORACLE = "tests/cases.py", "tests/oracle.py"
 CONTRACT = "tests/contract/test_client_contract.py"
+POINTS = "Lists.fields.points"
 
 BLOW_CASE = """\
     Case(
         HornBlow(times=2, pause_ms=300), "55 55 05 C9 02 2C 01", HOST, "1.8 example 1"
     ),
 """
-BLOW_LAYOUT = """\
-        "HornBlow": _frame(201, "times" / Byte, "pause_ms" / Int16ul),
-"""
-BLOW_CONTRACT = """\
-    "HornBlow": ("horn_blow", ("times", "pause_ms"), None, "", (), ()),
-"""
-BLOWN = """\
-  HornBlown:
-    id: 202
-    direction: controller -> host
-    summary: The horn has sounded.
-    cite: vendor, section 2.2
-    length: 2
-    examples:
-      - {title: It has sounded, hex: 55 55 02 CA, values: {}, cite: vendor}
-
-"""
-BLOWN_CASE = """\
-    Case(HornBlown(), "55 55 02 CA", CONTROLLER, "2.2 report"),
-"""
-BLOWN_LAYOUT = """\
-        "HornBlown": _frame(202),
-"""
-FIELD = """\
-      source: {type: u8, about: Which terminals.}
-"""
-NAMED = """\
-        values:
-          empty: {value: 7500, about: Charge it.}
-"""
+BLOW_LAYOUT = '        "HornBlow": _frame(201, "times" / Byte, "pause_ms" / Int16ul),\n'
+BLOW_CONTRACT = '    "HornBlow": ("horn_blow", ("times", "pause_ms"), None, "", (), ()),\n'
+FIELD = "      source: {type: u8, about: Which terminals.}\n"
+NAMED = "        values: {empty: {value: 7500, about: Charge it.}}\n"
 
 
 class Project(NamedTuple):
     """A copy of a spec, of the files written by hand beside it, and of their list."""
 
     folder: Path
-
-    @property
-    def spec(self) -> Path:
-        """The spec of busservo."""
-        return self.folder / "spec" / "busservo.yaml"
-
-    def edit(self, file: str, *edits: tuple[str, str]) -> None:
-        """Replace texts of a file, each of which is there once."""
-        change(self.folder / file, *edits)
+    spec: Path
 
     def write(self, file: str, text: str) -> None:
         """Write a file."""
         (self.folder / file).write_text(text, encoding="utf-8")
 
-    def declare(self, of: str, text: str, protocol: str = "busservo") -> None:
-        """Declare one witness for a protocol, a file in which nothing is written."""
+    def declare(self, of: str, text: str, written: str = "") -> None:
+        """Declare one witness for the protocol, a file in which this is written."""
         declared = LAYOUT.replace("{of}", of).replace("{text}", text)
-        self.write(DECLARATION, declared.replace("busservo", protocol))
-        self.write("made_up.txt", "")
+        self.write(DECLARATION, declared.replace("busservo", self.spec.stem))
+        self.write("made_up.txt", written)
 
-    def missing(self, spec: Path | None = None) -> list[Missing]:
+    def missing(self) -> list[Missing]:
         """Return the findings of the command."""
-        status, printed, _ = called(main, "missing", "--json", str(spec or self.spec))
+        status, printed, _ = called(main, "missing", "--json", str(self.spec))
         found = [json.loads(line) for line in printed.splitlines()]
         assert status == bool(found)
         return [(each["kind"], each["in"], each["path"]) for each in found]
@@ -105,7 +70,7 @@ def project(tmp_path: Path) -> Project:
     for path in ("spec/busservo.yaml", DECLARATION, *(each.file for each in witnesses)):
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / path, tmp_path / path)
-    return Project(tmp_path)
+    return Project(tmp_path, tmp_path / "spec" / "busservo.yaml")
 
 
 def test_nothing_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -132,17 +97,6 @@ CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[s
             CONTRACT: ('    "ServoUnload":', f'{BLOW_CONTRACT}    "ServoUnload":'),
         },
     ),
-    "a report": (
-        [("  BatteryVoltage:\n", f"{BLOWN}  BatteryVoltage:\n")],
-        [
-            ("case", CASES, "messages.HornBlown"),
-            ("layout", ORACLE, "messages.HornBlown"),
-        ],
-        {
-            CASES: ("CASES = (\n", f"CASES = (\n{BLOWN_CASE}"),
-            ORACLE: ('        "BatteryVoltage":', f'{BLOWN_LAYOUT}        "BatteryVoltage":'),
-        },
-    ),
     "a field": (
         [
             ("      voltage_mv:\n", f"{FIELD}      voltage_mv:\n"),
@@ -167,10 +121,10 @@ CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[s
 def test_what_a_change_needs_is_named_until_it_is_there(what: str, project: Project) -> None:
     changes, needed, written = CHANGES[what]
     assert project.missing() == []
-    project.edit("spec/busservo.yaml", *changes)
+    change(project.spec, *changes)
     assert project.missing() == needed
     for file, text in written.items():
-        project.edit(file, text)
+        change(project.folder / file, text)
         needed = [each for each in needed if each[1] != file]
         assert project.missing() == needed
     assert needed == []
@@ -179,7 +133,7 @@ def test_what_a_change_needs_is_named_until_it_is_there(what: str, project: Proj
 def test_the_report_says_where_to_write_what_and_why(
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    project.edit("spec/busservo.yaml", *CHANGES["a command"][0])
+    change(project.spec, *CHANGES["a command"][0])
     monkeypatch.chdir(project.folder)
     status, printed, errors = called(main, "missing")
     first = printed.split("\n\n")[0].splitlines()
@@ -234,13 +188,10 @@ busservo:
 def test_a_pattern_matches_the_name_or_value_it_is_made_of(
     of: str, text: str, written: str, found: bool, named: Project
 ) -> None:
-    named.declare(of, text)
-    named.write("made_up.txt", written)
-    names = {
-        "fields": "ServoMove.fields.time_ms",
-        "values": "ServoMove.fields.time_ms.values.never",
-    }
-    sought = ("case", "made_up.txt", f"messages.{names.get(of, 'ServoMove')}")
+    named.declare(of, text, written)
+    field = "ServoMove.fields.time_ms"
+    name = {"fields": field, "values": f"{field}.values.never"}.get(of, "ServoMove")
+    sought = ("case", "made_up.txt", f"messages.{name}")
     assert (sought not in named.missing()) is found
 
 
@@ -249,7 +200,7 @@ def named(project: Project) -> Project:
     """Return a project in whose spec a value of ServoMove has a name."""
     about = "        about: How long the motion takes.\n"
     value = f"{about}        values: {{never: {{value: 800, about: x}}}}\n"
-    project.edit("spec/busservo.yaml", (about, value))
+    change(project.spec, (about, value))
     return project
 
 
@@ -258,32 +209,30 @@ def named(project: Project) -> Project:
     lambda: [
         ("fields", "x {message}.{field}", "x Flags.error", "messages.Flags.fields.error"),
         ("bits", "BIT_{FIELD}_{BIT}", "BIT_ERROR_HEAT", "messages.Flags.fields.error.bits.heat"),
-        (
-            "bits",
-            "BIT {field} {bit}",
-            "BIT flags far",
-            "messages.Lists.fields.points.fields.flags.bits.far",
-        ),
+        ("bits", "BIT {field} {bit}", "BIT flags far", f"messages.{POINTS}.fields.flags.bits.far"),
         ("addresses", "AT_{ADDRESS}_{VALUE}", "AT_STATION_ALL", "frames.ask.station.values.all"),
     ],
 )
 def test_bits_and_addresses_can_have_witnesses_too(
-    of: str, text: str, written: str, gone: str, project: Project
+    of: str, text: str, written: str, gone: str, everything: Project
 ) -> None:
-    spec = project.folder / "spec" / "everything.yaml"
-    shutil.copy(DEMO.with_name(spec.name), spec)
-    project.declare(of, text, "everything")
-    before = project.missing(spec)
-    project.write("made_up.txt", written)
-    after = project.missing(spec)
-    assert [path for _, _, path in before if path not in [each[2] for each in after]] == [gone]
+    everything.declare(of, text)
+    before = everything.missing()
+    everything.write("made_up.txt", written)
+    after = {path for _, _, path in everything.missing()}
+    assert [path for _, _, path in before if path not in after] == [gone]
 
 
-def test_what_every_frame_has_is_no_field(project: Project) -> None:
-    spec = project.folder / "spec" / "everything.yaml"
-    shutil.copy(DEMO.with_name(spec.name), spec)
-    project.declare("fields", "x {field}", "everything")
-    printed = called(main, "missing", str(spec)).out
+@pytest.fixture
+def everything(project: Project) -> Project:
+    """Return a project with a spec of all kinds of fields."""
+    spec = DEMO.with_name("everything.yaml")
+    return project._replace(spec=Path(shutil.copy(spec, project.folder / "spec")))
+
+
+def test_what_every_frame_has_is_no_field(everything: Project) -> None:
+    everything.declare("fields", "x {field}")
+    printed = called(main, "missing", str(everything.spec)).out
     assert "Numbers.a_u8 has no case" in printed
     assert "station" not in printed
     assert "sequence" not in printed
@@ -296,9 +245,8 @@ def test_what_every_frame_has_is_no_field(project: Project) -> None:
 def test_without_declarations_nothing_is_reported_complete(
     declared: str | None, project: Project
 ) -> None:
-    if declared is None:
-        (project.folder / DECLARATION).unlink()
-    else:
+    (project.folder / DECLARATION).unlink()
+    if declared:
         project.write(DECLARATION, declared)
     messages = len(data_of(BUSSERVO)["messages"])
     assert project.refusal() == (
@@ -334,7 +282,7 @@ def test_an_invalid_declaration_is_reported_with_its_place(
     old: str, new: str, said: str, project: Project
 ) -> None:
     project.declare("messages", "Case({message}(")
-    project.edit(DECLARATION, (old, new))
+    change(project.folder / DECLARATION, (old, new))
     place = "" if said.startswith("tests") else "tests/witnesses.yaml:"
     assert project.refusal().startswith(place + said)
 
@@ -346,10 +294,8 @@ def test_a_file_that_cannot_be_read_is_reported(
     data: bytes | None, why: str, project: Project
 ) -> None:
     project.declare("messages", "Case({message}(")
-    file = project.folder / "made_up.txt"
-    if data is None:
-        file.unlink()
-    else:
-        file.write_bytes(data)
+    (project.folder / "made_up.txt").unlink()
+    if data:
+        (project.folder / "made_up.txt").write_bytes(data)
     said = f"made_up.txt, which tests/witnesses.yaml names, cannot be read: {why}\n"
     assert project.refusal().startswith(said)

@@ -70,10 +70,7 @@ def _answer(question: str) -> str:
 def node() -> subprocess.Popen[str]:
     """Return the process of this worker, or the next one, where a program has ended that."""
     process = subprocess.Popen(
-        [str(NODE), str(HOST)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        encoding="utf-8",
+        [str(NODE), str(HOST)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8"
     )
     atexit.register(process.communicate)
     return process

@@ -32,15 +32,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
-READERS = [
-    "hex",
-    "capture_place",
-    "code_text",
-    "line_text",
-    "csv_text",
-    "log_text",
-    "capture_text",
-]
+READERS = ["hex", "capture_place", "code_text", "line_text", "csv_text", "log_text", "capture_text"]
 DATA = protocol_data(reference("busservo").model)
 SAYS = """
 const says = captureWords(asked.protocol, "controller_to_host");

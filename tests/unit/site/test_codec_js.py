@@ -237,10 +237,7 @@ LINES = {
         "55550463 5555 01 quiet",
         ["noise unknown-command 55550463", "noise length-mismatch 555501", "quiet"],
     ),
-    "a refused length is no claim": (
-        "55550163 quiet",
-        ["noise length-mismatch 55550163", "quiet"],
-    ),
+    "a refused length is no claim": ("55550163 quiet", ["noise length-mismatch 55550163", "quiet"]),
     "a header that has begun waits": ("0055", ["noise bad-header 00"]),
     "a frame that is cut short is too short": (
         "55550803 quiet",
@@ -284,10 +281,7 @@ PIECES = {
     ),
     "a count that is wrong": ("55 55 08 03 02 E8", [(0, "5555080302e8", 4)]),
     "what was cut short": ("55 55 08 03 01", [(0, "5555080301", 5)]),
-    "a run of header bytes is one": (
-        "55 55 55 55 55 01",
-        [(0, "555555", 3), (3, "555501", 5)],
-    ),
+    "a run of header bytes is one": ("55 55 55 55 55 01", [(0, "555555", 3), (3, "555501", 5)]),
     "a frame of unknown id": ("00 55 55 03 63 01", [(0, "00", 0), (1, "5555036301", 4)]),
 }
 

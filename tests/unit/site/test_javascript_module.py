@@ -100,11 +100,7 @@ def test_the_module_does_what_its_types_say(tmp_path: Path) -> None:
             [True, "target: no field of ServoMove, which has time_ms, targets", "target"],
             [True, "targets: a list is due", "targets"],
             [True, "ServoMov: no message has this name", "ServoMov"],
-            [
-                True,
-                f"host is no direction: there are {WAYS}, and null for any",
-                "",
-            ],
+            [True, f"host is no direction: there are {WAYS}, and null for any", ""],
             [True, "“G” in “5G” is no hex digit", ""],
         ],
     }

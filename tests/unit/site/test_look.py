@@ -219,9 +219,7 @@ def test_the_shade_that_is_offered_can_be_read_and_a_readable_colour_is_kept(
 
 
 @given(COLOURS)
-def test_an_accent_can_be_read_on_its_own_tint_and_under_the_words_of_a_button(
-    colour: str,
-) -> None:
+def test_an_accent_can_be_read_on_its_own_tint_and_under_the_words_of_a_button(colour: str) -> None:
     for theme in THEMES:
         shade = readable(colour, theme)
         tint = shades._accent(shade, theme).partition("-tint: ")[2][:7]

@@ -18,14 +18,7 @@ from framegen.targets import docs
 
 from tests.factories import BUSSERVO, data_of
 from tests.in_turn import in_turn
-from tests.unit.site.reference import (
-    ROOT,
-    SPECS,
-    Page,
-    reference,
-    reference_of,
-    respelled,
-)
+from tests.unit.site.reference import ROOT, SPECS, Page, reference, reference_of, respelled
 
 # Where each spec lies below the root of its project.
 SPEC_PATHS = {"busservo": "spec/busservo.yaml", "greenhouse": "demo.yaml"}

@@ -370,10 +370,7 @@ BYTES: dict[str, tuple[list[str], list[str]]] = {
         ],
     ),
     "55 55 09 03 01 E8 03 01 20 03": (
-        [
-            "No frame of the Hiwonder bus servo controller",
-            "No frame of the LX-16A servo bus",
-        ],
+        ["No frame of the Hiwonder bus servo controller", "No frame of the LX-16A servo bus"],
         [],
     ),
     "11 22 33": ([], []),

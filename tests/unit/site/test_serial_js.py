@@ -109,10 +109,7 @@ PORTS = {
         """,
         "choosing | opening | closing | OPEN | CLOSE | closed",
     ),
-    "opened twice at once": (
-        "await Promise.all([open(), open()]);",
-        OPENED,
-    ),
+    "opened twice at once": ("await Promise.all([open(), open()]);", OPENED),
     "errors of the line after which it goes on": (
         """
         await open();
@@ -172,10 +169,7 @@ PORTS = {
         "await line.write([1]).catch((error) => said.push(error.name));",
         "InvalidStateError",
     ),
-    "closed before it was opened": (
-        "await line.close();",
-        "",
-    ),
+    "closed before it was opened": ("await line.close();", ""),
     "a choice that comes after it was closed": (
         "const opened = open(); await line.close(); await opened;",
         "choosing | closing | closed",

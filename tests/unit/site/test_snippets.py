@@ -16,14 +16,7 @@ from framegen.model.codec import encode, values_of
 from framegen.model.verdict import weigh_whole
 from framegen.render import snippets
 
-from tests.factories import (
-    compiled_file,
-    compiled_of,
-    data_of,
-    library,
-    library_files,
-    library_of,
-)
+from tests.factories import compiled_file, compiled_of, data_of, library, library_files, library_of
 from tests.handed import handed_by
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
@@ -60,10 +53,7 @@ def shown(model: Model, name: str) -> dict[str, Snippet]:
 def ran(made: ModuleType, source: str, client: Any, opener: str = "open_controller") -> str:
     """Run a program with a client behind whatever port it opens; return what it prints."""
     output = io.StringIO()
-    with (
-        mock.patch.object(made, opener, return_value=client),
-        contextlib.redirect_stdout(output),
-    ):
+    with mock.patch.object(made, opener, return_value=client), contextlib.redirect_stdout(output):
         exec(source, {})  # noqa: S102 - our own pages
     return output.getvalue()
 

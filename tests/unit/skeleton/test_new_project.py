@@ -239,19 +239,13 @@ def test_every_section_that_the_spec_names_is_in_the_guide() -> None:
 REFUSED = [
     ("class", "no protocol can be called so: `class` is a word of Python itself"),
     ("json", "no protocol can be called so: `json` is a module of Python's standard library"),
-    (
-        "serial",
-        "no protocol can be called so: `serial` is a package that is used",
-    ),
+    ("serial", "no protocol can be called so: `serial` is a package that is used"),
     ("con", "no protocol can be called so: `con` is a device on Windows, and no folder there"),
     ("hypothesis", "no protocol can be called so: `hypothesis` is a package that is used beside"),
     ("_pytest", "no protocol can be called so: `_pytest` is no name in snake_case"),
     ("busservo", "a package `busservo` is installed here, which it would hide"),
     ("Kiln", "no protocol can be called so: `Kiln` is no name in snake_case\n  hint: write `kiln`"),
-    (
-        "two words",
-        "no protocol can be called so: `two words` is no name in snake_case",
-    ),
+    ("two words", "no protocol can be called so: `two words` is no name in snake_case"),
     ("../kiln", "no protocol can be called so: `../kiln` is no name in snake_case"),
     ("a: {b\n# ", "no protocol can be called so: `a: {b"),
     ('"', 'no protocol can be called so: `"` is no name in snake_case'),
