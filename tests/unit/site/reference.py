@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import posixpath
 import shutil
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from html.parser import HTMLParser
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from framegen.compile import Compiled, compile_spec
@@ -51,14 +52,12 @@ class Page(HTMLParser):
     scripts: list[tuple[dict[str, str], str]] = field(default_factory=list)
     styles: list[str] = field(default_factory=list)
     headings: list[int] = field(default_factory=list)
-    python: list[str] = field(default_factory=list)
     tags: list[tuple[str, dict[str, str]]] = field(default_factory=list)
     words: str = ""
 
     def __post_init__(self) -> None:
         super().__init__(convert_charrefs=True)
         self._inside: list[str] = []
-        self._snippet = False
         self.feed(self.text)
         self.close()
 
@@ -75,9 +74,6 @@ class Page(HTMLParser):
             self.scripts.append((given, ""))
         if tag == "style":
             self.styles.append("")
-        if tag == "pre" and given.get("class") == "python":
-            self.python.append("")
-            self._snippet = True
         if tag not in VOID:
             self._inside.append(tag)
 
@@ -88,7 +84,6 @@ class Page(HTMLParser):
 
     def handle_endtag(self, tag: str) -> None:
         assert self._inside.pop() == tag, f"{self.path}: </{tag}> closes something else"
-        self._snippet = self._snippet and tag != "pre"
         self.words += " " if tag in ("td", "th", "li", "dt", "dd", "p") else ""
 
     def handle_data(self, data: str) -> None:
@@ -100,8 +95,31 @@ class Page(HTMLParser):
             self.styles[-1] += data
         else:
             self.words += data
-            if self._snippet:
-                self.python[-1] += data
+
+    @property
+    def prose(self) -> str:
+        """Its words, on one line."""
+        return " ".join(self.words.split())
+
+    def lacks(self, texts: Iterable[str]) -> list[str]:
+        """Return those texts that its words do not have."""
+        prose = self.prose
+        return [each for each in texts if each not in prose]
+
+    def having(self, name: str, value: str = "") -> list[dict[str, str]]:
+        """Return all attributes of the elements that have this one, if it has a certain value."""
+        return [given for _, given in self.tags if name in given and value in ("", given[name])]
+
+    @property
+    def data(self) -> str:
+        """What stands in its script that is no code."""
+        (text,) = [text for given, text in self.scripts if given.get("type") == "application/json"]
+        return text
+
+    @property
+    def reached(self) -> set[str]:
+        """The paths that its links lead to."""
+        return {self.leads_to(link)[0] for link in self.links}
 
     def leads_to(self, link: str) -> tuple[str, str]:
         """Return the page and the anchor that a link of this page leads to."""
@@ -109,13 +127,7 @@ class Page(HTMLParser):
         path = path.partition("?")[0]
         if not path:
             return self.path, anchor
-        steps: list[str] = []
-        for step in (*PurePosixPath(self.path).parent.parts, *PurePosixPath(path).parts):
-            if step == "..":
-                steps.pop()
-            else:
-                steps.append(step)
-        return "/".join(steps), anchor
+        return posixpath.normpath(posixpath.join(posixpath.dirname(self.path), path)), anchor
 
 
 @dataclass(frozen=True)
