@@ -10,11 +10,10 @@ from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.render import snippets
 from framegen.site.project import Project
-from framegen.site.rendering import render_page
 from framegen.site.site import Site, render_site
 
 from tests.mutations.spec_edits import edited
-from tests.unit.site.reference import ROOT, Page, broken_links, pages_of
+from tests.unit.site.reference import ROOT, Page, broken_links, page_of, pages_of
 
 LAMPS = (ROOT / "tests" / "specs" / "bad" / "base" / "lamps.yaml").read_text(encoding="utf-8")
 HISTORY = """
@@ -64,12 +63,9 @@ class Editions:
         """The project that the site is made of."""
         spec = compile_spec(Source("spec/lamps.yaml", self.spec))
         assert [finding.message for finding in spec.findings] == []
-        editions = [
-            edition_of(Source(f"spec/released/{number}.yaml", text))
-            for number, text in enumerate(self.released)
-        ]
-        name = spec.spec.protocol.name
-        return Project([spec], dict(self.guides), dict(self.files), released={name: editions})
+        texts = {f"spec/released/{at}.yaml": text for at, text in enumerate(self.released)}
+        released = {spec.spec.protocol.name: [edition_of(Source(*each)) for each in texts.items()]}
+        return Project([spec], dict(self.guides), dict(self.files), released=released)
 
     @cached_property
     def rendered(self) -> dict[str, str]:
@@ -88,9 +84,7 @@ class Editions:
 
     def page(self, path: str) -> Page:
         """Return a page by its path below the root of the reference, rendered alone."""
-        whole = f"reference/lamps/{path}"
-        (page,) = (page for page in self.site.pages if page.path == whole)
-        return Page(whole, render_page(self.site, page))
+        return page_of(self.site, f"reference/lamps/{path}")
 
     @property
     def broken_links(self) -> list[tuple[str, str]]:

@@ -176,8 +176,7 @@ class Reference:
 
     def page(self, path: str) -> Page:
         """Return a page by its path below the root of the reference, rendered alone."""
-        (page,) = (page for page in self._site.pages if page.path == f"{self.folder}{path}")
-        return Page(page.path, render_page(self._site, page))
+        return page_of(self._site, f"{self.folder}{path}")
 
     @cached_property
     def rendered(self) -> dict[str, str]:
@@ -187,6 +186,12 @@ class Reference:
     @cached_property
     def _site(self) -> Site:
         return Site(Project([self.compiled]), snippets())
+
+
+def page_of(site: Site, path: str) -> Page:
+    """Return a page of a site, rendered alone."""
+    (page,) = (page for page in site.pages if page.path == path)
+    return Page(path, render_page(site, page))
 
 
 def pages_of(rendered: Mapping[str, str]) -> dict[str, Page]:

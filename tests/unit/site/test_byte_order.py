@@ -29,10 +29,8 @@ ROWS = [
         EVERYTHING,
         "Flags",
         {
-            "unused": HIGH,  # reserved
+            **dict.fromkeys(("unused", "position", "temperature"), HIGH),  # the first is reserved
             "mode": LOW,
-            "position": HIGH,
-            "temperature": HIGH,
             "mark": LOW,  # a constant
         },
     ),
@@ -40,17 +38,10 @@ ROWS = [
         EVERYTHING,
         "Lists",
         {
-            "station": LOW,
-            "length": LOW,
+            **dict.fromkeys(("station", "length", "angles[i]", "readings[i].delta", "check"), LOW),
+            **dict.fromkeys(("triple[i]", "points[i].x", "bytes_left", "readings[i].value"), HIGH),
             "channels": "high byte and high bits first",
             "low_bits": "low byte and low bits first",
-            "triple[i]": HIGH,
-            "angles[i]": LOW,
-            "points[i].x": HIGH,
-            "bytes_left": HIGH,
-            "readings[i].value": HIGH,
-            "readings[i].delta": LOW,
-            "check": LOW,
         },
     ),
     (EVERYTHING, "Tail", {"first": HIGH, "third": HIGH, "fourth": LOW}),

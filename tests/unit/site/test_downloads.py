@@ -15,7 +15,7 @@ from framegen.site.guides.linked_files import linked_files
 from framegen.site.project import read_project
 from framegen.site.recordings import recordings_of
 
-from tests.factories import BUSSERVO, compiled_file
+from tests.factories import BUSSERVO, compiled_file, write_files
 from tests.in_turn import in_turn
 from tests.unit.site.editions import FIRST, SECOND, THIRD, Editions, three
 from tests.unit.site.reference import ROOT, Page
@@ -52,8 +52,7 @@ def test_the_spec_is_what_the_edition_says() -> None:
 
 def test_vectors_and_markdown_are_those_of_the_project() -> None:
     """But for the way to the spec, which lies beside them."""
-    compiled = compile_spec(Source("spec/lamps.yaml", THIRD))
-    files = render(compiled).files
+    files = render(compile_spec(Source("spec/lamps.yaml", THIRD))).files
     rendered = three().rendered
     assert rendered[f"{FOLDER}vectors.json"] == files["generated/lamps/vectors.json"]
     pages = {path for path in files if path.startswith("docs/reference/lamps/")}
@@ -65,49 +64,34 @@ def test_vectors_and_markdown_are_those_of_the_project() -> None:
 
 def test_links_between_the_markdown_files_lead_somewhere() -> None:
     files = three().rendered
-    links = 0
-    for path, text in files.items():
-        if path.startswith(FOLDER) and path.endswith(".md"):
-            page = Page(path, "")
-            for link in re.findall(r"(?<!\\)\]\(([^)]*)\)", text):
-                assert page.leads_to(link)[0] in files, (path, link)
-                links += 1
-    assert links > 20
+    links = [
+        (path, Page(path, "").leads_to(link)[0])
+        for path, text in files.items()
+        if path.startswith(FOLDER) and path.endswith(".md")
+        for link in re.findall(r"(?<!\\)\]\(([^)]*)\)", text)
+    ]
+    assert len(links) > 20
+    assert [(path, there) for path, there in links if there not in files] == []
 
 
 def test_a_message_page_leads_to_its_markdown() -> None:
     for folder, name in (("", "LampLevel"), ("1.0.0/", "LampState")):
         page = three().page(f"{folder}messages/{name}.html")
-        reached = [page.leads_to(link)[0] for link in page.links]
-        assert f"reference/lamps/{folder}downloads/messages/{name}.md" in reached
+        assert f"reference/lamps/{folder}downloads/messages/{name}.md" in page.reached
 
 
 def test_the_page_counts_the_vectors() -> None:
     vectors = json.loads(three().rendered[f"{FOLDER}vectors.json"])
-    (about,) = [
-        about
-        for link, (_, about) in rows(three().page("downloads.html")).items()
-        if link.endswith("vectors.json")
-    ]
-    numbers = [int(number) for number in re.findall(r"\d+", about)]
-    kinds = ("valid", "unencodable", "invalid", "streams")
-    assert numbers == [len(vectors[kind]) for kind in kinds]
+    listed = rows(three().page("downloads.html")).items()
+    (about,) = [about for link, (_, about) in listed if link.endswith("vectors.json")]
+    many = [len(vectors[kind]) for kind in ("valid", "unencodable", "invalid", "streams")]
+    assert [int(number) for number in re.findall(r"\d+", about)] == many
 
 
-@in_turn(
-    "size, said",
-    lambda: [
-        (0, "0 bytes"),
-        (1, "1 byte"),
-        (999, "999 bytes"),
-        (1000, "1.0 kB"),
-        (9300, "9.3 kB"),
-        (217952, "218 kB"),
-        (1_500_000, "1.5 MB"),
-    ],
-)
-def test_sizes_are_said_as_people_say_them(size: int, said: str) -> None:
-    assert size_in_words(size) == said
+def test_sizes_are_said_as_people_say_them() -> None:
+    sizes = {0: "0 bytes", 1: "1 byte", 999: "999 bytes", 1000: "1.0 kB", 9300: "9.3 kB"}
+    sizes |= {217952: "218 kB", 1_500_000: "1.5 MB"}
+    assert {size: size_in_words(size) for size in sizes} == sizes
 
 
 # ------------------------------------------------------------------ files that guides link to
@@ -116,20 +100,12 @@ def test_sizes_are_said_as_people_say_them(size: int, said: str) -> None:
 @pytest.fixture
 def docs(tmp_path: Path) -> Path:
     """Return the folder of the guides in a project with some other files."""
-    (tmp_path / "outside.bin").write_bytes(b"1")
     root = tmp_path / "project"
-    for path in (
-        *("docs/README.md", "lines/noisy.bin", "lines/noisy.md", "lines/other.bin"),
-        *(
-            "spec/lamps.yaml",
-            ".secret/key.bin",
-            "lines/.hidden",
-            "README.md",
-            "lines/two words.bin",
-        ),
-    ):
-        (root / path).parent.mkdir(parents=True, exist_ok=True)
-        (root / path).write_bytes(path.encode())
+    paths = [
+        *("docs/README.md", "lines/noisy.bin", "lines/noisy.md", "lines/other.bin", "README.md"),
+        *("spec/lamps.yaml", ".secret/key.bin", "lines/.hidden", "lines/two words.bin"),
+    ]
+    write_files({path: path for path in [*paths, "../outside.bin"]}, root)
     (root / "lines" / "way out.bin").symlink_to(tmp_path / "outside.bin")
     return root / "docs"
 
@@ -165,17 +141,9 @@ def test_a_file_that_is_too_large_is_named(docs: Path) -> None:
 def test_the_recordings_of_this_project_are_of_the_protocol_whose_frames_they_hold() -> None:
     specs = {ROOT / "spec" / f"{name}.yaml": name for name in ("busservo", "lxservo")}
     project = read_project({file: compiled_file(file) for file in specs}, ROOT / "docs")
-    found = {
-        compiled.spec.protocol.name: [
-            each.path for each in recordings_of(compiled.model, project.files)
-        ]
-        for compiled in project.specs
-    }
-    captures = ["cut_off.hex", "noisy_line.bin"]
-    assert found == {
-        "busservo": [f"files/tests/captures/{name}" for name in captures],
-        "lxservo": [],
-    }
+    found = [[each.path for each in recordings_of(it.model, project.files)] for it in project.specs]
+    captures = [f"files/tests/captures/{name}" for name in ("cut_off.hex", "noisy_line.bin")]
+    assert dict(zip(specs.values(), found, strict=True)) == {"busservo": captures, "lxservo": []}
 
 
 def test_a_recording_is_told_by_what_it_holds() -> None:
@@ -202,9 +170,7 @@ def test_recordings_are_on_the_page_and_their_links_lead_somewhere() -> None:
     guides = (("README.md", "# Lamps\n"), ("lines.md", "# L\n\n[one](<../lines/noisy line.bin>)\n"))
     site = Editions(FIRST, (), guides, files)
     page = site.page("downloads.html")
-    reached = {page.leads_to(link)[0] for link in page.links}
-    assert {"files/lines/noisy%20line.bin", "files/lines/noisy%20line.md"} <= reached
+    assert {"files/lines/noisy%20line.bin", "files/lines/noisy%20line.md"} <= page.reached
     assert "7 bytes, 1 message" in page.words
     assert "lamps decode --direction any 'noisy line.bin'" in page.words
-    guide = site.pages["lines.html"]
-    assert "files/lines/noisy%20line.bin" in [guide.leads_to(link)[0] for link in guide.links]
+    assert "files/lines/noisy%20line.bin" in site.pages["lines.html"].reached

@@ -1,13 +1,14 @@
 """Released editions in the site: a reference of each, and the way from each to the newest."""
 
 import re
+from collections.abc import Iterable
 from functools import cache
-from itertools import pairwise
 
 import pytest
 from framegen.comparison.listing import edition_of
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable
+from framegen.site.page import Page as SitePage
 
 from tests.factories import data_in
 from tests.in_turn import in_turn
@@ -18,19 +19,14 @@ from tests.unit.site.reference import Page, respelled
 from tests.unit.site.test_hostile_pages import HOSTILE
 
 ROOT = "reference/lamps/"
+RENAMED = "LampState is called LampLevel."
 
 
-def notice(page: Page) -> str:
-    """Return what a page of an older edition says at its top."""
-    found = re.search(r'<aside class="edition older".*?</p>', page.text, re.DOTALL)
-    return "" if found is None else " ".join(re.sub(r"<[^>]*>", "", found[0]).split())
-
-
-def led_to(page: Page) -> str:
-    """Return where the notice leads to."""
-    found = re.search(r'<aside class="edition older".*?href="([^"]*)"', page.text, re.DOTALL)
-    assert found is not None
-    return page.leads_to(found[1])[0]
+def notice(page: Page) -> tuple[str, str]:
+    """Return what a page of an older edition says at its top, and where that leads to."""
+    (found,) = re.findall(r'<aside class="edition older".*?</p>', page.text, re.DOTALL)
+    [*_, link] = re.findall(r'href="([^"]*)"', found)
+    return " ".join(re.sub(r"<[^>]*>", "", found).split()), page.leads_to(link)[0]
 
 
 def test_each_older_edition_has_a_reference_of_its_own() -> None:
@@ -41,12 +37,8 @@ def test_each_older_edition_has_a_reference_of_its_own() -> None:
         "1.0.0/": {"LampsSet", "LampRead", "LampState"},
     }
     for folder, names in messages.items():
-        found = {
-            path.removeprefix(f"{ROOT}{folder}messages/").removesuffix(".html")
-            for path in pages
-            if path.startswith(f"{ROOT}{folder}messages/")
-        }
-        assert found == names
+        found = [re.fullmatch(f"{ROOT}{folder}messages/(.*).html", path) for path in pages]
+        assert {each[1] for each in found if each} == names
     assert "u8" in three().page("2.0.0/messages/LampRead.html").words
     assert "u16" in three().page("messages/LampRead.html").words
 
@@ -64,25 +56,20 @@ def test_every_link_of_every_edition_leads_somewhere() -> None:
         ("2.0.0/messages/LampRead", "This page in 3.0.0", "messages/LampRead"),
         ("2.0.0/messages/LampLevel", "This page in 3.0.0", "messages/LampLevel"),
         ("2.0.0/messages/LampsSet", "LampsSet is gone in 3.0.0.", "index"),
-        (
-            "1.0.0/messages/LampState",
-            "In 3.0.0, LampState is called LampLevel.",
-            "messages/LampLevel",
-        ),
+        ("1.0.0/messages/LampState", f"In 3.0.0, {RENAMED}", "messages/LampLevel"),
         ("1.0.0/messages/LampsSet", "LampsSet is gone in 3.0.0.", "index"),
     ],
 )
 def test_an_older_page_leads_to_the_newest(page: str, said: str, path: str) -> None:
-    found = three().page(f"{page}.html")
-    version = page.partition("/")[0]
-    assert notice(found) == f"Version {version}, which is not the newest. {said}"
-    assert led_to(found) == f"{ROOT}{path}.html"
+    begins = f"Version {page.partition('/')[0]}, which is not the newest."
+    found = notice(three().page(f"{page}.html"))
+    assert found == (f"{begins} {said}", f"{ROOT}{path}.html")
 
 
 def test_a_name_that_only_seems_to_be_another_is_said_to_be_a_guess() -> None:
     guessed = SECOND.replace("    was: LampState\n", "")
     site = Editions(guessed, (FIRST,))
-    said = notice(site.page("1.0.0/messages/LampState.html"))
+    said, _ = notice(site.page("1.0.0/messages/LampState.html"))
     assert said.endswith("In 2.0.0, LampState may be LampLevel.")
     assert site.broken_links == []
 
@@ -92,18 +79,14 @@ def test_the_newest_page_offers_the_same_in_other_editions() -> None:
     (details,) = re.findall(r'<details class="edition">.*?</details>', page.text, re.DOTALL)
     assert "<summary>Version 3.0.0</summary>" in details
     links = [page.leads_to(link)[0] for link in re.findall(r'href="([^"]*)"', details)]
-    assert links == [
-        f"{ROOT}2.0.0/messages/LampLevel.html",
-        f"{ROOT}1.0.0/messages/LampState.html",
-        f"{ROOT}changelog.html",
-    ]
+    others = ["2.0.0/messages/LampLevel", "1.0.0/messages/LampState", "changelog"]
+    assert links == [f"{ROOT}{path}.html" for path in others]
     assert ", as LampState" in details
 
 
 def test_where_a_message_is_new_older_editions_say_so() -> None:
     site = Editions(FIRST, (edited(FIRST, {"remove": "LampsSet:"}),))
-    text = site.page("messages/LampsSet.html").text
-    assert "1.0.0: not there, see" in text
+    assert "1.0.0: not there, see" in site.page("messages/LampsSet.html").text
 
 
 def test_a_spec_without_other_editions_offers_none() -> None:
@@ -119,17 +102,15 @@ def test_the_last_release_is_not_rendered_twice() -> None:
     alone = Editions(f"# Released.\n{THIRD}", ())
     added = f"{ROOT}3.0.0/index.html"
     assert same.rendered.keys() - alone.rendered.keys() == {added}
-    page = same.page("3.0.0/index.html")
-    assert f"{ROOT}index.html" in [page.leads_to(link)[0] for link in page.links]
+    assert f"{ROOT}index.html" in same.page("3.0.0/index.html").reached
     assert {path: text for path, text in same.rendered.items() if path != added} == alone.rendered
 
 
 def test_another_order_is_another_edition() -> None:
-    read = "  LampRead:\n"
-    at = FIRST.index(read)
-    end = FIRST.index("  LampState:\n")
-    other = FIRST[: FIRST.index("  LampsSet:\n")] + FIRST[at:end]
-    other += FIRST[FIRST.index("  LampsSet:\n") : at] + FIRST[end:]
+    first, read, end = (
+        FIRST.index(f"  {name}:\n") for name in ("LampsSet", "LampRead", "LampState")
+    )
+    other = FIRST[:first] + FIRST[read:end] + FIRST[first:read] + FIRST[end:]
     paths = {page.path for page in Editions(other, (FIRST,)).site.pages}
     assert f"{ROOT}1.0.0/messages/LampRead.html" in paths
 
@@ -142,27 +123,24 @@ def test_what_waits_for_its_release_says_so() -> None:
 
 
 def test_older_editions_are_in_no_navigation_and_not_searched() -> None:
-    older = re.compile(rf"{ROOT}[0-9]")
-    site = three().site
-    linked = [link.path for section in site.sidebar for link in section.every_link]
-    assert [path for path in linked if older.match(path)] == []
+    linked = [link for section in three().site.sidebar for link in section.every_link]
+    assert [each.path for each in linked if re.match(rf"{ROOT}[0-9]", each.path)] == []
     assert "1.0.0/" not in three().rendered["search.html"]
-    (versions,) = [
-        link for section in site.sidebar for link in section.every_link if link.label == "Versions"
-    ]
-    assert versions.path == f"{ROOT}changelog.html"
+    versions = [each.path for each in linked if each.label == "Versions"]
+    assert versions == [f"{ROOT}changelog.html"]
 
 
 def test_search_engines_are_led_to_the_newest() -> None:
-    found = {page.path: page.canonical for page in three().site.pages}
-    assert found[f"{ROOT}2.0.0/messages/LampRead.html"] == f"{ROOT}messages/LampRead.html"
-    assert found[f"{ROOT}1.0.0/messages/LampState.html"] == f"{ROOT}messages/LampLevel.html"
-    assert found[f"{ROOT}1.0.0/stream.html"] == f"{ROOT}stream.html"
-    assert found[f"{ROOT}3.0.0/index.html"] == f"{ROOT}index.html"
-    # Of what is gone, no newer page tells.
-    assert found[f"{ROOT}2.0.0/messages/LampsSet.html"] == ""
-    assert found[f"{ROOT}messages/LampRead.html"] == ""
-    assert found["index.html"] == ""
+    found = {page.path.removeprefix(ROOT): page.canonical for page in three().site.pages}
+    for path, newest in {
+        "2.0.0/messages/LampRead.html": "messages/LampRead.html",
+        "1.0.0/messages/LampState.html": "messages/LampLevel.html",
+        "1.0.0/stream.html": "stream.html",
+        "3.0.0/index.html": "index.html",
+        # Of what is gone, no newer page tells.
+        **dict.fromkeys(["2.0.0/messages/LampsSet.html", "messages/LampRead.html"], ""),
+    }.items():
+        assert found[path] == (newest and f"{ROOT}{newest}")
 
 
 def test_titles_and_trails_of_older_pages_have_the_version() -> None:
@@ -182,12 +160,11 @@ def elements_of_release(payload: str) -> dict[str, list[tuple[str, list[str]]]]:
 
     Code is left out: between two backticks, it is what a sentence may have.
     """
-    data = data_in(FIRST)
-    site = Editions(SECOND, (respelled(with_prose(data, payload)).text,))
-    pages = {path: site.page(f"{path}.html") for path in EXPOSED}
+    site = Editions(SECOND, (respelled(with_prose(data_in(FIRST), payload)).text,))
+    tags = {path: site.page(f"{path}.html").tags for path in EXPOSED}
     return {
-        path: [(tag, sorted(given)) for tag, given in page.tags if tag != "code"]
-        for path, page in pages.items()
+        path: [(tag, sorted(given)) for tag, given in found if tag != "code"]
+        for path, found in tags.items()
     }
 
 
@@ -214,43 +191,32 @@ BOTH = Editions(SECOND, (FIRST,))
 
 def test_one_page_of_an_edition_leads_to_the_next() -> None:
     site = BOTH.site
+
+    def beside(pages: Iterable[SitePage]) -> list[tuple[str | None, str | None]]:
+        links = [site.navigation.neighbours(page) for page in pages]
+        return [(before and before.path, after and after.path) for before, after in links]
+
     (older,) = site.collection.older
     paths = [page.path for page in older.pages]
-    for before, after in pairwise(older.pages):
-        next_link, previous = (
-            site.navigation.neighbours(before)[1],
-            site.navigation.neighbours(after)[0],
-        )
-        assert next_link is not None
-        assert previous is not None
-        assert (next_link.path, previous.path) == (after.path, before.path)
-    assert site.navigation.neighbours(older.pages[0])[0] is None
-    assert site.navigation.neighbours(older.pages[-1])[1] is None
-    newest = {
-        link.path
-        for page in site.references[0].pages
-        for link in site.navigation.neighbours(page)
-        if link
-    }
+    assert beside(older.pages) == [*zip([None, *paths], [*paths[1:], None], strict=False)]
+    newest = {path for pair in beside(site.references[0].pages) for path in pair}
     assert newest.isdisjoint(paths)
 
 
 def test_live_fields_are_on_messages_of_the_newest_edition() -> None:
-    shown = {
-        path: "live-data" in text
+    shown = [
+        ("/1.0.0/" not in path, "live-data" in text)
         for path, text in BOTH.rendered.items()
-        if path.endswith(".html") and "/messages/" in path
-    }
-    assert {"/1.0.0/" not in path for path, live in shown.items() if live} == {True}
-    assert {"/1.0.0/" in path for path, live in shown.items() if not live} == {True}
+        if re.search(r"/messages/.*\.html$", path)
+    ]
+    assert {*shown} == {(True, True), (False, False)}
 
 
 @in_turn("count", lambda: [40_000, 5_000_000_000])
 def test_frames_that_no_memory_holds_are_refused(count: int) -> None:
     """They would be made to be compared."""
     text = WIDE.replace("count: 1..8", f"count: 1..{count}")
-    size = r"[0-9]+"
-    message = rf"released/lamps\.yaml: LampsSet has frames of up to {size} bytes, and no frame"
+    message = r"released/lamps\.yaml: LampsSet has frames of up to [0-9]+ bytes, and no frame"
     with pytest.raises(Unusable, match=message):
         edition_of(Source("spec/released/lamps.yaml", text))
 
