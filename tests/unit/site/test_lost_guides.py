@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import posixpath
 import re
 import shutil
-from contextlib import redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,6 +14,7 @@ import pytest
 from framegen.cli import main
 from framegen.site.guides.links import is_elsewhere
 
+from tests.commands import called
 from tests.factories import write_files
 from tests.in_turn import in_turn
 from tests.unit.site.reference import LAMP, Page
@@ -46,46 +45,21 @@ FILES = (
     *("docs/reference/stage_lamp/README.md", "docs/sub/README.md"),
 )
 # What is linked to, by its path in the project, and whether that leads somewhere.
-LINKS = {
-    "docs/first.md": True,
-    "docs/first.md#a-part": True,
-    "docs/first.md#a-prat": False,
-    "docs/FIRST.md": False,
-    "docs/sub/deep.md": True,
-    "docs/sub/deep.md#gr%C3%B6%C3%9Fe": True,
-    "docs/sub": True,
-    "docs/none.md": False,
-    "docs/reference/stage_lamp/README.md": True,
-    "docs/reference/stage_lamp/README.md#frames": True,
-    "docs/reference/stage_lamp/README.md#workbench": True,
-    "docs/reference/stage_lamp/README.md#nowhere": False,
-    "docs/reference/stage_lamp/messages/ColourShow.md": True,
-    "docs/reference/stage_lamp/messages/ColourHide.md": False,
-    "docs/reference/other/README.md": False,
-    "spec/lamp.yaml": True,
-    "spec/other.yaml": False,
-    "RULES.md": True,
-    "RULES.md#one": True,
-    "RULES.md#two": False,
-    "unlisted.md": False,
-    "captures/g.hex": True,
-    "LICENSE": True,
-    "docs/data/e.csv": True,
-    ".j/k.csv": False,
-    "../beyond.txt": False,
-    "captures": False,
-    ".": False,
-}
-PICTURES = {
-    "docs/images/a.svg": True,
-    "docs/images/more/b.svg": True,
-    "docs/figures/c%20d.svg": True,
-    "assets/f.png": True,
-    "docs/images/none.svg": False,
-    "assets/none.png": False,
-    "docs/.h/i.png": False,
-    "docs/first.md": False,
-}
+THERE = """
+docs/first.md docs/first.md#a-part docs/sub docs/sub/deep.md docs/sub/deep.md#gr%C3%B6%C3%9Fe
+docs/reference/stage_lamp/README.md docs/reference/stage_lamp/README.md#frames RULES.md#one
+docs/reference/stage_lamp/README.md#workbench captures/g.hex spec/lamp.yaml RULES.md LICENSE
+docs/reference/stage_lamp/messages/ColourShow.md docs/data/e.csv
+"""
+GONE = """
+docs/first.md#a-prat docs/FIRST.md docs/none.md docs/reference/stage_lamp/README.md#nowhere
+docs/reference/stage_lamp/messages/ColourHide.md docs/reference/other/README.md spec/other.yaml
+RULES.md#two unlisted.md .j/k.csv ../beyond.txt captures .
+"""
+LINKS = dict.fromkeys(THERE.split(), True) | dict.fromkeys(GONE.split(), False)
+SHOWN = "docs/images/a.svg docs/images/more/b.svg docs/figures/c%20d.svg assets/f.png"
+LOST = "docs/images/none.svg assets/none.png docs/.h/i.png docs/first.md"
+PICTURES = dict.fromkeys(SHOWN.split(), True) | dict.fromkeys(LOST.split(), False)
 # The same in any guide: what is written, and whether it is kept.
 ANYWHERE = {
     "[{}](#here)": True,
@@ -144,30 +118,34 @@ def cases(guide: str, lines: list[str]) -> Iterator[Case]:
         lines += [form.format(words), ""]
 
 
-def written(root: Path, guides: dict[str, str]) -> Path:
+# Guides of each place that has some: what they begin with, and their pages.
+GUIDES = {
+    "first.md": "# First\n\n## A part\n\n## Here\n",
+    "sub/deep.md": "# Deep\n\n## Größe\n\n## Here\n",
+    "../RULES.md": "# Rules\n\n## One\n\n## Here\n",
+}
+HTML = {
+    "first.md": "first.html",
+    "sub/deep.md": "sub/deep.html",
+    "../RULES.md": "project/rules.html",
+}
+
+
+def written(root: Path, readme: str, guides: dict[str, str] = GUIDES) -> Path:
     """Write a project anew, with a guide from each of the places where guides are."""
     shutil.rmtree(root, ignore_errors=True)
     write_files(dict.fromkeys([*FILES, "../beyond.txt"], "x\n"), root)
-    write_files({"spec/lamp.yaml": LAMP.read_text("utf-8")}, root)
+    write_files({"spec/lamp.yaml": LAMP.read_text("utf-8"), "docs/README.md": readme}, root)
     write_files({f"docs/{name}": text for name, text in guides.items()}, root)
     return root
 
 
-# Guides of each place that has some: their pages, and what they begin with.
-GUIDES = {
-    "first.md": ("first.html", "# First\n\n## A part\n\n## Here\n"),
-    "sub/deep.md": ("sub/deep.html", "# Deep\n\n## Größe\n\n## Here\n"),
-    "../RULES.md": ("project/rules.html", "# Rules\n\n## One\n\n## Here\n"),
-}
-
-
 def build(root: Path, *words: str) -> tuple[int, str]:
     """Build the site of a project beside it; return the status, and what is said."""
-    said = io.StringIO()
-    with pytest.MonkeyPatch.context() as patch, redirect_stderr(said), redirect_stdout(said):
+    with pytest.MonkeyPatch.context() as patch:
         patch.chdir(root)
-        status = main(["docs", "--out", "../site", *words])
-    return status, said.getvalue()
+        status, out, err = called(main, "docs", "--out", "../site", *words)
+    return status, err + out
 
 
 class Built(NamedTuple):
@@ -181,9 +159,9 @@ class Built(NamedTuple):
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
     root = tmp_path_factory.mktemp("lost") / "root"
-    lines = {guide: text.split("\n") for guide, (_, text) in GUIDES.items()}
+    lines = {guide: text.split("\n") for guide, text in GUIDES.items()}
     due = {guide: [*cases(guide, lines[guide])] for guide in GUIDES}
-    written(root, {"README.md": PLAN} | {guide: "\n".join(lines[guide]) for guide in GUIDES})
+    written(root, PLAN, {guide: "\n".join(lines[guide]) for guide in GUIDES})
     status, said = build(root)
     assert status == 0, said
     places = re.findall(r"^(\S+):(\d+):(\d+): guide-\w+: \S", said, re.MULTILINE)
@@ -202,15 +180,16 @@ def test_what_is_not_on_the_page_is_told_and_nothing_else(built: Built, guide: s
     assert built.told.keys() == GUIDES.keys()
 
 
-@cache
-def page_in(site: Path, path: str) -> Page:
+def page_of(site: Path, path: str) -> Page:
     return Page(path, (site / path).read_text("utf-8"))
+
+
+page_in = cache(page_of)
 
 
 @in_turn("guide", lambda: GUIDES)
 def test_what_is_not_told_is_on_the_page(built: Built, guide: str) -> None:
-    path = GUIDES[guide][0]
-    page = page_in(built.site, path)
+    page = page_in(built.site, HTML[guide])
     for case in built.due[guide]:
         if (case.line, case.column) in built.told[guide]:
             continue
@@ -249,21 +228,15 @@ PLANS = {
 
 @in_turn("text", lambda: PLANS)
 def test_what_of_the_plan_is_on_no_page_is_told(tmp_path: Path, text: str) -> None:
-    readme = f"{PLAN}{text}\n"
-    root = written(tmp_path / "root", {"README.md": readme, **heads()})
-    status, said = build(root)
+    status, said = build(written(tmp_path / "root", f"{PLAN}{text}\n"))
     assert status == 0
     line = PLAN.count("\n") + 1 + (len(text) - len(text.lstrip("\n")))
     places = re.findall(r"^docs/README\.md:.*", said, re.MULTILINE)
     assert len(places) == bool(PLANS[text]), said
     assert all(each.startswith(f"docs/README.md:{line}:{PLANS[text]}") for each in places), said
-    home = Page("index.html", (tmp_path / "site" / "index.html").read_text("utf-8"))
+    home = page_of(tmp_path / "site", "index.html")
     if not places:
         assert {*re.findall(r"\]\(([^)]*)\)", text)} - {"first.md"} <= {*home.links, *home.loads}
-
-
-def heads() -> dict[str, str]:
-    return {guide: text for guide, (_, text) in GUIDES.items()}
 
 
 @in_turn(
@@ -276,12 +249,10 @@ def heads() -> dict[str, str]:
     ],
 )
 def test_a_readme_has_its_title_anywhere(tmp_path: Path, readme: str, title: str) -> None:
-    root = written(tmp_path / "root", {"README.md": readme, **heads()})
-    assert build(root)[0] == 0
-    home = Page("index.html", (tmp_path / "site" / "index.html").read_text("utf-8"))
+    assert build(written(tmp_path / "root", readme))[0] == 0
+    home = page_of(tmp_path / "site", "index.html")
     assert f"<title>{title}</title>" in home.text
-    for line in re.findall(r"^\w.*\.$", readme, re.MULTILINE):
-        assert line in home.words
+    assert home.lacks(re.findall(r"^\w.*\.$", readme, re.MULTILINE)) == []
     assert "====" not in home.words
 
 
@@ -289,7 +260,7 @@ def test_a_readme_has_its_title_anywhere(tmp_path: Path, readme: str, title: str
 
 
 def test_what_is_lost_is_an_error_if_that_is_wanted(tmp_path: Path) -> None:
-    root = written(tmp_path / "root", {"README.md": PLAN, **heads()})
+    root = written(tmp_path / "root", PLAN)
     status, said = build(root, "--strict")
     assert status == 0
     assert said.endswith(f"{Path('../site/index.html')}\n")
@@ -311,7 +282,7 @@ def test_what_is_lost_is_an_error_if_that_is_wanted(tmp_path: Path) -> None:
 
 
 def test_nothing_is_left_behind_where_nothing_was_written(tmp_path: Path) -> None:
-    root = written(tmp_path / "root", {"README.md": PLAN, **heads(), "first.md": "[a](b)\n"})
+    root = written(tmp_path / "root", PLAN, GUIDES | {"first.md": "[a](b)\n"})
     before = {*tmp_path.iterdir()}
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(root)
