@@ -59,13 +59,8 @@ def test_pieces_and_bytes_that_are_not_sent_are_summed_as_one() -> None:
     for name, width in METHODS:
         data, unsent = chance.randbytes(40), chance.randbytes(3)
         start, middle, end = sorted(chance.sample(range(41), 3))
-        asked.append(
-            (
-                checksum_method(part(name, width)),
-                data,
-                [[middle, end], [*unsent], [start, middle], [end, end]],
-            )
-        )
+        pieces = [[middle, end], [*unsent], [start, middle], [end, end]]
+        asked.append((checksum_method(part(name, width)), data, pieces))
         covered = data[middle:end] + unsent + data[start:middle]
         expected.append(CHECKSUMS[name].of(covered, width))
     assert run_script(["checksums"], OF_PIECES, asked) == expected

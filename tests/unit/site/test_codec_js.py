@@ -1,15 +1,17 @@
-"""The codec in the page, under node: compared with the reference."""
+"""The codec in the page, under node: compared with the reference, and with libraries."""
 
 import random
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
+from importlib import import_module
+from itertools import accumulate
 from typing import Any
 
 import pytest
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode, encode, values_of
-from framegen.model.layout import MessageLayout
 from framegen.model.model import Model, derive
 from framegen.model.stream import ReferenceDecoder
 from framegen.site.scripts.codec_scripts import codec_scripts
@@ -31,6 +33,12 @@ SERVO = reference("busservo").model
 OTHERS = sorted({*(ROOT / "tests" / "specs").glob("*.yaml")} - {*FILES.values()})
 SPECS = {"busservo": BUSSERVO, **{file.stem: file for file in OTHERS}, **FILES}
 
+COVERED = ["command", "parameters"]
+LENGTH_AND_BODY = {
+    "length": {"is": "length", "type": "u8", "counts": ["length", *COVERED]},
+    "command": {"is": "id", "type": "u8"},
+    "parameters": {"is": "body"},
+}
 # Other envelopes of busservo than those of the specs, whether or not a spec can have them yet.
 ENVELOPES: dict[str, dict[str, Any]] = {
     "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
@@ -38,22 +46,13 @@ ENVELOPES: dict[str, dict[str, Any]] = {
     "a header in two parts": {
         "header": {"is": "constant", "bytes": "55"},
         "version": {"is": "constant", "bytes": "01"},
-        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
-        "command": {"is": "id", "type": "u8"},
-        "parameters": {"is": "body"},
+        **LENGTH_AND_BODY,
     },
     "a checksum that covers one behind it": {
         "header": {"is": "constant", "bytes": "55 55"},
         "sum": {"is": "checksum", "type": "u8", "method": "sum", "covers": ["command", "crc"]},
-        "length": {"is": "length", "type": "u8", "counts": ["length", "command", "parameters"]},
-        "command": {"is": "id", "type": "u8"},
-        "parameters": {"is": "body"},
-        "crc": {
-            "is": "checksum",
-            "type": "u16",
-            "method": "crc-16/modbus",
-            "covers": ["command", "parameters"],
-        },
+        **LENGTH_AND_BODY,
+        "crc": {"is": "checksum", "type": "u16", "method": "crc-16/modbus", "covers": COVERED},
     },
     "an id of two bytes before a length of two": {
         "header": {"is": "constant", "bytes": "55 55"},
@@ -92,12 +91,10 @@ const answers = asked.questions.map((question) => {
 """
 
 
-def ask(model: Model, questions: list[tuple[Any, ...]]) -> list[Any]:
+def ask(model: Model, questions: list[tuple[Any, ...]]) -> Any:
     """Return the answers of the page's codec."""
-    answers: list[Any] = run_script(
-        codec_scripts(model), PROGRAM, {"protocol": protocol_data(model), "questions": questions}
-    )
-    return answers
+    asked = {"protocol": protocol_data(model), "questions": questions}
+    return run_script(codec_scripts(model), PROGRAM, asked)
 
 
 @cache
@@ -196,89 +193,22 @@ def _verdict(model: Model, way: Direction | None, data: bytes) -> list[Any]:
 @of_each
 def test_every_example_is_encoded_as_the_reference_encodes_it(name: str) -> None:
     model = model_of(name)
-    examples = [
-        (message, example.values)
-        for message in model.messages.values()
-        for example in message.message.examples
-    ]
-    found = ask(model, [("encode", each.name, whole(each, values)) for each, values in examples])
-    assert found == [list(encode(each, values)) for each, values in examples]
-
-
-def whole(message: MessageLayout, values: dict[str, Any]) -> dict[str, Any]:
-    """Return the values of an example, with null for each field that is absent."""
-    absent: dict[str, Any] = {slot.name: None for slot in message.optional}
-    return absent | values
-
-
-# ---------------------------------------------------------------------------- by hand
-
-# What a line says, by the parts in which it comes.
-LINES = {
-    "a frame of unknown id is shown": (
-        "555504630102 55550207 quiet",
-        ["unknown 555504630102", "message ActionGroupStop 55550207", "quiet"],
-    ),
-    "it is shown once all of it came": ("5555046301 02", ["unknown 555504630102"]),
-    "it waits for all of it": ("5555046301", []),
-    "it ends when the line goes quiet": (
-        "5555046301 quiet 02 quiet",
-        ["noise unknown-command 5555046301", "quiet", "noise bad-header 02", "quiet"],
-    ),
-    "a message in it is worth more": (
-        "5555 08630155 5502 07",
-        ["noise unknown-command 5555086301", "message ActionGroupStop 55550207"],
-    ),
-    "and so is what may become one by its own bytes": (
-        "55550463 5555 0207 quiet",
-        ["noise unknown-command 55550463", "message ActionGroupStop 55550207", "quiet"],
-    ),
-    "whatever the bytes behind it say": (
-        "55550463 5555 01 quiet",
-        ["noise unknown-command 55550463", "noise length-mismatch 555501", "quiet"],
-    ),
-    "a refused length is no claim": ("55550163 quiet", ["noise length-mismatch 55550163", "quiet"]),
-    "a header that has begun waits": ("0055", ["noise bad-header 00"]),
-    "a frame that is cut short is too short": (
-        "55550803 quiet",
-        ["noise too-short 55550803", "quiet"],
-    ),
-}
-
-
-def stream(*parts: str, way: str | None = None) -> tuple[Any, ...]:
-    """Return the question what comes of these parts of a line: bytes in hex, or `quiet`."""
-    return "stream", way, [None if each == "quiet" else bytes.fromhex(each) for each in parts], 257
-
-
-@in_turn("title", lambda: LINES)
-def test_a_line_is_decoded_into_these_events(title: str) -> None:
-    line, expected = LINES[title]
-    (found,) = ask(SERVO, [stream(*line.split(), way="host_to_controller")])
-    assert [_in_words(*_said(each)) for each in found] == expected
-
-
-def _in_words(kind: str, data: str, what: tuple[str, Any] | None) -> str:
-    name = what[0].replace(" ", "-") if what and kind != "unknown" else ""
-    return " ".join(filter(None, [kind, name, data]))
-
-
-def test_a_recorded_line_is_decoded_as_the_reference_decodes_it() -> None:
-    line = (ROOT / "tests" / "captures" / "noisy_line.bin").read_bytes()
-    for key, ways in ways_of(SERVO):
-        room = SERVO.largest(ways)
-        (found,) = ask(SERVO, [("stream", key, [line, None], room)])
-        assert joined(map(_said, found)) == joined(_events(SERVO, ways, room, [line, None]))
+    questions: list[tuple[Any, ...]] = []
+    expected = []
+    for message in model.messages.values():
+        # With null for each field that is absent.
+        absent: dict[str, Any] = {slot.name: None for slot in message.optional}
+        for values in (example.values for example in message.message.examples):
+            questions.append(("encode", message.name, absent | values))
+            expected.append(list(encode(message, values)))
+    assert ask(model, questions) == expected
 
 
 # What a line says both ways: where each piece stands, its bytes, and the byte where it was refused.
 PIECES = {
     "noise without a header": ("00 01 02", [(0, "000102", 0)]),
     "a header that ends too early": ("00 55 AA", [(0, "0055aa", 0)]),
-    "each refused header begins a piece": (
-        "55 55 01 00 55 55 00",
-        [(0, "55550100", 2), (4, "555500", 6)],
-    ),
+    "a refused header begins one": ("55 55 01 00 55 55 00", [(0, "55550100", 2), (4, "555500", 6)]),
     "a count that is wrong": ("55 55 08 03 02 E8", [(0, "5555080302e8", 4)]),
     "what was cut short": ("55 55 08 03 01", [(0, "5555080301", 5)]),
     "a run of header bytes is one": ("55 55 55 55 55 01", [(0, "555555", 3), (3, "555501", 5)]),
@@ -289,12 +219,10 @@ PIECES = {
 @in_turn("title", lambda: PIECES)
 def test_noise_is_reported_in_pieces_with_the_refused_byte(title: str) -> None:
     text, expected = PIECES[title]
-    digits = text.replace(" ", "")
-    single = [digits[at : at + 2] for at in range(0, len(digits), 2)]
-    whole, cut = ask(SERVO, [stream(digits, "quiet"), stream(*single, "quiet")])
-    assert [(at, bytes(data).hex(), refused) for _, data, _, _, at, refused in whole[:-1]] == (
-        expected
-    )
+    cuts = [[bytes.fromhex(text), None], [*map(bytes.fromhex, text.split()), None]]
+    whole, cut = ask(SERVO, [("stream", None, parts, 257) for parts in cuts])
+    found = [(at, bytes(data).hex(), refused) for _, data, _, _, at, refused in whole[:-1]]
+    assert found == expected
     # A piece that is cut goes on, at its own place, and was refused where it was.
     assert bytewise(cut) == bytewise(whole)
 
@@ -309,61 +237,129 @@ def bytewise(events: list[Any]) -> list[tuple[int, int, int]]:
 
 
 # Values that no frame can carry, by protocol and message: what is changed, and the refusal.
-UNUSABLE: list[tuple[str, str, dict[str, Any], str]] = [
-    ("busservo", "ServoMove", {"time_ms": 65536}, "time_ms: 65536 is outside 0..65535"),
-    ("busservo", "ServoMove", {"time_ms": 1.5}, "time_ms: a whole number is due"),
-    (
-        "busservo",
-        "ServoMove",
-        {"targets": [{"servo_id": 1, "position": 70000}]},
-        "targets[0].position: 70000 is outside 0..65535",
-    ),
-    ("busservo", "ServoMove", {"targets": []}, "targets: 0 items is outside 1..83"),
-    (
-        "busservo",
-        "ServoMove",
-        {"targets": [{"servo_id": 1}]},
-        "targets[0].position: a whole number is due",
-    ),
-    ("lxservo", "Move", {"servo_id": 255}, "servo_id: 255 is outside 0..254"),
-    ("lxservo", "Move", {"servo_id": 1.5}, "servo_id: a whole number is due"),
-    ("sbus", "Channels", {"channels": [0] * 15}, "channels: 15 numbers, and it has 16"),
-    ("sbus", "Channels", {"channels": [2048] * 16}, "channels[0]: 2048 is outside 0..2047"),
-    (
-        "mavlink1",
-        "ParameterRead",
-        {"name": 17 * "a"},
-        "name: 17 characters, and it has room for 16",
-    ),
-    ("mavlink1", "ParameterRead", {"name": "é"}, "name: “é” is not ASCII"),
-    ("mavlink1", "Parameter", {"value": 1e39}, "value: 1e+39 does not fit"),
-    (
-        "mavlink1",
-        "SystemTime",
-        {"unix_us": 1 << 64},
-        f"unix_us: {1 << 64} is outside 0..{(1 << 64) - 1}",
-    ),
-    ("modbus", "Holding", {"registers": []}, "registers: 0 items is outside 1..125"),
-]
+UNUSABLE: dict[tuple[str, str], list[tuple[dict[str, Any], str]]] = {
+    ("busservo", "ServoMove"): [
+        ({"time_ms": 65536}, "time_ms: 65536 is outside 0..65535"),
+        ({"time_ms": 1.5}, "time_ms: a whole number is due"),
+        ({"targets": []}, "targets: 0 items is outside 1..83"),
+        ({"targets": [{"servo_id": 1}]}, "targets[0].position: a whole number is due"),
+        (
+            {"targets": [{"servo_id": 1, "position": 70000}]},
+            "targets[0].position: 70000 is outside 0..65535",
+        ),
+    ],
+    ("lxservo", "Move"): [
+        ({"servo_id": 255}, "servo_id: 255 is outside 0..254"),
+        ({"servo_id": 1.5}, "servo_id: a whole number is due"),
+    ],
+    ("sbus", "Channels"): [
+        ({"channels": [0] * 15}, "channels: 15 numbers, and it has 16"),
+        ({"channels": [2048] * 16}, "channels[0]: 2048 is outside 0..2047"),
+    ],
+    ("mavlink1", "ParameterRead"): [
+        ({"name": 17 * "a"}, "name: 17 characters, and it has room for 16"),
+        ({"name": "é"}, "name: “é” is not ASCII"),
+    ],
+    ("mavlink1", "Parameter"): [({"value": 1e39}, "value: 1e+39 does not fit")],
+    ("mavlink1", "SystemTime"): [
+        ({"unix_us": 1 << 64}, f"unix_us: {1 << 64} is outside 0..{(1 << 64) - 1}")
+    ],
+    ("modbus", "Holding"): [({"registers": []}, "registers: 0 items is outside 1..125")],
+}
 
 
-@in_turn("name, message, wrong, refusal", lambda: UNUSABLE)
-def test_values_that_no_frame_can_carry_are_refused(
-    name: str, message: str, wrong: dict[str, Any], refusal: str
-) -> None:
-    model = model_of(name)
+@in_turn("name, message", lambda: UNUSABLE)
+def test_values_that_no_frame_can_carry_are_refused(name: str, message: str) -> None:
+    model, rows = model_of(name), UNUSABLE[name, message]
     values = model.messages[message].message.examples[0].values
-    (found,) = ask(model, [("encode", message, {**values, **wrong})])
-    assert found["refused"] == refusal
+    found = ask(model, [("encode", message, {**values, **wrong}) for wrong, _ in rows])
+    assert found == [{"refused": refusal} for _, refusal in rows]
 
 
 def test_hex_is_read_as_the_library_reads_it() -> None:
     texts = [text for text, _ in HEX] + NO_HEX + random_texts(1000)
-    expected: list[Any] = []
-    for text in texts:
-        try:
-            expected.append(list(read_hex(text)))
-        except HexError:
-            expected.append(None)
+    expected: list[Any] = [None] * len(texts)
+    for at, text in enumerate(texts):
+        with suppress(HexError):
+            expected[at] = list(read_hex(text))
     replies = ask(SERVO, [("hex", text) for text in texts])
     assert [each if isinstance(each, list) else None for each in replies] == expected
+
+
+# ---------------------------------------------------------------------------- long lines
+
+# More than two of the blocks that the codec copies into, and of the windows that it looks at.
+SIZE = 150_000
+LONG = """
+const codec = makeCodec(asked.protocol), line = Uint8Array.from(asked.line);
+function decoded(cuts) {
+  const stream = codec.makeStream({ direction: asked.direction }), events = [], held = [];
+  let start = 0;
+  for (const end of [...cuts, line.length]) {
+    const chunk = line.slice(start, end);
+    events.push(...stream.feed(chunk));
+    // What was fed is the caller's, who may use it again.
+    chunk.fill(0);
+    held.push([stream.pending, stream.position]);
+    start = end;
+  }
+  events.push(...stream.flush());
+  held.push([stream.pending, stream.position]);
+  return [events.map(({ type, at, size, bytes, message, reason }) => (
+    [type, at, size, Buffer.from(bytes).toString("hex"), message || reason])), held];
+}
+const answers = asked.cuts.map(decoded);
+"""
+
+
+def cuts(chance: random.Random, most: int) -> list[int]:
+    """Return where a line is cut, into chunks of up to so many bytes."""
+    found = [0]
+    while found[-1] < SIZE:
+        found.append(found[-1] + chance.randint(1, most))
+    return found[1:-1]
+
+
+@in_turn("name", lambda: ["busservo", "lxservo"])
+def test_a_long_line_is_decoded_as_by_the_library_however_it_is_cut(name: str) -> None:
+    model = model_of(name)
+    chance = random.Random(name)  # noqa: S311 - the same line in every run
+    line = b""
+    while len(line) < SIZE:
+        line += b"".join(noisy_lines(model, len(line), 100))
+        # Noise that is longer than a block has an event that is.
+        line += bytes(chance.choice([0, 0, 70_000 if len(line) > SIZE // 2 else 0]))
+    line = line[:SIZE]
+    way = model.directions[0]
+    library = import_module(name)
+    decoder = library.StreamDecoder(library.Direction(way.key))
+    expected = [*decoder.feed(line), *decoder.flush()]
+    asked = {
+        "protocol": protocol_data(model),
+        "line": line,
+        "direction": way.key,
+        "cuts": [[], cuts(chance, 50), cuts(chance, 100_000)],
+    }
+    for events, held in run_script(codec_scripts(model), LONG, asked):
+        said = [[kind, hex_, what] for kind, _, _, hex_, what in events]
+        assert joined(said) == joined(map(_as_the_page, expected))
+        assert [(at, size) for _, at, size, _, _ in events] == _places(events)
+        assert held[-1] == [0, SIZE]
+        largest = model.largest([way])
+        assert [pending for pending, _ in held if pending > largest] == []
+
+
+def _places(events: list[Any]) -> list[tuple[int, int]]:
+    """Return where events begin that follow each other, and how many bytes they have."""
+    sizes = [len(event[3]) // 2 for event in events]
+    return [*zip(accumulate([0, *sizes[:-1]]), sizes, strict=True)]
+
+
+def _as_the_page(event: Any) -> Event:
+    """Return an event of the library as the page gives it."""
+    name = type(event).__name__
+    if name == "Noise":
+        return ["noise", event.data.hex(), event.reason.value]
+    if name == "UnknownFrame":
+        return ["unknown", event.data.hex(), "unknown command"]
+    return ["message", event.encode().hex(), name]

@@ -44,43 +44,27 @@ const answers = asked.questions.map(([bytes, way]) => {
 """
 
 
-def explained(model: Model, questions: list[tuple[bytes, str | None]]) -> list[Any]:
-    """Return the explanations of the page."""
-    asked = {"protocol": protocol_data(model), "questions": questions}
-    answers: list[Any] = run_script(codec_scripts(model), PROGRAM, asked)
-    return answers
-
-
 def right(model: Model, data: bytes, way: str | None) -> Any:
     """Return what `framegen explain` says."""
-    ways = [each for each in model.directions if way in (None, each.key)]
-    found = explain(model, data, ways)
+    found = explain(model, data, [each for each in model.directions if way in (None, each.key)])
     return {
         "protocol": found.protocol,
         "readings": [
-            [each.message, each.direction, each.summary, _rows(each.rows), _lists(each.facts)]
+            [each.message, each.direction, each.summary, _rows(each), [*map(list, each.facts)]]
             for each in found.readings
         ],
         "refusals": [
-            [each.direction, each.reason, each.offset, each.expected, _rows(each.rows)]
+            [each.direction, each.reason, each.offset, each.expected, _rows(each)]
             for each in found.refusals
         ],
         "hints": [[each.text, _hex(each.frame)] for each in found.hints],
     }
 
 
-def _rows(rows: tuple[Row, ...]) -> list[Any]:
+def _rows(of: Any) -> list[Any]:
     return [
-        [
-            row.offset,
-            row.data.hex(" ").upper(),
-            row.path,
-            row.role,
-            _value(row),
-            row.text,
-            row.meaning,
-        ]
-        for row in rows
+        [row.offset, _hex(row.data), row.path, row.role, _value(row), row.text, row.meaning]
+        for row in of.rows
     ]
 
 
@@ -93,30 +77,19 @@ def _value(row: Row) -> Any:
     return "nan" if row.value != row.value else row.value
 
 
-def _lists(pairs: tuple[tuple[str, str], ...]) -> list[list[str]]:
-    return [list(pair) for pair in pairs]
-
-
 def frames_for(model: Model, name: str) -> list[bytes]:
     """Return documented frames, changed ones, frames of look-alikes, and noise."""
     chance = random.Random(name)  # noqa: S311 - the same frames in every run
-    examples = [each.examples for each in model.protocol.messages.values()]
-    examples += [each.examples for each in model.protocol.lookalikes.values()]
-    documented = [bytes.fromhex(each.hex) for some in examples for each in some]
+    said = [each for key in ("messages", "lookalikes") for each in model.plain.said[key].values()]
+    documented = [bytes.fromhex(example["hex"]) for each in said for example in each["examples"]]
     # Legal both ways; and of a length that no such message has.
     by_hand = ["55 55 05 06 08 01 00", "55 55 09 03 01 E8 03 01 20 03"] * (name == "busservo")
     found = [b"", *map(bytes.fromhex, by_hand), *documented]
-    for frame in documented:
-        found += [_changed(chance, frame) for _ in range(few(4))]
+    many = max(1, 4 * settings().max_examples // 100)
+    found += [_changed(chance, frame) for frame in documented for _ in range(many)]
     found += [line[: chance.randrange(2, 30)] for line in noisy_lines(model, 3, 30)]
     found += [chance.randbytes(size) for size in range(12)]
     return found
-
-
-def few(number: int) -> int:
-    """Return so many where Hypothesis tries a hundred examples, and as many more as it does."""
-    many: int = settings().max_examples
-    return max(1, number * many // 100)
 
 
 def _changed(chance: random.Random, frame: bytes) -> bytes:
@@ -142,5 +115,7 @@ def test_bytes_are_explained_in_the_words_of_the_reference(name: str) -> None:
         for data in frames_for(model, name)
         for way in (None, *(each.key for each in model.directions))
     ]
-    for (data, way), said in zip(questions, explained(model, questions), strict=True):
+    asked = {"protocol": protocol_data(model), "questions": questions}
+    answers = run_script(codec_scripts(model), PROGRAM, asked)
+    for (data, way), said in zip(questions, answers, strict=True):
         assert said == right(model, data, way), (data.hex(" "), way)
