@@ -19,8 +19,6 @@ Output may leave lines out with `...`; all else must agree to the letter.
 writes what is really printed into the pages.
 """
 
-from __future__ import annotations
-
 import contextlib
 import doctest
 import io
@@ -32,9 +30,10 @@ import subprocess
 import sys
 import tempfile
 import traceback
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from unittest import mock
 
 import busservo
@@ -49,9 +48,6 @@ from lxservo import open_controller as open_servos
 from lxservo_simulator import VirtualBus
 
 from tests.timeouts import GENEROUS, undoubted
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
 
 ROOT = Path(__file__).parents[1]
 # tests/unit/simulator/test_guide.py plays the guide to testing, which needs files of its own.

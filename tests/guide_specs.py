@@ -1,7 +1,5 @@
 """The specs that the guide to the spec language shows, put together from its blocks."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

@@ -1,17 +1,16 @@
 """The standard streams of commands, and text that would control a terminal."""
 
-from __future__ import annotations
-
 import io
 import json
 import os
 import subprocess
 import sys
 import unicodedata
+from collections.abc import Iterator, Sequence
 from functools import partial
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import busservo.__main__
 import busservo_simulator.cli
@@ -29,9 +28,6 @@ from tests.in_turn import in_turn
 from tests.programs import ran
 from tests.rows import Rows
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 Capture: TypeAlias = "pytest.CaptureFixture[str]"
 

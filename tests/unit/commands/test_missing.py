@@ -1,7 +1,5 @@
 """A change of the spec: everything that has to be written by hand is named, and nothing else."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

@@ -3,8 +3,6 @@
 test_draws_of_kinds.py compares the draws of processes that have imported other modules.
 """
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

@@ -1,17 +1,12 @@
 """Draws of each kind of property depend on no order, and on nothing that is imported."""
 
-from __future__ import annotations
-
 import os
 import sys
+from pathlib import Path
 from subprocess import run
 from textwrap import dedent
-from typing import TYPE_CHECKING
 
 import pytest
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 # A module imports one of two others. Of properties, there is one of each kind: what is drawn from
 # most, what has parameters by a mark or by a fixture, steps.

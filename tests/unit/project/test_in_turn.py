@@ -1,15 +1,11 @@
 """Rows that are tested in turn: all that fail are shown, and there has to be one."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @in_turn("one, other", lambda: [(1, 1), (1, 2), (3, 3), (4, 5)])

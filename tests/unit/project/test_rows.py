@@ -1,7 +1,5 @@
 """The rows of a table for tests/world: each with every row of the other tables of its test."""
 
-from __future__ import annotations
-
 from types import ModuleType
 
 import pytest

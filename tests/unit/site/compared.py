@@ -1,20 +1,12 @@
 """Compare the pages of a spec with those of a harmless one: they may differ in words only."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from framegen.reading.source import Source
 
-from tests.factories import yaml_of
-from tests.unit.site.reference import Reference, reference_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.factories import Data
-    from tests.unit.site.reference import Page
+from tests.factories import Data, yaml_of
+from tests.unit.site.reference import Page, Reference, reference_of
 
 _LINK = re.compile(r"(?<!\\)\]\(([^)]*)\)")
 

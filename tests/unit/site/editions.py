@@ -1,7 +1,5 @@
 """A protocol in three editions, told apart by what each changed: the site of all of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache, cached_property
 

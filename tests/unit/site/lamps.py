@@ -1,20 +1,15 @@
 """A small site of guides and one reference, with its pages parsed once for all tests."""
 
-from __future__ import annotations
-
 import html
 import re
 from functools import cache
-from typing import TYPE_CHECKING
 
+from framegen.compile import Compiled
 from framegen.render import snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
 
 from tests.unit.site.reference import Page, pages_of, reference
-
-if TYPE_CHECKING:
-    from framegen.compile import Compiled
 
 BASE = "https://example.org/docs/"
 README = """# Lamps

@@ -1,20 +1,15 @@
 """Noisy lines, and the events of reference and vectors, for comparisons with a page."""
 
-from __future__ import annotations
-
 import random
+from collections.abc import Iterable
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from framegen.language.values import Direction
 from framegen.model.codec import encode
+from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import settings
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
 
 # What a line said: the kind of the event, its bytes in hex, and the message or the reason.
 Event = list[Any]

@@ -1,29 +1,24 @@
 """The reference of two protocols, with its pages parsed once for all tests."""
 
-from __future__ import annotations
-
 import json
 import posixpath
 import shutil
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.compile import Compiled, compile_spec
 from framegen.language.load import read_source
+from framegen.model.model import Model
 from framegen.reading.source import Source
 from framegen.render import render_target, snippets
 from framegen.site.project import Project
 from framegen.site.rendering import render_page
 from framegen.site.site import Site, rendered
 from framegen.targets import docs
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
-
-    from framegen.model.model import Model
 
 ROOT = Path(__file__).parents[3]
 SPECS = {

@@ -3,22 +3,18 @@
 One process answers all tests of a worker: what a script leaves behind is gone with its function.
 """
 
-from __future__ import annotations
-
 import atexit
 import json
 import subprocess
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen import site
 from framegen.site.scripts.line_data import LINE_SCRIPT
 
 from tests.unit.site.reference import NODE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 STATIC = Path(site.__file__).parent / "static" / "js"
 # What talks over a line, but for what touches the page.

@@ -1,20 +1,15 @@
 """Each number of several bytes says which is first: on pages, in Markdown, and in a shell."""
 
-from __future__ import annotations
-
 import re
+from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tests.factories import DEMO, compiled_file, library, library_of
 from tests.in_turn import in_turn
 from tests.unit.site.reference import SPECS, Reference
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-    from pathlib import Path
 
 EVERYTHING = DEMO.with_name("everything.yaml")
 LOW, HIGH = "low byte first", "high byte first"

@@ -1,17 +1,17 @@
 """Captures as people have them, read by the script of the workbench under node."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
 import random
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import pytest
 from busservo import Reason, recordings
 from busservo._library import CODEC
+from busservo.recordings import Entry
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 from framewire.codec.event_bytes import bytes_of
@@ -24,11 +24,6 @@ from tests.in_turn import in_turn
 from tests.unit.site.peers import noisy_lines
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.scripts import run_script
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from busservo.recordings import Entry
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

@@ -1,7 +1,5 @@
 """Code blocks: what they show, what they copy, and their colours."""
 
-from __future__ import annotations
-
 import html
 import re
 

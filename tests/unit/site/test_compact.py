@@ -1,7 +1,5 @@
 """Scripts and style sheets on a page say what their files say."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from framegen.site.compact import compact_script, compact_style

@@ -1,14 +1,14 @@
 """The explanations of the page, under node: word for word those of `framegen explain`."""
 
-from __future__ import annotations
-
 import random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.explain import explain
+from framegen.model.model import Model
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
+from framewire.explain.explanation import Row
 from hypothesis import settings
 
 from tests.factories import BUSSERVO, compiled_file
@@ -17,10 +17,6 @@ from tests.rows import each_protocol
 from tests.unit.site.peers import noisy_lines
 from tests.unit.site.reference import NODE
 from tests.unit.site.scripts import run_script
-
-if TYPE_CHECKING:
-    from framegen.model.model import Model
-    from framewire.explain.explanation import Row
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

@@ -1,10 +1,8 @@
 """Guides as pages: where their links lead, which files become pages, and odd ones of all kinds."""
 
-from __future__ import annotations
-
 import re
 import shutil
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from framegen.reading.yamltree import Unusable
@@ -18,9 +16,6 @@ from tests.factories import compiled_file, write_files
 from tests.in_turn import in_turn
 from tests.unit.site.lamps import lamps, links, rendered_lamps
 from tests.unit.site.reference import LAMP, broken_links
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PLAN = "# Lamps\n\nAll of them.\n\n## Learn\n\n"
 

@@ -1,12 +1,12 @@
 """The JavaScript module: what it exports, used as others use it, and its types."""
 
-from __future__ import annotations
-
 import json
 import re
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
+from framegen.model.model import Model
 from framegen.site.scripts.javascript_module import javascript_module
 
 from tests.factories import BUSSERVO, DEMO, write_files
@@ -14,11 +14,6 @@ from tests.programs import ran
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.test_hostile_pages import HOSTILE, hostile
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from framegen.model.model import Model
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

@@ -1,17 +1,17 @@
 """What a page sends is what the Python client sends, and it refuses the rest in the same words."""
 
-from __future__ import annotations
-
 import copy
 import importlib
 import random
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from types import ModuleType
+from typing import Any
 
 import busservo
 import pytest
 from framegen.language.spec import Spec
 from framegen.model.codec import encode
-from framegen.model.model import derive
+from framegen.model.model import Model, derive
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.line_data import line_data
 from framegen.site.scripts.protocol_data import protocol_data
@@ -23,12 +23,6 @@ from tests.in_turn import in_turn
 from tests.protocols.specs import model_of
 from tests.unit.site.reference import NODE, ROOT, reference
 from tests.unit.site.scripts import SESSION, run_script
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
-
-    from framegen.model.model import Model
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

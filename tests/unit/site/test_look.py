@@ -1,10 +1,7 @@
 """What a site wears: docs/site.yaml, from its keys to the pages."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from framegen.cli import main
@@ -14,7 +11,7 @@ from framegen.render import snippets
 from framegen.site import shades
 from framegen.site.look import Look
 from framegen.site.project import Project
-from framegen.site.shades import BOUND, contrast, readable, worst_contrast
+from framegen.site.shades import BOUND, Theme, contrast, readable, worst_contrast
 from framegen.site.site import render_site
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,9 +20,6 @@ from tests.factories import write_files
 from tests.in_turn import in_turn
 from tests.unit.site.lamps import BASE, GUIDES, greenhouse, lamps, metas, rendered_lamps, title
 from tests.unit.site.reference import LAMP, Page, pages_of
-
-if TYPE_CHECKING:
-    from framegen.site.shades import Theme
 
 OWN = """title: "<b>Lamps</b> & more"
 logo: images/our logo.svg

@@ -1,13 +1,12 @@
 """What a guide shows and links to is on its page, or is told with its place."""
 
-from __future__ import annotations
-
 import posixpath
 import re
 import shutil
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from urllib.parse import unquote
 
 import pytest
@@ -18,9 +17,6 @@ from tests.commands import called
 from tests.factories import write_files
 from tests.in_turn import in_turn
 from tests.unit.site.reference import LAMP, Page
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 PLAN = """# Lamps
 

@@ -1,11 +1,11 @@
 """The words of the command in the page, under node: what is read, and what is refused where."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import pytest
 from busservo import ActionGroupRun, ActionGroupSpeed, ServoMove, ServoUnload
+from framegen.compile import Compiled
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 from framewire.command.usage_error import UsageError
@@ -17,11 +17,6 @@ from tests.mutations.places import renamed
 from tests.protocols.specs import FILES
 from tests.unit.site.reference import NODE, reference
 from tests.unit.site.scripts import run_script
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from framegen.compile import Compiled
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 

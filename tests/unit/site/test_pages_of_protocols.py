@@ -3,15 +3,15 @@
 So is its search: it has all there is, and leads to it.
 """
 
-from __future__ import annotations
-
 import json
 import re
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
+from framegen.model.layout import MessageLayout
 from framegen.model.slots import Items
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.targets.docs.stream_examples import stream_examples
@@ -24,11 +24,6 @@ from tests.rows import each_protocol, some
 from tests.unit.site.peers import joined, noisy_lines, reference_events
 from tests.unit.site.reference import NODE, SPECS, Reference, broken_links, reference
 from tests.unit.site.scripts import run_script
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.model.layout import MessageLayout
 
 ALL = {**SPECS, **FILES}
 # Those that have between them all kinds of parts and fields, and all that pages say of them.
@@ -126,21 +121,23 @@ def test_all_that_has_a_name_is_found_by_it(name: str) -> None:
 @of_each
 def test_every_documented_frame_is_found_by_its_bytes(name: str) -> None:
     model = site_of(name).model
-    frames = [
-        (message.name, message.direction.key, list(example.hex))
-        for message in model.messages.values()
-        for example in message.message.examples
+    examples = [
+        (each, shown) for each in model.messages.values() for shown in each.message.examples
     ]
+    frames = [(each.name, each.direction.key, list(shown.hex)) for each, shown in examples]
     program = """
     const bytesSearch = makeBytesSearch(asked.index);
-    const answers = asked.frames.map(([, , bytes]) => bytesSearch.find(bytes).judged);
+    const answers = asked.frames.map(([, , bytes]) => bytesSearch.find(bytes));
     """
     scripts = [*codec_scripts(model), "bytes_found"]
     asked = {"index": index_of(site_of(name)), "frames": frames}
-    for (message, way, data), judged in zip(
-        frames, run_script(scripts, program, asked), strict=True
-    ):
-        (mine,) = [each for each in judged if each["decoder"].endswith(f"&direction={way}")]
+    answers = run_script(scripts, program, asked)
+    for (message, way, data), (_, shown), found in zip(frames, examples, answers, strict=True):
+        assert shown.title in [each["title"] for each in found["known"]]
+        of_this_way = [
+            each for each in found["judged"] if each["decoder"].endswith(f"&direction={way}")
+        ]
+        (mine,) = of_this_way
         assert mine["title"] == message, bytes(data).hex(" ")
         assert mine["path"] == f"{site_of(name).folder}messages/{message}.html"
         assert mine["hex"] == bytes(data).hex(" ").upper()

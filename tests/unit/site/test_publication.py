@@ -1,9 +1,7 @@
 """A site at an address: whole addresses, a sitemap, a page for broken links."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -14,9 +12,6 @@ from framegen.site.publication import base_address
 from tests.in_turn import in_turn
 from tests.unit.site.lamps import BASE, lamps, metas, rendered_lamps
 from tests.unit.site.reference import ROOT, SPECS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_each_page_at_an_address_has_its_own() -> None:

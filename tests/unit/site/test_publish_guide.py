@@ -1,18 +1,13 @@
 """The guide to publishing: its commands, files and settings lead to the site that it describes."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+import pytest
 from framegen.cli import main
 from framegen.language.site_settings import SiteSettings
 
 from tests.unit.site.reference import ROOT
-
-if TYPE_CHECKING:
-    import pytest
 
 GUIDE = (ROOT / "docs" / "publish.md").read_text(encoding="utf-8")
 

@@ -1,11 +1,10 @@
 """The scripts that talk over a line, under node: a port that comes and goes, echoes, recordings."""
 
-from __future__ import annotations
-
 import io
 import random
+from collections.abc import Iterable, Iterator
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo import (
@@ -18,6 +17,7 @@ from busservo import (
 )
 from busservo._library import CODEC
 from framegen.model.codec import encode
+from framegen.model.model import Model
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.line_data import line_data
 from framegen.site.scripts.protocol_data import protocol_data
@@ -31,12 +31,6 @@ from tests.in_turn import in_turn
 from tests.unit.site.reference import NODE, reference
 from tests.unit.site.scripts import SESSION, run_script
 from tests.unit.site.serial_host import ADAPTER, FAKE_SERIAL
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from framegen.model.model import Model
-    from framewire.client.request import Request
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 MODEL = reference("busservo").model
@@ -132,7 +126,7 @@ PORTS = {
         f"{OPENED} | lost | CLOSE | opening | OPEN | open | got 3",
     ),
     "back, and not to be opened at once": (
-        "await open(); unplug(); await wait(20); board.refused = [true]; plugIn(); await wait(200);",
+        "await open(); unplug(); await wait(9); board.refused = [true]; plugIn(); await wait(200);",
         f"{OPENED} | lost | CLOSE | opening | OPEN | lost: NetworkError | opening | OPEN | open",
     ),
     "given up while it is lost": (
@@ -364,9 +358,8 @@ def test_echoes_are_taken_out_as_the_client_does() -> None:
 def by_the_client(frames: list[bytes], chunks: list[bytes]) -> list[Any]:
     """Return what the Python client makes of echoes, in the form of the page."""
     echo = LocalEcho()
-    request: Request = None  # type: ignore[assignment]  # it is only handed back
     for frame in frames:
-        echo.sent(request, frame, 9.0)
+        echo.sent(None, frame, 9.0)  # type: ignore[arg-type]  # the request is only handed back
     taken = []
     for chunk in chunks:
         before = len(echo._expected)

@@ -1,7 +1,5 @@
 """The frame of every page: navigation, contents, the landing page and the head."""
 
-from __future__ import annotations
-
 import html
 import re
 

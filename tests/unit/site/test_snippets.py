@@ -1,11 +1,10 @@
 """The code on the pages of messages: all of it runs, and does what it is shown for."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import shlex
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 from unittest import mock
 
 import busservo
@@ -13,8 +12,11 @@ import busservo.__main__
 import pytest
 from busservo_simulator import VirtualController
 from framegen.model.codec import encode, values_of
+from framegen.model.exchanges import Exchange
+from framegen.model.model import Model
 from framegen.model.verdict import weigh_whole
 from framegen.render import snippets
+from framegen.targets.target import Snippet
 
 from tests.factories import compiled_file, compiled_of, data_of, library, library_files, library_of
 from tests.handed import handed_by
@@ -26,13 +28,6 @@ from tests.mutations.places import having
 from tests.protocols.specs import FILES
 from tests.rows import some
 from tests.unit.site.reference import SPECS, reference
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from framegen.model.exchanges import Exchange
-    from framegen.model.model import Model
-    from framegen.targets.target import Snippet
 
 OTHERS = {**FILES, "greenhouse": SPECS["greenhouse"]}
 SERVO = reference("busservo").model
