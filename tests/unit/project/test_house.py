@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+from contextlib import suppress
 from pathlib import Path
 
 import busservo
@@ -36,10 +37,7 @@ MACHINE = {
     ),
     "the address of a package registry": (
         ["pypi.", "pythonhosted.", "registry.npmjs", "index-url", "/simple/"],
-        re.compile(
-            r"pypi\.(?:org|python)|pythonhosted\.|registry\.npmjs|(?:extra-)?index-url|/simple/",
-            re.IGNORECASE,
-        ),
+        re.compile(r"(?i)pypi\.(?:org|python)|pythonhosted\.|registry\.npmjs|index-url|/simple/"),
     ),
     "an address inside a network": (
         ["10.", "172.", "192.168."],
@@ -54,10 +52,9 @@ def our_files() -> list[Path]:
     git = shutil.which("git")
     if git is not None and (ROOT / ".git").exists():
         words = ("ls-files", "-z", "--cached", "--others", "--exclude-standard")
-        listed = ran(git, *words, status=None, cwd=ROOT)
-        if listed.returncode == 0:
-            names = listed.stdout.split("\0")
-            return sorted(ROOT / name for name in names if (ROOT / name).is_file())
+        names = ran(git, *words, status=None, cwd=ROOT).stdout.split("\0")
+        if found := sorted(ROOT / name for name in names if name and (ROOT / name).is_file()):
+            return found
     found = []
     for folder, folders, files in os.walk(ROOT):
         folders[:] = [name for name in folders if name not in LITTER]
@@ -65,22 +62,11 @@ def our_files() -> list[Path]:
     return sorted(found)
 
 
-def text_of(file: Path) -> str | None:
-    """Return the text of a file; None for bytes that are no text."""
-    try:
-        return file.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        return None
-
-
 NAME = "tests/unit/project/test_house.py"
-TEXTS = {
-    file.relative_to(ROOT).as_posix(): text
-    for file in our_files()
-    if (text := text_of(file)) is not None
-}
-
-
+TEXTS: dict[str, str] = {}
+for each in our_files():
+    with suppress(UnicodeDecodeError):  # bytes that are no text
+        TEXTS[each.relative_to(ROOT).as_posix()] = each.read_text(encoding="utf-8")
 SMALL = {name: text.lower() for name, text in TEXTS.items() if name != NAME}
 
 
@@ -94,26 +80,15 @@ def places(words: list[str], pattern: re.Pattern[str]) -> list[str]:
     ]
 
 
-# Where the code is that the tests of each folder are for; the rest is about the project as a whole.
-ROOMS = {
-    "simulator": "simulator/busservo_simulator",
-    "runtime": "runtime/framewire",
-    "": "codegen/framegen",
-}
-
-
-def room_of(folder: str) -> str:
-    """Return the folder of the code that a folder of tests/unit is for."""
-    top, _, rest = folder.partition("/")
-    if top in ROOMS:
-        return "/".join([ROOMS[top], *filter(None, [rest])])
-    return f"{ROOMS['']}/{folder}"
+# Where the code is that the tests of a folder are for; all others are for the generator.
+ROOMS = {"simulator": "simulator/busservo_simulator", "runtime": "runtime/framewire"}
 
 
 def test_the_folders_of_the_tests_are_those_of_the_code() -> None:
     folders = {Path(name).parent for name in TEXTS if name.startswith("tests/unit/")}
-    names = {each.relative_to("tests/unit").as_posix() for each in folders} - {"project"}
-    assert [name for name in sorted(names) if not (ROOT / room_of(name)).is_dir()] == []
+    parts = {each.parts[2:] for each in folders} - {("project",)}
+    rooms = {Path(ROOMS.get(top, f"codegen/framegen/{top}"), *rest) for top, *rest in parts}
+    assert [room for room in sorted(rooms) if not (ROOT / room).is_dir()] == []
 
 
 @in_turn("what", lambda: MACHINE)
@@ -127,12 +102,9 @@ def test_nothing_is_left_unfinished() -> None:
 
 
 def test_text_files_end_with_one_line_break() -> None:
-    wrong = [
-        name
-        for name, text in TEXTS.items()
-        if (text and not text.endswith("\n")) or text.endswith("\n\n")
-    ]
-    assert wrong == []
+    assert [
+        name for name, text in TEXTS.items() if text and not re.search(r"[^\n]\n\Z", text)
+    ] == []
 
 
 def test_there_is_one_version() -> None:
@@ -167,12 +139,9 @@ def test_there_is_nothing_in_generated_but_the_libraries() -> None:
 
 
 def test_generated_code_silences_no_checker() -> None:
-    silenced = [
-        name
-        for name, text in TEXTS.items()
-        if name.startswith("generated/") and re.search(r"#\s*(?:noqa|type: ignore|pyright:)", text)
-    ]
-    assert silenced == []
+    silenced = re.compile(r"#\s*(?:noqa|type: ignore|pyright:)")
+    generated = [name for name in TEXTS if name.startswith("generated/")]
+    assert [name for name in generated if silenced.search(TEXTS[name])] == []
 
 
 # -- Packages, commands and machines ---------------------------------------------------------------
@@ -183,20 +152,14 @@ WORKFLOWS = [name for name in TEXTS if name.startswith(".github/workflows/")]
 ACTIONS = [name for name in TEXTS if name.startswith(".github/actions/")]
 
 
-def lines_of(project: str, *starts: str) -> list[str]:
-    """Those lines of a project file that must be the same in all."""
-    return [line for line in TEXTS[project].splitlines() if line.lstrip().startswith(starts)]
-
-
 def test_what_packages_have_in_common_is_the_same() -> None:
     python = '"Programming Language :: Python ::'
     common = ("requires", "build-backend", "license", "authors", python, '"Operating System ::')
-    first, *others = [lines_of(project, *common) for project in PROJECTS]
+    lines = [[line.lstrip() for line in TEXTS[project].splitlines()] for project in PROJECTS]
+    first, *others = ([line for line in each if line.startswith(common)] for each in lines)
     assert len(first) == 12
-    assert all(other == first for other in others)
-    assert {TEXTS[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")} == {
-        TEXTS["LICENSE"]
-    }
+    assert others == [first, first]
+    assert len({TEXTS[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")}) == 1
 
 
 def test_a_declared_python_is_a_tested_one() -> None:
@@ -217,11 +180,8 @@ def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path:
     }
     done = ran(BASH, ROOT / ".ci/bare", "env", environment=variables)
     kept = dict(line.partition("=")[::2] for line in done.stdout.splitlines())
-    ways = re.compile(
-        r"PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$",
-        re.IGNORECASE,
-    )
-    names = {name for name in kept if not ways.match(name)} - {"_", "PWD", "SHLVL"}
+    ways = r"(?i)PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$"
+    names = {name for name in kept if not re.match(ways, name)} - {"_", "PWD", "SHLVL"}
     assert names == {"HOME", "PATH", "LANG", "CI", "VERSIONS"}
     assert kept["PIP_CERT"] == "kept"
     assert kept["HOME"] == str(tmp_path / "home")
@@ -235,11 +195,7 @@ def test_actions_are_our_own_or_pinned_to_a_commit(name: str) -> None:
     used = [step["uses"] for job in jobs for step in job["steps"] if "uses" in step]
     own = {f"./{action.rpartition('/')[0]}" for action in ACTIONS}
     assert used
-    assert [
-        action
-        for action in used
-        if action not in own and not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", action)
-    ] == []
+    assert [each for each in {*used} - own if not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", each)] == []
 
 
 def test_hooks_are_local() -> None:

@@ -1,7 +1,8 @@
 """Who follows our pages on a bare machine finds out what does not work there: `.ci/follow.py`."""
 
-import importlib.util
+import importlib
 import os
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -9,7 +10,7 @@ from types import ModuleType
 
 import pytest
 
-from tests.documents import ROOT
+from tests.factories import ROOT, write_files
 
 pytestmark = pytest.mark.skipif(
     os.name == "nt" or shutil.which("bash") is None, reason="there is no bash here"
@@ -18,13 +19,9 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture(scope="module")
 def follow() -> ModuleType:
-    found = importlib.util.spec_from_file_location("follow", ROOT / ".ci" / "follow.py")
-    assert found is not None
-    assert found.loader is not None
-    module = importlib.util.module_from_spec(found)
-    sys.modules["follow"] = module
-    found.loader.exec_module(module)
-    return module
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(ROOT / ".ci")
+        return importlib.import_module("follow")
 
 
 @pytest.fixture(autouse=True)
@@ -80,25 +77,13 @@ with busservo.open_controller("COM5") as controller:
 7500
 ```
 
-```bat
-no such command
-```
-
-```powershell
-no such command
-```
-
-```text
-no such command
-```
 """
+GOOD += "".join(f"```{kind}\nno such command\n```\n\n" for kind in ("bat", "powershell", "text"))
 
 
 def test_a_page_that_works_is_followed_to_its_end(follow: ModuleType, tmp_path: Path) -> None:
-    page = tmp_path / "page.md"
-    (tmp_path / "design.md").touch()
-    page.write_text(GOOD.replace("HERE", str(tmp_path)), encoding="utf-8")
-    follow.follow(page, tmp_path / "home")
+    write_files({"page.md": GOOD.replace("HERE", str(tmp_path)), "design.md": ""}, tmp_path)
+    follow.follow(tmp_path / "page.md", tmp_path / "home")
 
 
 @pytest.mark.parametrize(
@@ -118,8 +103,6 @@ def test_a_page_that_works_is_followed_to_its_end(follow: ModuleType, tmp_path: 
 def test_a_page_that_does_not_work_is_found_out(
     follow: ModuleType, block: str, wrong: str, tmp_path: Path
 ) -> None:
-    page = tmp_path / "page.md"
-    page.write_text(f"A page.\n```{block}\n```\n", encoding="utf-8")
-    with pytest.raises(follow.WrongError) as caught:
-        follow.follow(page, tmp_path / "home")
-    assert wrong in str(caught.value)
+    write_files({"page.md": f"A page.\n```{block}\n```\n"}, tmp_path)
+    with pytest.raises(follow.WrongError, match=re.escape(wrong)):
+        follow.follow(tmp_path / "page.md", tmp_path / "home")

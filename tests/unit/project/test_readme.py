@@ -3,6 +3,7 @@
 import doctest
 import os
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -53,47 +54,28 @@ def test_links_to_a_heading_lead_to_one(page: Path) -> None:
     lost = []
     text = page.read_text(encoding="utf-8")
     for link, anchor in re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", text):
-        other = page.parent / link if link else page
-        headings = re.findall(r"^#+ (.+)$", other.read_text(encoding="utf-8"), re.MULTILINE)
-        if anchor not in {*slugs(headings)}:
+        if anchor not in anchors_of(page.parent / link if link else page):
             lost.append(f"{link}#{anchor}")
     assert lost == []
 
 
+@cache
+def anchors_of(page: Path) -> set[str]:
+    return {*slugs(re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE))}
+
+
 @in_turn("page", lambda: PAGES)
-def test_links_lead_somewhere(page: Path) -> None:
+def test_links_files_and_commands_of_make_exist(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
     # The links of Markdown that a page shows are those of another project.
-    text = re.sub(
-        r"^```markdown\n.*?^```$",
-        "",
-        page.read_text(encoding="utf-8"),
-        flags=re.MULTILINE | re.DOTALL,
-    )
-    links = re.findall(r"\]\(([^)#]+)", text)
-    missing = [link for link in links if "://" not in link and not (page.parent / link).exists()]
-    assert missing == []
-
-
-@in_turn("page", lambda: PAGES)
-def test_commands_of_make_exist(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    named = re.findall(r"(?:^ *|`)make ([a-z]+)", text, flags=re.MULTILINE)
-    assert set(named) <= TARGETS
-
-
-@in_turn("page", lambda: PAGES)
-def test_code_has_a_place(page: Path) -> None:
-    """File that a page names in code, without linking to them."""
-    text = page.read_text(encoding="utf-8")
+    own = re.sub(r"^```markdown\n.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    links = [link for link in re.findall(r"\]\(([^)#]+)", own) if "://" not in link]
+    assert [link for link in links if not (page.parent / link).exists()] == []
+    # What a page names in code, without a link.
     named = re.findall(r"`((?:spec|codegen|generated|docs|tests|benchmarks)/[\w./-]*)`", text)
     assert [name for name in named if not (ROOT / name).exists()] == []
-
-
-def test_a_page_that_lies_is_found_out(tmp_path: Path) -> None:
-    page = "```console\n$ busservo encode ActionGroupStop\n55 55 02 08\n```\n"
-    truth = page.replace("08", "07")
-    assert played(page, tmp_path) == truth
-    assert played(truth, tmp_path) == truth
+    made = re.findall(r"(?:^ *|`)make ([a-z]+)", text, flags=re.MULTILINE)
+    assert set(made) <= TARGETS
 
 
 def test_a_session_that_lies_is_found_out(tmp_path: Path) -> None:
@@ -117,15 +99,11 @@ def test_a_program_that_starts_processes_is_one_of_its_own(tmp_path: Path) -> No
     assert int(shown.removesuffix("\n```\n")) != os.getpid()
 
 
-@pytest.mark.parametrize("kind", ["python", "pycon"])
-def test_a_program_that_needs_what_stands_above_it_is_found_out(tmp_path: Path, kind: str) -> None:
-    first, then = ("one = 1\n", "one\n") if kind == "python" else (">>> one = 1\n", ">>> one\n1\n")
-    page = f"```{kind}\n{first}```\n\n```{kind}\n{then}```\n"
-    if kind == "python":
-        with pytest.raises(NameError, match="'one'"):
-            played(page, tmp_path)
-    else:
-        assert "NameError: name 'one' is not defined" in played(page, tmp_path)
+def test_a_program_that_needs_what_stands_above_it_is_found_out(tmp_path: Path) -> None:
+    with pytest.raises(NameError, match="'one'"):
+        played("```python\none = 1\n```\n\n```python\none\n```\n", tmp_path)
+    page = "```pycon\n>>> one = 1\n```\n\n```pycon\n>>> one\n1\n```\n"
+    assert "NameError: name 'one' is not defined" in played(page, tmp_path)
 
 
 def test_a_program_that_is_named_is_saved_and_run_by_its_name(tmp_path: Path) -> None:
@@ -147,7 +125,7 @@ def test_left_out_lines_may_be_anything_but_the_rest_may_not(tmp_path: Path) -> 
     page = "```console\n$ framegen rules\n...\nreply  {}\n...\n```\n"
     title = "Replies and reports are messages of the other direction"
     shown = played(page.format(title), tmp_path)
-    line = next(line for line in shown.splitlines() if line.startswith("reply"))
+    (line,) = re.findall("^reply .*$", shown, re.MULTILINE)
     truth = page.replace("reply  {}", line)
     assert played(truth, tmp_path) == truth
     assert played(truth.replace("other", "same"), tmp_path) == shown

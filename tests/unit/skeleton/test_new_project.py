@@ -1,15 +1,13 @@
 """`framegen new`: the project that it writes works, and it overwrites nothing."""
 
-import io
 import os
 import re
 import shutil
 import subprocess
 import sys
 import sysconfig
-from contextlib import redirect_stdout
+from functools import partial
 from pathlib import Path
-from typing import TypeAlias
 
 import pytest
 import yaml
@@ -20,34 +18,34 @@ from framegen.site.shades import BOUND, worst_contrast
 from framegen.skeleton import skeleton, spec_path
 from framegen.writing import disk
 
+from tests.commands import Ended, called
 from tests.factories import ROOT, compiled_file, write_files
 from tests.in_turn import in_turn
 from tests.programs import ran
-
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
+from tests.repository import git, start
 
 ACTION = re.compile(r"uses: (\S+@[0-9a-f]{40}) # v")
-GIT = shutil.which("git")
-GUIDE = Path(__file__).parents[3] / "docs" / "write-a-spec.md"
+GUIDE = ROOT / "docs" / "write-a-spec.md"
+
+
+framegen = partial(called, main)
 
 
 def next_commands(printed: str) -> list[list[str]]:
     """Return the words of each command that is named to come next."""
-    return [
-        line.split() for line in printed.partition("\nnext:\n")[2].splitlines() if line[0] == " "
-    ]
+    lines = printed.partition("\nnext:\n")[2].splitlines()
+    return [line.split() for line in lines if line[0] == " "]
 
 
 @pytest.fixture(scope="module")
 def workplace(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Return the folder of a new, generated project, and the output of `framegen new`."""
     folder = tmp_path_factory.mktemp("workplace")
-    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
+    with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        assert main(["new", "kiln"]) == 0
-        text = printed.getvalue()
+        text = framegen("new", "kiln").out
         generate, _, _ = next_commands(text)
-        assert main(generate[1:]) == 0
+        assert framegen(*generate[1:]).status == 0
     return folder, text
 
 
@@ -56,13 +54,11 @@ def assert_its_tests_pass_with(spec: Path, folder: Path) -> None:
     name = compiled_file(spec).model.spec.protocol.name
     test = f"tests/test_{name}.py"
     write_files({test: skeleton(name)[test]}, folder)
-    with redirect_stdout(io.StringIO()):
-        assert main(["generate", str(spec), "--out", str(folder)]) == 0
+    assert framegen("generate", str(spec), "--out", str(folder)).status == 0
     done = python(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, test)
     assert done.returncode == 0, done.stdout
-    passed = re.search(r"(\d+) passed", done.stdout)
-    assert passed is not None
-    assert int(passed[1]) > 20
+    [passed] = re.findall(r"(\d+) passed", done.stdout)
+    assert int(passed) > 20
 
 
 def python(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
@@ -88,10 +84,8 @@ def test_the_printed_commands_lead_to_a_library_that_decodes(workplace: tuple[Pa
     assert generate == ["framegen", "generate", "kiln/spec/kiln.yaml"]
     assert install == ["pip", "install", "--editable", "./kiln"]
     done = python(folder / "kiln", "-m", *decode)
-    assert (done.returncode, done.stdout) == (
-        0,
-        "     0  device      Level level=500 ‰ | A5 5A 03 01 01 F4\n",
-    )
+    level = "     0  device      Level level=500 ‰ | A5 5A 03 01 01 F4\n"
+    assert (done.returncode, done.stdout) == (0, level)
 
 
 def test_its_library_needs_no_other_package_of_ours(workplace: tuple[Path, str]) -> None:
@@ -99,25 +93,21 @@ def test_its_library_needs_no_other_package_of_ours(workplace: tuple[Path, str])
     assert done.stderr.endswith("ModuleNotFoundError: No module named 'framewire'\n")
 
 
-@pytest.mark.skipif(GIT is None, reason="git is not installed")
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 def test_to_forges_what_its_library_carries_is_written_elsewhere(tmp_path: Path) -> None:
+    start(tmp_path)
     write_files({".gitattributes": skeleton("kiln")[".gitattributes"]}, tmp_path)
-    subprocess.run([str(GIT), "init", "-q"], cwd=tmp_path, check=True)
     for path, said in [("_runtime/frame/message.py", "true"), ("_codec.py", "unspecified")]:
-        words = [str(GIT), "check-attr", "linguist-vendored", f"generated/kiln/{path}"]
-        done = subprocess.run(
-            words, cwd=tmp_path, capture_output=True, encoding="utf-8", check=True
-        )
-        assert done.stdout.endswith(f": {said}\n")
+        shown = git(tmp_path, "check-attr", "linguist-vendored", f"generated/kiln/{path}")
+        assert shown.endswith(f": {said}")
 
 
 def test_its_site_loses_nothing_and_needs_no_server(
-    workplace: tuple[Path, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    workplace: tuple[Path, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    folder, _ = workplace
-    monkeypatch.chdir(folder / "kiln")
-    assert main(["docs", "--strict", "--out", str(tmp_path / "site")]) == 0
-    assert capsys.readouterr().err == "guides: README.md, first-steps.md, of docs/\n"
+    monkeypatch.chdir(workplace[0] / "kiln")
+    status, _, err = framegen("docs", "--strict", "--out", str(tmp_path / "site"))
+    assert (status, err) == (0, "guides: README.md, first-steps.md, of docs/\n")
     home = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
     assert 'href="first-steps.html"' in home
     assert 'href="reference/kiln/index.html"' in home
@@ -142,15 +132,11 @@ def test_its_first_guide_prints_what_it_says(workplace: tuple[Path, str]) -> Non
 
 
 def test_its_workflows_use_the_actions_that_ours_are_pinned_to() -> None:
-    ours = {
-        action
-        for file in (ROOT / ".github" / "workflows").glob("*.yml")
-        for action in ACTION.findall(file.read_text(encoding="utf-8"))
-    }
+    ours = [file.read_text("utf-8") for file in (ROOT / ".github" / "workflows").glob("*.yml")]
     texts = [text for path, text in skeleton("kiln").items() if path.endswith(".yml")]
-    used = {action for text in texts for action in ACTION.findall(text)}
+    used = {*ACTION.findall("\n".join(texts))}
     assert len(used) == 5
-    assert used <= ours
+    assert used <= {*ACTION.findall("\n".join(ours))}
     assert all(yaml.safe_load(text)["permissions"] == {"contents": "read"} for text in texts)
 
 
@@ -164,16 +150,16 @@ def test_a_simulator_of_other_messages_is_refused_in_words(tmp_path: Path) -> No
     spec = ROOT / "tests" / "specs" / "weather.yaml"
     name = compiled_file(spec).model.spec.protocol.name
     write_files(skeleton(name), tmp_path)
-    assert main(["generate", str(spec), "--out", str(tmp_path)]) == 0
+    assert framegen("generate", str(spec), "--out", str(tmp_path)).status == 0
     done = python(tmp_path, "-m", name, "simulate")
     assert done.returncode == 2
     assert f"the package {name}_simulator does not work with this {name}: " in done.stderr
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize(
+@in_turn(
     "protocol",
-    [
+    lambda: [
         'protocol:\n  name: kiln\n  version: "1.2.3"\n',
         "protocol:\n  name: kiln\n  version: 1.2.3\n",
         'protocol: {name: kiln, title: Kiln, version: "1.2.3", authority: m}\n',
@@ -190,41 +176,26 @@ def test_the_version_of_a_project_is_read_from_its_spec_however_it_is_written(
     assert found["version"] == "1.2.3"
 
 
-def test_there_is_nothing_to_find_in_its_spec(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    main(["new", "kiln", "--into", "."])
-    capsys.readouterr()
-    assert main(["check"]) == 0
-    assert capsys.readouterr() == (
-        "",
-        "spec/kiln.yaml: 4 messages, 5 examples, 0 errata checked: nothing found\n",
-    )
-
-
-@pytest.mark.parametrize(
-    ("into", "generate", "install"),
-    [
+@in_turn(
+    "into, generate, install",
+    lambda: [
         (".", "spec/kiln.yaml", "."),
         ("a b", '"a b/spec/kiln.yaml"', '"./a b"'),
         ("../kiln", "../kiln/spec/kiln.yaml", "./../kiln"),
     ],
 )
 def test_the_commands_name_the_folder_of_the_project(
-    into: str,
-    generate: str,
-    install: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: Capture,
+    into: str, generate: str, install: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "here").mkdir()
+    (tmp_path / "here").mkdir(exist_ok=True)
     monkeypatch.chdir(tmp_path / "here")
-    assert main(["new", "kiln", "--into", into]) == 0
-    assert Path(into, "spec", "kiln.yaml").is_file()
-    printed = capsys.readouterr().out
+    status, printed, _ = framegen("new", "kiln", "--into", into)
+    assert (status, Path(into, "spec", "kiln.yaml").is_file()) == (0, True)
     assert f"\n  framegen generate {generate}\n  pip install --editable {install}\n" in printed
+    # There is nothing to find in its spec.
+    monkeypatch.chdir(into)
+    found = "spec/kiln.yaml: 4 messages, 5 examples, 0 errata checked: nothing found\n"
+    assert framegen("check") == (0, "", found)
 
 
 def test_every_section_that_the_spec_names_is_in_the_guide() -> None:
@@ -236,43 +207,41 @@ def test_every_section_that_the_spec_names_is_in_the_guide() -> None:
 
 # ------------------------------------------------------------------ names
 
-REFUSED = [
-    ("class", "no protocol can be called so: `class` is a word of Python itself"),
-    ("json", "no protocol can be called so: `json` is a module of Python's standard library"),
-    ("serial", "no protocol can be called so: `serial` is a package that is used"),
-    ("con", "no protocol can be called so: `con` is a device on Windows, and no folder there"),
-    ("hypothesis", "no protocol can be called so: `hypothesis` is a package that is used beside"),
-    ("_pytest", "no protocol can be called so: `_pytest` is no name in snake_case"),
-    ("busservo", "a package `busservo` is installed here, which it would hide"),
-    ("Kiln", "no protocol can be called so: `Kiln` is no name in snake_case\n  hint: write `kiln`"),
-    ("two words", "no protocol can be called so: `two words` is no name in snake_case"),
-    ("../kiln", "no protocol can be called so: `../kiln` is no name in snake_case"),
-    ("a: {b\n# ", "no protocol can be called so: `a: {b"),
-    ('"', 'no protocol can be called so: `"` is no name in snake_case'),
-    ("\x1b[2J", "no protocol can be called so: "),
-    ("\udc80", "no protocol can be called so: "),
-    ("", "no protocol can be called so: `` is no name in snake_case"),
-    ("k" * 31, "no protocol can be called so: `kkkkkkkkkkkkkkkkkkkkkkkk...` has 31 characters"),
-]
+REFUSED = {
+    "class": "`class` is a word of Python itself",
+    "json": "`json` is a module of Python's standard library",
+    "serial": "`serial` is a package that is used",
+    "con": "`con` is a device on Windows, and no folder there",
+    "hypothesis": "`hypothesis` is a package that is used beside",
+    "Kiln": "`Kiln` is no name in snake_case\n  hint: write `kiln`",
+    **{name: f"`{name}` is no name in snake_case" for name in ("_pytest", "../kiln", '"', "")},
+    "two words": "`two words` is no name in snake_case",
+    "a: {b\n# ": "`a: {b",
+    **dict.fromkeys(["\x1b[2J", "\udc80"], ""),
+    "k" * 31: "`kkkkkkkkkkkkkkkkkkkkkkkk...` has 31 characters",
+}
 
 
-@in_turn("name, why", lambda: REFUSED)
+@in_turn("name", lambda: [*REFUSED, "busservo"])
 def test_a_name_that_no_library_can_have_is_refused(
-    name: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main(["new", name]) == 2
-    output, errors = capsys.readouterr()
-    assert output == ""
+    why = "a package `busservo` is installed here, which it would hide"
+    if name in REFUSED:
+        why = f"no protocol can be called so: {REFUSED[name]}"
+    status, output, errors = framegen("new", name)
+    assert (status, output) == (2, "")
     assert errors.startswith(f"framegen: error: {why}")
     assert "\x1b" not in errors
     assert not [*tmp_path.iterdir()]
 
 
-@pytest.mark.parametrize("name", ["no", "on", "null", "y", "k", "k" * 30, "heat_pump_2"])
+@in_turn("name", lambda: ["no", "on", "null", "y", "k", "k" * 30, "heat_pump_2"])
 def test_any_other_name_is_taken(name: str, tmp_path: Path) -> None:
-    assert main(["new", name, "--into", str(tmp_path)]) == 0
-    assert main(["check", str(tmp_path / spec_path(name))]) == 0
+    folder = tmp_path / name
+    assert framegen("new", name, "--into", str(folder)).status == 0
+    assert framegen("check", str(folder / spec_path(name))).status == 0
 
 
 # ------------------------------------------------------------------ what is there already
@@ -286,41 +255,36 @@ def contents(folder: Path) -> dict[str, bytes]:
     }
 
 
-def test_nothing_is_overwritten(tmp_path: Path, capsys: Capture) -> None:
-    (tmp_path / "README.md").write_text("mine\n", encoding="utf-8")
-    (tmp_path / "tests" / "test_kiln.py").mkdir(parents=True)
+def new_in(folder: Path) -> Ended:
+    return framegen("new", "kiln", "--into", str(folder))
+
+
+def test_nothing_is_overwritten(tmp_path: Path) -> None:
+    write_files({"README.md": "mine\n", "tests/test_kiln.py/x": ""}, tmp_path)
     before = contents(tmp_path)
-    assert main(["new", "kiln", "--into", str(tmp_path)]) == 2
-    assert capsys.readouterr().err == (
-        f"framegen: error: {tmp_path} has files already that would be written: "
-        "README.md, tests/test_kiln.py\n"
-        "  hint: name another folder: --into FOLDER; nothing was written\n"
-    )
+    said = f"{tmp_path} has files already that would be written: README.md, tests/test_kiln.py"
+    hint = "name another folder: --into FOLDER; nothing was written"
+    assert new_in(tmp_path) == (2, "", f"framegen: error: {said}\n  hint: {hint}\n")
     assert contents(tmp_path) == before
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["README.md", "tests"]
 
 
-def test_what_others_have_there_is_left(tmp_path: Path) -> None:
-    (tmp_path / "LICENSE").write_text("mine\n", encoding="utf-8")
-    assert main(["new", "kiln", "--into", str(tmp_path)]) == 0
-    assert contents(tmp_path).keys() == {"LICENSE", *skeleton("kiln")}
-    assert (tmp_path / "LICENSE").read_bytes() == b"mine\n"
-
-
-def test_a_second_run_has_nothing_to_write(tmp_path: Path, capsys: Capture) -> None:
-    main(["new", "kiln", "--into", str(tmp_path)])
+def test_what_others_have_there_is_left_and_a_second_run_has_nothing_to_write(
+    tmp_path: Path,
+) -> None:
+    write_files({"LICENSE": "mine\n"}, tmp_path)
+    assert new_in(tmp_path).status == 0
     before = contents(tmp_path)
-    capsys.readouterr()
-    assert main(["new", "kiln", "--into", str(tmp_path)]) == 0
-    assert capsys.readouterr().out.startswith(
-        f"{len(before)} files are there already: nothing was written\n"
-    )
+    assert before.keys() == {"LICENSE", *skeleton("kiln")}
+    assert before["LICENSE"] == b"mine\n"
+    status, out, _ = new_in(tmp_path)
+    nothing = f"{len(before) - 1} files are there already: nothing was written\n"
+    assert (status, out.startswith(nothing)) == (0, True)
     assert contents(tmp_path) == before
 
 
 @pytest.mark.parametrize("moved", range(0, len(skeleton("kiln")), 4))
 def test_a_run_that_failed_left_whole_files_and_the_next_one_finishes(
-    moved: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    moved: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     wanted = {path: text.encode() for path, text in skeleton("kiln").items()}
     original = disk.move
@@ -334,20 +298,22 @@ def test_a_run_that_failed_left_whole_files_and_the_next_one_finishes(
 
     with monkeypatch.context() as patch:
         patch.setattr(disk, "move", move)
-        assert main(["new", "kiln", "--into", str(tmp_path)]) == 2
-    assert "cannot be written: No space left on device" in capsys.readouterr().err
+        status, _, err = new_in(tmp_path)
+    assert status == 2
+    assert "cannot be written: No space left on device" in err
     left = contents(tmp_path)
     assert len(left) == moved
     assert left.items() <= wanted.items()
-    assert main(["new", "kiln", "--into", str(tmp_path)]) == 0
+    assert new_in(tmp_path).status == 0
     assert contents(tmp_path) == wanted
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="links there need a right of their own")
-def test_no_link_leads_out_of_the_project(tmp_path: Path, capsys: Capture) -> None:
+def test_no_link_leads_out_of_the_project(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "project").mkdir()
     (tmp_path / "project" / "spec").symlink_to(tmp_path / "elsewhere")
-    assert main(["new", "kiln", "--into", str(tmp_path / "project")]) == 2
-    assert "spec is a link that leads to " in capsys.readouterr().err
+    status, _, err = new_in(tmp_path / "project")
+    assert status == 2
+    assert "spec is a link that leads to " in err
     assert contents(tmp_path) == {}
