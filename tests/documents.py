@@ -26,13 +26,13 @@ import os
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 import tempfile
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from pathlib import Path
+from subprocess import PIPE, STDOUT
 from typing import Any
 from unittest import mock
 
@@ -47,6 +47,7 @@ from busservo_simulator.clock import RealClock
 from lxservo import open_controller as open_servos
 from lxservo_simulator import VirtualBus
 
+from tests.programs import ran
 from tests.timeouts import GENEROUS, undoubted
 
 ROOT = Path(__file__).parents[1]
@@ -73,13 +74,8 @@ LONGEST_MOTION = 5.0
 # What examples read, and what follows from it, for those that change it.
 _READ = ("spec", "docs", "tests/captures", ".gitignore")
 _CHANGED = (
-    *("generated", "runtime", "codegen", "simulator"),
-    *(
-        "tests/witnesses.yaml",
-        "tests/cases.py",
-        "tests/oracle.py",
-        "tests/contract/test_client_contract.py",
-    ),
+    *("generated", "runtime", "codegen", "simulator", "tests/witnesses.yaml", "tests/cases.py"),
+    *("tests/oracle.py", "tests/contract/test_client_contract.py"),
 )
 _COMMANDS: dict[str, Callable[[Sequence[str]], object]] = {
     "busservo": busservo.__main__.main,
@@ -87,20 +83,14 @@ _COMMANDS: dict[str, Callable[[Sequence[str]], object]] = {
     "lxservo": lxservo.__main__.main,
 }
 _GIT_PROGRAM = shutil.which("git") or "git"
+# Output and errors as a terminal shows them.
+_SCREEN: dict[str, Any] = {"capture_output": False, "stdout": PIPE, "stderr": STDOUT}
 # Whoever commits, and when, the same is printed.
+_READER = {"NAME": "Reader", "EMAIL": "reader@example.org", "DATE": "2026-01-01T00:00:00Z"}
 _GIT = {
-    **{
-        f"GIT_{who}_{what}": word
-        for who in ("AUTHOR", "COMMITTER")
-        for what, word in (
-            ("NAME", "Reader"),
-            ("EMAIL", "reader@example.org"),
-            ("DATE", "2026-01-01T00:00:00Z"),
-        )
-    },
-    "GIT_CONFIG_GLOBAL": os.devnull,
-    "GIT_CONFIG_SYSTEM": os.devnull,
-    "GIT_PAGER": "cat",
+    **{f"GIT_{who}_{what}": _READER[what] for who in ("AUTHOR", "COMMITTER") for what in _READER},
+    **dict.fromkeys(["GIT_CONFIG_GLOBAL", "GIT_CONFIG_SYSTEM"], os.devnull),
+    "GIT_PAGER": "cat", "COLUMNS": "80",
 }
 # What each of them is made of, by the folder at the top.
 _GENERATED = {"spec", "codegen", "generated"}
@@ -150,15 +140,7 @@ def committed(folder: Path) -> None:
 
 def _git(folder: Path, words: Sequence[str]) -> str:
     """Return what git prints."""
-    return subprocess.run(
-        [_GIT_PROGRAM, *words],
-        cwd=folder,
-        env=os.environ | _GIT | {"COLUMNS": "80"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        encoding="utf-8",
-        check=True,
-    ).stdout
+    return ran(_GIT_PROGRAM, *words, cwd=folder, environment=_GIT, **_SCREEN).stdout
 
 
 class _FastClock(RealClock):
@@ -236,14 +218,14 @@ class _Player:
         if _ITS_OWN in source:
             return self._process(source)
         output = io.StringIO()
+
+        def at_board(opened: Callable[..., Any]) -> Callable[..., Any]:
+            return lambda _port, **given: opened(self._bench.board.port, **TIMEOUTS | given)
+
         opening = mock.patch.multiple(
             busservo,
-            open_controller=lambda _port, **given: open_controller(
-                self._bench.board.port, **TIMEOUTS | given
-            ),
-            open_async_controller=lambda _port, **given: open_async_controller(
-                self._bench.board.port, **TIMEOUTS | given
-            ),
+            open_controller=at_board(open_controller),
+            open_async_controller=at_board(open_async_controller),
             Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
         )
         with (
@@ -261,16 +243,7 @@ class _Player:
     def _process(self, source: str) -> str:
         """Return the output of a program that is a process of its own."""
         (self._folder / "program.py").write_text(source, encoding="utf-8")
-        return subprocess.run(
-            [sys.executable, "-W", "error", "program.py"],
-            cwd=self._folder,
-            env=os.environ | {"PYTHONUTF8": "1"},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-            timeout=5 * GENEROUS,
-            check=False,
-        ).stdout
+        return self._python("-W", "error", "program.py")
 
     def _with_servos(self) -> contextlib.AbstractContextManager[object]:
         """Have programs open the port of the servos, whatever they name."""
@@ -297,45 +270,36 @@ class _Player:
             name, *arguments = shlex.split(command)
             if name == "git":
                 output = _git(self._folder, arguments)
-                continue
-            if name == "python":
+            elif name == "python":
                 (file,) = arguments
                 output = self._program((self._folder / file).read_text(encoding="utf-8"))
-                continue
-            assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
-            run = self._start if self._changed & _MADE_OF[name] else self._call
-            with self._connected(arguments) as (words, shown_as):
-                output = shown_as(run(name, words, output))
+            else:
+                assert name in _COMMANDS, f"{name} is not run here: put it into a block of `sh`"
+                output = self._command(name, arguments, output)
         return output
 
-    @contextlib.contextmanager
-    def _connected(self, words: list[str]) -> Iterator[tuple[list[str], Callable[[str], str]]]:
-        """Return a command line with servos or a virtual board at its port, and how to read it."""
+    def _command(self, name: str, words: list[str], given: str) -> str:
+        """Return the output of a command, with servos or a virtual board at its port."""
+        run = self._start if self._changed & _MADE_OF[name] else self._call
         if "--port" not in words:
-            yield words, str
-            return
-        at = words.index("--port") + 1
+            return run(name, words, given)
+        before, (_, shown, *after) = words[: words.index("--port")], words[words.index("--port") :]
         port = self._bench.bus.port if self._of_servos else self._bench.board.port
-        yield (
-            [*words[:at], port, *words[at + 1 :], *TIMEOUT_OPTIONS.get(words[0], [])],
-            lambda text: text.replace(port, words[at]),
-        )
+        timeout = TIMEOUT_OPTIONS.get(words[0], [])
+        output = run(name, [*before, "--port", port, *after, *timeout], given)
+        return output.replace(port, shown)
 
     def _start(self, name: str, words: list[str], given: str) -> str:
         """Return the output of a command of the changed project."""
         folders = (str(self._folder / each) for each in ("generated", "runtime", "codegen"))
-        return subprocess.run(
-            [sys.executable, "-m", name, *words],
-            cwd=self._folder,
-            env=os.environ
-            | {"COLUMNS": "80", "PYTHONPATH": os.pathsep.join(folders), "PYTHONUTF8": "1"},
-            input=given,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-            timeout=5 * GENEROUS,
-            check=False,
-        ).stdout
+        variables = {"COLUMNS": "80", "PYTHONPATH": os.pathsep.join(folders)}
+        return self._python("-m", name, *words, given=given, **variables)
+
+    def _python(self, *words: str, given: str = "", **variables: str) -> str:
+        """Return what a process of Python shows."""
+        options: dict[str, Any] = {"status": None, "cwd": self._folder, "input": given, **_SCREEN}
+        variables |= {"PYTHONUTF8": "1"}
+        return ran(sys.executable, *words, environment=variables, **options).stdout
 
     def _call(self, name: str, words: list[str], given: str) -> str:
         """Return the output of a command of the project as it is."""
