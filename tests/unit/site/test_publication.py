@@ -1,17 +1,15 @@
 """A site at an address: whole addresses, a sitemap, a page for broken links."""
 
 import re
-from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from framegen.cli import main
 from framegen.reading.yamltree import Unusable
 from framegen.site.publication import base_address
 
 from tests.in_turn import in_turn
 from tests.unit.site.lamps import BASE, lamps, metas, rendered_lamps
-from tests.unit.site.reference import ROOT, SPECS
+from tests.unit.site.reference import ROOT
 
 
 def test_each_page_at_an_address_has_its_own() -> None:
@@ -19,7 +17,7 @@ def test_each_page_at_an_address_has_its_own() -> None:
     for path, page in site.items():
         if path == "404.html":
             continue
-        (canonical,) = [given["href"] for _, given in page.tags if given.get("rel") == "canonical"]
+        (canonical,) = (given["href"] for given in page.having("rel", "canonical"))
         assert canonical == BASE + re.sub(r"(^|/)index\.html$", r"\1", path)
         said = metas(page)
         assert said["og:url"] == canonical
@@ -34,8 +32,7 @@ def test_without_a_picture_none_is_named() -> None:
 
 def test_the_page_for_broken_links_works_at_any_address() -> None:
     page = lamps(BASE)["404.html"]
-    outside = [link for link in page.links if not link.startswith((BASE, "#"))]
-    assert outside == []
+    assert [link for link in page.links if not link.startswith((BASE, "#"))] == []
     assert metas(page)["robots"] == "noindex"
     reached = {link.removeprefix(BASE).partition("#")[0] for link in page.links}
     assert {"index.html", "first.html"} <= reached
@@ -54,53 +51,34 @@ def test_the_sitemap_lists_every_page_once_and_robots_lead_to_it() -> None:
     assert f"Sitemap: {BASE}sitemap.xml\n" in made["robots.txt"]
 
 
-@in_turn(
-    "given, base",
-    lambda: [
-        ("", ""),
-        ("https://example.org", "https://example.org/"),
-        ("https://example.org/", "https://example.org/"),
-        ("http://localhost:8000/docs", "http://localhost:8000/docs/"),
-        ("https://[::1]/docs/", "https://[::1]/docs/"),
-    ],
-)
-def test_an_address_is_taken_with_or_without_a_slash(given: str, base: str) -> None:
-    assert base_address(given) == base
+def test_an_address_is_taken_with_or_without_a_slash() -> None:
+    taken = {
+        "": "",
+        "https://example.org": "https://example.org/",
+        "https://example.org/": "https://example.org/",
+        "http://localhost:8000/docs": "http://localhost:8000/docs/",
+        "https://[::1]/docs/": "https://[::1]/docs/",
+    }
+    assert {given: base_address(given) for given in taken} == taken
 
 
-@in_turn(
-    "given, why",
-    lambda: [
-        ("example.org", "no address"),
-        ("ftp://example.org/", "no address"),
-        ("//example.org/", "no address"),
-        ("https://", "no host"),
-        ("https:///docs", "no host"),
-        ("https://example.org/?a=b", "nothing follows a ?"),
-        ("https://example.org/#a", "nothing follows a ?"),
-        ("https://example.org/#", "nothing follows a ?"),
-        ("https://me:secret@example.org/", "a password"),
-        ("https://example.org:port/", "port"),
-        ("https://example.org:99999/", "Port out of range"),
-        ("https://example.org/a b/", "spell it with %"),
-        ('https://example.org/"><b>', "spell it with %"),
-        ("https://exämple.org/", "spell it with %"),
-        ("https://example.org/\n", "spell it with %"),
-    ],
-)
-def test_what_is_no_address_is_refused_with_the_reason(given: str, why: str) -> None:
-    with pytest.raises(Unusable, match=re.escape(why)) as refused:
+REFUSED = {
+    **dict.fromkeys(["example.org", "ftp://example.org/", "//example.org/"], "no address"),
+    **dict.fromkeys(["https://", "https:///docs"], "no host"),
+    **{f"https://example.org/{end}": "nothing follows a ?" for end in ("?a=b", "#a", "#")},
+    "https://me:secret@example.org/": "a password",
+    "https://example.org:port/": "port",
+    "https://example.org:99999/": "Port out of range",
+    **{f"https://example.org/{end}": "spell it with %" for end in ("a b/", '"><b>', "\n")},
+    "https://exämple.org/": "spell it with %",
+}
+
+
+@in_turn("given", lambda: REFUSED)
+def test_what_is_no_address_is_refused_with_the_reason(given: str) -> None:
+    with pytest.raises(Unusable, match=re.escape(REFUSED[given])) as refused:
         base_address(given)
     assert "https://example.org/docs/" in str(refused.value.hint)
-
-
-def test_the_command_refuses_an_address_before_it_writes(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    folder = tmp_path / "site"
-    assert main(["docs", str(SPECS["greenhouse"]), "--out", str(folder), "--base", "here"]) == 2
-    assert "--base here: no address" in capsys.readouterr().err
-    assert not folder.exists()
 
 
 def test_the_picture_of_the_project_is_of_the_size_that_previews_show() -> None:

@@ -189,8 +189,12 @@ def test_what_is_between_quotes_must_stand_there_as_it_is() -> None:
 
 
 MISSPELLED = {
-    "batery": "battery", "postion": "position", "srevo": "servo", "protocool": "protocol",
-    "troubelshooting": "troubleshooting", "ActionGruopRun": "ActionGroupRun",
+    "batery": "battery",
+    "postion": "position",
+    "srevo": "servo",
+    "protocool": "protocol",
+    "troubelshooting": "troubleshooting",
+    "ActionGruopRun": "ActionGroupRun",
     "batery voltage": "battery voltage",
 }
 

@@ -26,14 +26,9 @@ def test_the_sidebar_is_the_plan_in_its_order_and_words() -> None:
 def test_messages_show_their_direction_in_words_and_with_an_arrow() -> None:
     text = part(lamps()["reference/greenhouse/index.html"], "Documentation")
     groups = re.findall(r'<summary><span class="way brief (\w+)">(.*?)</span>', text)
-    assert groups == [
-        ("to", "gateway → station"),
-        ("from", "station → gateway"),
-        ("to", "gateway → display"),
-    ]
-    labels = [label for _, label in links(text)]
-    assert "→ VentsOpen" in labels
-    assert "← StationState" in labels
+    ways = [("to", "gateway → station"), ("from", "station → gateway"), ("to", "gateway → display")]
+    assert groups == ways
+    assert {"→ VentsOpen", "← StationState"} <= {label for _, label in links(text)}
 
 
 @in_turn("path", lambda: ["first.html", "reference/greenhouse/messages/VentsOpen.html"])
@@ -44,40 +39,26 @@ def test_one_link_of_the_sidebar_is_the_page_itself(path: str) -> None:
 
 
 def test_a_trail_leads_from_home_to_the_page_and_its_section_is_marked() -> None:
-    site = lamps()
-    page = site["reference/greenhouse/messages/VentsOpen.html"]
-    assert [label for _, label in links(part(page, "Where this page is"))] == [
-        "Home",
-        "Look up",
-        "The protocol",
-    ]
-    assert [label for _, label in links(part(site["first.html"], "Where this page is"))] == [
-        "Home",
-        "Learn",
-    ]
-    assert part(site["index.html"], "Where this page is") == ""
-    marked = re.findall(r'aria-current="true">(.*?)<', part(page, "Sections"))
+    message = "reference/greenhouse/messages/VentsOpen.html"
+    for path, labels in {
+        message: ["Home", "Look up", "The protocol"],
+        "first.html": ["Home", "Learn"],
+        "index.html": [],
+    }.items():
+        trail = part(lamps()[path], "Where this page is")
+        assert [label for _, label in links(trail)] == labels
+    marked = re.findall(r'aria-current="true">(.*?)<', part(lamps()[message], "Sections"))
     assert marked == ["Look up"]
 
 
 def test_previous_and_next_go_through_every_page_of_the_sidebar() -> None:
-    site = lamps()
-    at, seen = "first.html", ["first.html"]
-    while True:
-        page = site[at]
-        following = re.search(r'<a rel="next" href="([^"]*)"', page.text)
-        if following is None:
-            break
-        before, at = at, page.leads_to(following[1])[0]
-        back = re.search(r'<a rel="prev" href="([^"]*)"', site[at].text)
-        assert back is not None
-        assert site[at].leads_to(back[1])[0] == before
-        seen.append(at)
-    listed = [
-        site["index.html"].leads_to(link)[0]
-        for link, _ in links(part(site["index.html"], "Documentation"))
-    ]
-    assert seen == listed
+    home = lamps()["index.html"]
+    listed = [home.leads_to(link)[0] for link, _ in links(part(home, "Documentation"))]
+    for rel, others in (("prev", ["", *listed[:-1]]), ("next", [*listed[1:], ""])):
+        for path, other in zip(listed, others, strict=True):
+            page = lamps()[path]
+            led = [page.leads_to(given["href"])[0] for given in page.having("rel", rel)]
+            assert led == [other] * bool(other) or (rel, path) == ("prev", listed[0]), (rel, path)
 
 
 @in_turn("path", lambda: sorted(lamps()))
@@ -135,17 +116,14 @@ def test_contents_of_many_headings_leave_the_third_level_out() -> None:
 def test_the_landing_page_shows_the_introduction_a_frame_and_the_plan() -> None:
     site = lamps()
     page = site["index.html"]
-    words = " ".join(page.words.split())
     assert "<p>Lamps on a <em>line</em>.</p>" in page.text
     assert '<pre class="python"' in page.text
     assert '<pre class="output"' in page.text
-    assert "How to begin." in words
-    assert "From nothing to a lamp." in words
     # Code begins a sentence as it is.
-    assert "lamps from a shell." in words
-    assert "See the tests, and the first steps." in words
-    reached = {page.leads_to(link)[0] for link in page.links}
-    assert {"first.html", "project/changelog.html", "reference/greenhouse/index.html"} <= reached
+    texts = ["How to begin.", "From nothing to a lamp.", "lamps from a shell."]
+    assert page.lacks([*texts, "See the tests, and the first steps."]) == []
+    reached = {"first.html", "project/changelog.html", "reference/greenhouse/index.html"}
+    assert reached <= page.reached
     rows = re.findall(r'<td class="number"><code class="bytes">(.*?)</code>', page.text)
     shown = re.findall(r'<span class="bytes">(.*?)</span>', page.text)
     assert rows == shown
@@ -162,34 +140,25 @@ def test_without_guides_the_references_are_the_landing_page() -> None:
 
 
 def test_every_page_has_a_title_and_a_description_of_its_own() -> None:
-    pages = lamps().values()
-    titles = [title(page) for page in pages]
-    abouts = [metas(page)["description"] for page in pages]
-    assert all(titles)
-    assert len(set(titles)) == len(titles)
-    assert all(abouts)
-    assert len(set(abouts)) == len(abouts)
-    assert title(lamps()["first.html"]) == "The very first steps \u2013 Lamps"
-    assert metas(lamps()["first.html"])["description"] == "From nothing to a lamp."
-    assert metas(lamps()["third.html"])["description"] == "Nobody lists it."
-    assert metas(lamps()["index.html"])["description"] == "Lamps on a line."
+    titles = {path: title(page) for path, page in lamps().items()}
+    abouts = {path: metas(page)["description"] for path, page in lamps().items()}
+    for texts in (titles, abouts):
+        assert len({*texts.values()} - {""}) == len(texts)
+    assert titles["first.html"] == "The very first steps \u2013 Lamps"
+    assert abouts["first.html"] == "From nothing to a lamp."
+    assert abouts["third.html"] == "Nobody lists it."
+    assert abouts["index.html"] == "Lamps on a line."
 
 
 @in_turn("path", lambda: sorted(lamps()))
-def test_the_icon_is_part_of_the_page_and_the_policy_allows_it(path: str) -> None:
+def test_the_icon_is_part_of_the_page_and_nothing_claims_an_address(path: str) -> None:
     page = lamps()[path]
-    (icon,) = [given["href"] for tag, given in page.tags if given.get("rel") == "icon"]
-    assert icon.startswith("data:image/svg+xml,")
-    policy = next(given["content"] for _, given in page.tags if "http-equiv" in given)
-    assert re.search(r"img-src [^;]*data:", policy)
-
-
-@in_turn("path", lambda: sorted(lamps()))
-def test_without_an_address_nothing_claims_to_have_one(path: str) -> None:
-    page = lamps()[path]
+    (icon,) = page.having("rel", "icon")
+    assert icon["href"].startswith("data:image/svg+xml,")
+    assert re.search(r"img-src [^;]*data:", page.having("http-equiv")[0]["content"])
     assert {"og:title", "og:description"} <= metas(page).keys()
     assert not {"og:url", "og:image", "twitter:card"} & metas(page).keys()
-    assert [given for _, given in page.tags if given.get("rel") == "canonical"] == []
+    assert page.having("rel", "canonical") == []
 
 
 def test_the_footer_names_versions() -> None:
