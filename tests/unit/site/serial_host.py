@@ -131,10 +131,9 @@ class SerialHost:
         data = self.end.read()
         self.given += data
         pieces = [data[at : at + 1] for at in range(len(data))] if self.one_by_one else [data]
-        said: list[dict[str, Any]] = [{"hex": piece.hex()} for piece in pieces if piece]
-        while self.said:
-            said.append(self.said.popleft())
-        return said
+        events = [{"hex": piece.hex()} for piece in pieces if piece] + [*self.said]
+        self.said.clear()
+        return events
 
     def _close(self, _id: str) -> None:
         self.closed += 1

@@ -6,6 +6,7 @@ import json
 import random
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -75,6 +76,7 @@ NEW_TABLE = """name,type,start_time,duration,data
 "Async Serial","frame",0.0002,8.6e-05,
 "Async Serial","data",0.0003,8.6e-05,0x02
 """
+NOTES, TABLE = "annotations of a logic analyser", "a table of a logic analyser"
 # A text, what it is read as, and all of its bytes.
 FORMS = [
     ("55 55 02 07", "hex", STOP),
@@ -107,28 +109,16 @@ FORMS = [
     (f"00000000: {'5500 ' * 8} U.U.\n*\n00000020: 0207  ..", "a hex dump", 16 * "5500" + "0207"),
     ("\ufeff00000000  55 55 02 07", "a hex dump", STOP),
     ("unsigned char stop[] = {\n  0x55, 0x07\n};\nunsigned int len = 2;", "a list in hex", "5507"),
-    ("TX: 55\nTX: 55\nTX: 02\nTX: 07", "annotations of a logic analyser", STOP),
-    ("RX: 55\nRX: Stop bit\nRX: 07", "annotations of a logic analyser", "5507"),
-    ("uart-1: 55\nuart-1: 55\nuart-1: 02\nuart-1: 07", "annotations of a logic analyser", STOP),
-    (
-        "8-16 UART: RX: 55\n16-17 UART: Stop bit\n17-25 UART: RX: 07",
-        "annotations of a logic analyser",
-        "5507",
-    ),
-    (
-        "Time [s],Value,Parity Error,Framing Error\n0.1,0x55,,\n0.2,0x07,,\n",
-        "a table of a logic analyser",
-        "5507",
-    ),
-    (
-        "Time [s],Value,Parity Error\r\n0.1,85,\r\n0.2,7,\r\n",
-        "a table of a logic analyser in decimal",
-        "5507",
-    ),
-    ("Time [s],Value\n0.1,U (0x55)\n0.2,'7' (0x07)\n", "a table of a logic analyser", "5507"),
-    ("\ufeffTime [s],Value\n0.1,0x55\n", "a table of a logic analyser", "55"),
-    ("time;data\n0.1;55\n0.2;0F\n", "a table of a logic analyser", "550f"),
-    (NEW_TABLE, "a table of a logic analyser", "555502"),
+    ("TX: 55\nTX: 55\nTX: 02\nTX: 07", NOTES, STOP),
+    ("RX: 55\nRX: Stop bit\nRX: 07", NOTES, "5507"),
+    ("uart-1: 55\nuart-1: 55\nuart-1: 02\nuart-1: 07", NOTES, STOP),
+    ("8-16 UART: RX: 55\n16-17 UART: Stop bit\n17-25 UART: RX: 07", NOTES, "5507"),
+    ("Time [s],Value,Parity Error,Framing Error\n0.1,0x55,,\n0.2,0x07,,\n", TABLE, "5507"),
+    ("Time [s],Value,Parity Error\r\n0.1,85,\r\n0.2,7,\r\n", f"{TABLE} in decimal", "5507"),
+    ("Time [s],Value\n0.1,U (0x55)\n0.2,'7' (0x07)\n", TABLE, "5507"),
+    ("\ufeffTime [s],Value\n0.1,0x55\n", TABLE, "55"),
+    ("time;data\n0.1;55\n0.2;0F\n", TABLE, "550f"),
+    (NEW_TABLE, TABLE, "555502"),
     ("\ufeff55 55 02 07\r\n", "hex", STOP),
     ("", "hex", ""),
 ]
@@ -165,9 +155,8 @@ REFUSED = [
 ]
 
 
-def answers_to(texts: Sequence[str]) -> list[dict[str, Any]]:
-    answers: list[dict[str, Any]] = run_script(READERS, READ, {"protocol": DATA, "texts": texts})
-    return answers
+def answers_to(texts: Sequence[str]) -> Any:
+    return run_script(READERS, READ, {"protocol": DATA, "texts": texts})
 
 
 def said(answer: dict[str, Any]) -> tuple[str, str]:
@@ -176,9 +165,9 @@ def said(answer: dict[str, Any]) -> tuple[str, str]:
 
 
 def test_every_form_is_recognised_and_read() -> None:
-    answers = answers_to([text for text, _, _ in FORMS])
-    for (text, name, data), answer in zip(FORMS, answers, strict=True):
-        assert said(answer) == (name, data), text
+    texts = [text for text, _, _ in FORMS]
+    read = [(text, *said(each)) for text, each in zip(texts, answers_to(texts), strict=True)]
+    assert read == FORMS
 
 
 def test_what_no_form_has_is_refused_at_its_place() -> None:
@@ -214,19 +203,17 @@ def test_logs_are_read_as_the_library_reads_them() -> None:
         assert log is not None
         times = [time for line in text.split("\n") for _, time, _ in log.read(line)]
         assert [it["time"] for _, it in answer["pieces"]] == times, text
-    for (text, line, _), answer in zip(
-        NO_LOGS, answers_to([text for text, *_ in NO_LOGS]), strict=True
-    ):
+    texts = [text for text, *_ in NO_LOGS]
+    for (text, line, _), answer in zip(NO_LOGS, answers_to(texts), strict=True):
         assert answer.get("line") == line, (text, answer)
         assert text[answer["at"] :].startswith(answer["found"]), text
 
 
 def is_hex(text: str) -> bool:
-    try:
+    with suppress(HexError):
         read_hex(text)
-    except HexError:
-        return False
-    return True
+        return True
+    return False
 
 
 def test_what_programs_print_is_read_back() -> None:
@@ -248,8 +235,7 @@ def test_what_programs_print_is_read_back() -> None:
             data.hex("-"),
         ]
         written += [data.hex()] * 9
-    found = [said(answer)[1] for answer in answers_to(texts)]
-    assert found == written
+    assert [said(answer)[1] for answer in answers_to(texts)] == written
 
 
 def entries_of(text: str) -> list[Entry]:
@@ -259,11 +245,11 @@ def entries_of(text: str) -> list[Entry]:
 def test_recordings_keep_their_directions_times_and_noise() -> None:
     text = (ROOT / "tests" / "captures" / "cut_off.hex").read_text("utf-8")
     (answer,) = answers_to([text])
-    expected = [
+    found = [(hex_, it["time"], it["direction"]) for hex_, it in answer["pieces"]]
+    assert found == [
         (bytes_of(each.event).hex(), each.time, each.direction.value if each.direction else None)
         for each in entries_of(text)
     ]
-    assert [(hex_, it["time"], it["direction"]) for hex_, it in answer["pieces"]] == expected
     assert answer["lines"] == len(text.splitlines())
 
 
@@ -293,8 +279,7 @@ def noise_in(line: str, form: str) -> list[str]:
     if form == "json":
         said = json.loads(line)
         is_noise = "noise" in said and "parameters" not in said
-        found = [said.get("time"), said["from"], said["reason"], said["noise"]] if is_noise else []
-        return [str(each) for each in found]
+        return [str(said.get(key)) for key in ("time", "from", "reason", "noise") if is_noise]
     _, time, sender, _, message, _, _, data, reason = next(csv.reader([line]))
     # A frame of an unknown command has the size that it says.
     frame = bytes.fromhex(data) if reason == "unknown command" else b""
@@ -315,10 +300,9 @@ def noisy_recording(seed: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def saved(texts: Sequence[tuple[str, str | None, str]]) -> list[str]:
+def saved(texts: Sequence[tuple[str, str | None, str]]) -> Any:
     scripts = [*codec_scripts(reference("busservo").model), *SAVERS]
-    found: list[str] = run_script(scripts, SAVE, {"protocol": DATA, "texts": texts})
-    return found
+    return run_script(scripts, SAVE, {"protocol": DATA, "texts": texts})
 
 
 @in_turn("form", lambda: ["csv", "json"])

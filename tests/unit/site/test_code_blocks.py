@@ -49,34 +49,29 @@ def test_output_is_no_code_and_cannot_be_copied() -> None:
     assert page.words.strip() == "1 < 2"
 
 
+# The pieces of code that have a colour, by language and class.
+COLOURED = """
+python keyword «import» x | python text x = «'a'» | python number x = «12»
+python name def «f»(): ... | python comment «# why» | pycon prompt «>>> »x | console prompt «$ »x
+sh keyword «if» true; then | bat comment «REM why» | powershell comment «# why»
+yaml name «a»: 1 | json name {«"a"»: 1} | toml number a = «1» | c keyword «return» 1;
+"""
+BELOW = [
+    *(("diff", "inserted", "«+a»\n"), ("diff", "deleted", "«-a»\n")),
+    ("pycon", "printed", ">>> x\n«1\n»"),
+    ("console", "typed", "$ «x\n»"),
+    ("console", "printed", "$ x\n«y\n»"),
+]
+
+
 @in_turn(
-    "code, language, piece",
-    lambda: [
-        ("import x", "python", ("keyword", "import")),
-        ("x = 'a'", "python", ("text", "'a'")),
-        ("x = 12", "python", ("number", "12")),
-        ("# why", "python", ("comment", "# why")),
-        ("def f(): ...", "python", ("name", "f")),
-        (">>> x", "pycon", ("prompt", ">>> ")),
-        (">>> x\n1", "pycon", ("printed", "1\n")),
-        ("$ x", "console", ("prompt", "$ ")),
-        ("$ x", "console", ("typed", "x\n")),
-        ("$ x\ny", "console", ("printed", "y\n")),
-        ("if true; then", "sh", ("keyword", "if")),
-        ("REM why", "bat", ("comment", "REM why")),
-        ("# why", "powershell", ("comment", "# why")),
-        ("a: 1", "yaml", ("name", "a")),
-        ('{"a": 1}', "json", ("name", '"a"')),
-        ("+a\n", "diff", ("inserted", "+a")),
-        ("-a\n", "diff", ("deleted", "-a")),
-        ("a = 1", "toml", ("number", "1")),
-        ("return 1;", "c", ("keyword", "return")),
-    ],
+    "language, name, code",
+    lambda: BELOW + [each.split(" ", 2) for each in re.split(r" \| |\n", COLOURED.strip())],
 )
-def test_code_is_coloured_by_classes(code: str, language: str, piece: tuple[str, str]) -> None:
-    text = str(code_block(code, language))
-    found = re.findall(r'<span class="(\w+)">(.*?)</span>', text, re.DOTALL)
-    assert piece in [(name, html.unescape(inside)) for name, inside in found]
+def test_code_is_coloured_by_classes(language: str, name: str, code: str) -> None:
+    text = str(code_block(re.sub("[«»]", "", code), language))
+    found = re.findall(rf'<span class="{name}">(.*?)</span>', text, re.DOTALL)
+    assert re.findall("«(.*)»", code, re.DOTALL)[0] in map(html.unescape, found)
 
 
 @in_turn("language", lambda: ["python", "pycon", "console", "output", "text", "yaml", "<b>"])

@@ -21,32 +21,17 @@ ELEMENTS = {"svg", "title", "desc", "style", "g", "rect", "circle", "path", "tex
 drawings = pytest.mark.parametrize("drawing", DRAWINGS, ids=lambda file: file.stem)
 
 
-def test_there_are_drawings_of_all_ways_to_wire_a_board() -> None:
-    ways = ["adapter", "header", "hid", "servos"]
-    assert [drawing.stem for drawing in DRAWINGS] == [f"wiring-{way}" for way in ways]
-
-
 @drawings
-def test_a_drawing_is_described(drawing: Path) -> None:
+def test_a_drawing_is_described_fits_a_phone_and_only_draws(drawing: Path) -> None:
     root = ET.parse(drawing).getroot()  # noqa: S314 - our own file
     ids = [root[0].get("id"), root[1].get("id")]
     assert (root[0].tag, root[1].tag, root.get("role")) == (f"{SVG}title", f"{SVG}desc", "img")
     assert root.get("aria-labelledby") == " ".join(map(str, ids))
     assert all((each.text or "").strip() for each in root[:2])
-
-
-@drawings
-def test_a_drawing_only_draws(drawing: Path) -> None:
-    root = ET.parse(drawing).getroot()  # noqa: S314 - our own file
     assert {each.tag.removeprefix(SVG) for each in root.iter()} <= ELEMENTS
     names = {name for each in root.iter() for name in each.attrib}
     assert not {name for name in names if name.startswith("on") or "href" in name}
     assert not re.search(r"url\(|@import", drawing.read_text("utf-8"))
-
-
-@drawings
-def test_a_drawing_fits_a_phone(drawing: Path) -> None:
-    root = ET.parse(drawing).getroot()  # noqa: S314 - our own file
     width, height = root.get("width"), root.get("height")
     assert root.get("viewBox") == f"0 0 {width} {height}"
     # Its letters, of 13 px, are still read at 380 px.
@@ -68,6 +53,8 @@ def test_the_readme_shows_a_screenshot_that_is_small(each: Screenshot) -> None:
     assert (IMAGES / each.name).stat().st_size <= LARGEST
 
 
-def test_there_are_no_other_pictures() -> None:
+def test_there_are_drawings_of_all_ways_to_wire_a_board_and_no_other_pictures() -> None:
+    ways = ["adapter", "header", "hid", "servos"]
+    assert [drawing.stem for drawing in DRAWINGS] == [f"wiring-{way}" for way in ways]
     names = {drawing.name for drawing in DRAWINGS} | {each.name for each in SCREENSHOTS}
     assert {file.name for file in IMAGES.iterdir()} == names | PLOTS | {"preview.png"}

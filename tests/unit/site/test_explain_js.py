@@ -90,17 +90,10 @@ def frames_for(model: Model, name: str) -> list[bytes]:
 
 def _changed(chance: random.Random, frame: bytes) -> bytes:
     at = chance.randrange(len(frame))
+    front, rest = frame[:at], frame[at + 1 :]
     other = bytes([chance.choice([0, 1, 2, 3, 5, 0x7F, 0xFF, chance.randrange(256)])])
-    return chance.choice(
-        [
-            frame[:at],
-            frame[:at] + other + frame[at + 1 :],
-            frame[:at] + other + frame[at:],
-            frame[:at] + frame[at + 1 :],
-            other + frame,
-            frame + frame,
-        ]
-    )
+    longer = [front + other + frame[at:], other + frame, frame + frame]
+    return chance.choice([front, front + other + rest, front + rest, *longer])
 
 
 @pytest.mark.parametrize("name", each_protocol(SPECS))

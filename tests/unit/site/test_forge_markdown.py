@@ -9,100 +9,77 @@ from hypothesis import strategies as st
 from tests.unit.site.reference import Page
 
 
-def note(place: int, use: str = "") -> str:
+def note(at: int, use: str = "") -> str:
     """Return what leads to a footnote."""
-    anchor = f"fnref:{place}{use}"
-    label = f"Footnote {place}"
-    return f'<sup><a id="{anchor}" href="#fn:{place}" aria-label="{label}">{place}</a></sup>'
+    said = f'id="fnref:{at}{use}" href="#fn:{at}" aria-label="Footnote {at}"'
+    return f"<sup><a {said}>{at}</a></sup>"
 
 
-def back(place: int, use: str = "") -> str:
+def back(at: int, use: str = "") -> str:
     """Return what leads back from there."""
-    label = f"Back to the text of footnote {place}"
-    return f' <a href="#fnref:{place}{use}" aria-label="{label}">↩</a>'
+    return f' <a href="#fnref:{at}{use}" aria-label="Back to the text of footnote {at}">↩</a>'
 
 
+def notes(*found: str) -> str:
+    """Return the list of footnotes."""
+    items = "\n".join(f'<li id="fn:{at}">\n{each}</li>' for at, each in enumerate(found, 1))
+    return f'<section class="footnotes" aria-label="Footnotes">\n<ol>\n{items}\n</ol>\n</section>'
+
+
+def alert(kind: str, name: str, inside: str) -> str:
+    return f'<div class="{kind}">\n<p><strong>{name}</strong></p>\n{inside}\n</div>'
+
+
+def quoted(inside: str) -> str:
+    return f"<blockquote>\n<p>{inside}</p>\n</blockquote>"
+
+
+def box(label: str, sign: str) -> str:
+    return f'<li class="task"><span role="img" aria-label="{label}">{sign}</span>'
+
+
+MORE = '<details class="more">\n<summary>'
 # What is written, and the page that it becomes.
-PAGES = [
-    (
-        "> [!NOTE]\n> Mind `this`.\n>\n> And that.",
-        (
-            '<div class="note">\n<p><strong>Note</strong></p>\n<p>Mind <code>this</code>.</p>\n'
-            "<p>And that.</p>\n</div>"
-        ),
+PAGES = {
+    "> [!NOTE]\n> Mind `this`.\n>\n> And that.": alert(
+        "note", "Note", "<p>Mind <code>this</code>.</p>\n<p>And that.</p>"
     ),
-    (
-        "> [!caution]\n>\n> Hot.",
-        '<div class="warning">\n<p><strong>Caution</strong></p>\n<p>Hot.</p>\n</div>',
-    ),
-    (
-        "> [!TIP]\n> <b>",
-        '<div class="note">\n<p><strong>Tip</strong></p>\n<p>&lt;b&gt;</p>\n</div>',
-    ),
+    "> [!caution]\n>\n> Hot.": alert("warning", "Caution", "<p>Hot.</p>"),
+    "> [!TIP]\n> <b>": alert("note", "Tip", "<p>&lt;b&gt;</p>"),
     # No alert: nothing in it, no kind that forges know, words beside the mark, one within another.
-    ("> [!NOTE]", "<blockquote>\n<p>[!NOTE]</p>\n</blockquote>"),
-    ("> [!DANGER]\n> x", "<blockquote>\n<p>[!DANGER]\nx</p>\n</blockquote>"),
-    ("> [!NOTE] x", "<blockquote>\n<p>[!NOTE] x</p>\n</blockquote>"),
-    (
-        "> [!NOTE]\n> > [!TIP]\n> > x",
-        (
-            '<div class="note">\n<p><strong>Note</strong></p>\n<blockquote>\n<p>[!TIP]\nx</p>\n'
-            "</blockquote>\n</div>"
-        ),
+    "> [!NOTE]": quoted("[!NOTE]"),
+    "> [!DANGER]\n> x": quoted("[!DANGER]\nx"),
+    "> [!NOTE] x": quoted("[!NOTE] x"),
+    "> [!NOTE]\n> > [!TIP]\n> > x": alert("note", "Note", quoted("[!TIP]\nx")),
+    "- [ ] open\n- [X] closed\n- not [ ] one": f"<ul>\n{box('to do', '☐')} open</li>\n"
+    f"{box('done', '☑')} closed</li>\n<li>not [ ] one</li>\n</ul>",
+    "a[^x] b[^y] c[^x] d[^z]\n\n[^y]: Why.\n[^x]: Words\n    go on.\n\n    - more": (
+        f"<p>a{note(1)} b{note(2)} c{note(1, ':2')} d[^z]</p>\n"
+        + notes(
+            f"<p>Words\ngo on.</p>\n<ul>\n<li>more</li>\n</ul>\n{back(1)}{back(1, ':2')}",
+            f"<p>Why.{back(2)}</p>\n",
+        )
     ),
-    (
-        "- [ ] open\n- [X] closed\n- not [ ] one",
-        (
-            '<ul>\n<li class="task"><span role="img" aria-label="to do">☐</span> open</li>\n'
-            '<li class="task"><span role="img" aria-label="done">☑</span> closed</li>\n'
-            "<li>not [ ] one</li>\n</ul>"
-        ),
+    "[^a]: [x](x.md) <i>\n\n> [^b]: y\n>\n> z\n\n[^b]": f"{quoted('z')}\n<p>{note(1)}</p>\n"
+    + notes(f"<p>y{back(1)}</p>\n", "<p><span>x</span> &lt;i&gt;</p>\n"),
+    "text\n<details open>\n<summary>**S** <b></summary>\n\n- a\n\n</details>\nafter": (
+        '<p>text</p>\n<details class="more" open="">\n<summary><strong>S</strong> &lt;b&gt;'
+        "</summary>\n<ul>\n<li>a</li>\n</ul>\n</details>\n<p>after</p>"
     ),
-    (
-        "a[^x] b[^y] c[^x] d[^z]\n\n[^y]: Why.\n[^x]: Words\n    go on.\n\n    - more",
-        (
-            f"<p>a{note(1)} b{note(2)} c{note(1, ':2')} d[^z]</p>\n"
-            '<section class="footnotes" aria-label="Footnotes">\n<ol>\n'
-            '<li id="fn:1">\n<p>Words\ngo on.</p>\n<ul>\n<li>more</li>\n</ul>\n'
-            f'{back(1)}{back(1, ":2")}</li>\n<li id="fn:2">\n<p>Why.{back(2)}</p>\n</li>\n'
-            "</ol>\n</section>"
-        ),
+    "- a\n  <details><summary>S</summary>\n  <DETAILS>\n  b\n  </details>\n  </details>\n- c": (
+        f"<ul>\n<li>a\n{MORE}S</summary>\n{MORE}Details</summary>\n<p>b</p>\n</details>\n"
+        "</details>\n</li>\n<li>c</li>\n</ul>"
     ),
-    (
-        "[^a]: [x](x.md) <i>\n\n> [^b]: y\n>\n> z\n\n[^b]",
-        (
-            f"<blockquote>\n<p>z</p>\n</blockquote>\n<p>{note(1)}</p>\n"
-            '<section class="footnotes" aria-label="Footnotes">\n<ol>\n<li id="fn:1">\n'
-            f'<p>y{back(1)}</p>\n</li>\n<li id="fn:2">\n'
-            "<p><span>x</span> &lt;i&gt;</p>\n</li>\n</ol>\n</section>"
-        ),
-    ),
-    (
-        "text\n<details open>\n<summary>**S** <b></summary>\n\n- a\n\n</details>\nafter",
-        (
-            '<p>text</p>\n<details class="more" open="">\n'
-            "<summary><strong>S</strong> &lt;b&gt;</summary>\n<ul>\n<li>a</li>\n</ul>\n"
-            "</details>\n<p>after</p>"
-        ),
-    ),
-    (
-        "- a\n  <details><summary>S</summary>\n  <DETAILS>\n  b\n  </details>\n  </details>\n- c",
-        (
-            '<ul>\n<li>a\n<details class="more">\n<summary>S</summary>\n<details class="more">\n'
-            "<summary>Details</summary>\n<p>b</p>\n</details>\n</details>\n</li>\n<li>c</li>\n</ul>"
-        ),
-    ),
-    ("<details onclick=x>\n</details>", "<p>&lt;details onclick=x&gt;\n&lt;/details&gt;</p>"),
-    ("<details>\nx", "<p>&lt;details&gt;\nx</p>"),
-    ("<details>x</details>", "<p>&lt;details&gt;x&lt;/details&gt;</p>"),
-    ("</details>", "<p>&lt;/details&gt;</p>"),
-    ("~~gone~~ <s>here</s>", "<p><s>gone</s> &lt;s&gt;here&lt;/s&gt;</p>"),
-]
+    "<details onclick=x>\n</details>": "<p>&lt;details onclick=x&gt;\n&lt;/details&gt;</p>",
+    "<details>\nx": "<p>&lt;details&gt;\nx</p>",
+    "<details>x</details>": "<p>&lt;details&gt;x&lt;/details&gt;</p>",
+    "</details>": "<p>&lt;/details&gt;</p>",
+    "~~gone~~ <s>here</s>": "<p><s>gone</s> &lt;s&gt;here&lt;/s&gt;</p>",
+}
 
 
 def test_what_forges_add_is_shown() -> None:
-    shown = [(text, str(Guide("a.md", text).body).strip()) for text, _ in PAGES]
-    assert shown == PAGES
+    assert {text: str(Guide("a.md", text).body).strip() for text in PAGES} == PAGES
 
 
 def test_what_leads_elsewhere_keeps_its_place() -> None:
@@ -121,11 +98,8 @@ def test_the_mark_of_an_alert_is_no_description_of_a_page() -> None:
 def test_what_leads_elsewhere_from_footnotes_and_details_keeps_its_place() -> None:
     part = "<details>\n<summary>[s](t.md)</summary>\n\n[z](w.md)\n</details>"
     text = f"a[^b]\n\n[^b]: [x](y.md)\n\n{part}"
-    assert [(target, span.line) for _, target, span in targets(text)] == [
-        ("t.md", 6),
-        ("w.md", 8),
-        ("y.md", 3),
-    ]
+    found = [(target, span.line) for _, target, span in targets(text)]
+    assert found == [("t.md", 6), ("w.md", 8), ("y.md", 3)]
 
 
 def test_a_fence_may_show_what_closes_a_part() -> None:
@@ -134,30 +108,13 @@ def test_a_fence_may_show_what_closes_a_part() -> None:
     assert body.count("&lt;/details&gt;") == 2
 
 
-@given(
-    st.lists(
-        st.sampled_from(
-            [
-                "[^a]",
-                "[^a]: b",
-                "<details>",
-                "<summary>s</summary>",
-                "> ",
-                "- ",
-                "    ",
-                "</details>",
-                "```",
-                "\n",
-                "\n\n",
-                "words ",
-                "# h",
-                "[x](y)",
-                "1. ",
-                "| a |\n|---|\n",
-            ]
-        )
-    )
-)
+PIECES = [
+    *("[^a]", "[^a]: b", "<details>", "<summary>s</summary>", "> ", "- ", "    ", "</details>"),
+    *("```", "\n", "\n\n", "words ", "# h", "[x](y)", "1. ", "| a |\n|---|\n"),
+]
+
+
+@given(st.lists(st.sampled_from(PIECES)))
 def test_whatever_is_written_the_elements_of_a_page_are_balanced(pieces: list[str]) -> None:
     page = Page("a.html", str(Guide("a.md", "".join(pieces)).body))
     assert len(page.ids) == len({*page.ids})

@@ -3,7 +3,6 @@
 import json
 import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 from framegen.model.model import Model
@@ -18,11 +17,6 @@ from tests.unit.site.test_hostile_pages import HOSTILE, hostile
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed")
 
 SPECS = {"busservo": BUSSERVO, "demo": DEMO, **FILES}
-
-
-def run_module(folder: Path, model: Model, program: str) -> Any:
-    """Run a program that imports the module; return what it prints as JSON."""
-    return json.loads(run_program(folder, model, program))
 
 
 def run_program(folder: Path, model: Model, program: str) -> str:
@@ -74,8 +68,7 @@ console.log(JSON.stringify({
 
 
 def test_the_module_does_what_its_types_say(tmp_path: Path) -> None:
-    found = run_module(tmp_path, reference("busservo").model, USE)
-    assert found == {
+    assert json.loads(run_program(tmp_path, reference("busservo").model, USE)) == {
         "exports": [
             *("StreamDecoder", "Unusable", "decode", "encode", "explain", "parseHex"),
             *("protocol", "toHex"),
@@ -103,8 +96,7 @@ def test_the_module_does_what_its_types_say(tmp_path: Path) -> None:
 
 def test_the_guide_shows_what_the_module_does(tmp_path: Path) -> None:
     guide = (ROOT / "docs" / "conformance.md").read_text("utf-8")
-    (shown,) = re.findall(r"```js\n(.*?)```\n\n```text\n(.*?)```", guide, re.DOTALL)
-    program, printed = shown
+    [(program, printed)] = re.findall(r"```js\n(.*?)```\n\n```text\n(.*?)```", guide, re.DOTALL)
     assert run_program(tmp_path, reference("busservo").model, program) == printed
 
 
@@ -113,16 +105,14 @@ def test_types_name_every_message_and_every_field() -> None:
     types = javascript_module(model)["busservo.d.mts"]
     for message in model.messages.values():
         (body,) = re.findall(rf"interface {message.name}Fields {{(.*?)\n}}", types, re.DOTALL)
-        assert [slot.name for slot in message.arguments] == re.findall(
-            r"^  (\w+): ", body, re.MULTILINE
-        )
+        names = re.findall(r"^  (\w+): ", body, re.MULTILINE)
+        assert names == [slot.name for slot in message.arguments]
 
 
 def test_text_of_a_spec_ends_neither_a_comment_nor_a_text(tmp_path: Path) -> None:
     model = hostile().model
     program = 'import { protocol } from "./busservo.mjs";\nconsole.log(JSON.stringify(protocol));\n'
-    found = run_module(tmp_path, model, program)
-    assert found["title"] == HOSTILE
+    assert json.loads(run_program(tmp_path, model, program))["title"] == HOSTILE
     types = (tmp_path / "busservo.d.mts").read_text("utf-8")
     comments = [line for line in types.splitlines() if line.strip().startswith("/**")]
     assert len(comments) > len(model.messages)

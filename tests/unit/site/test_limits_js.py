@@ -50,36 +50,20 @@ for (const [frame, bounds] of asked.frames) {
 """
 
 
-def asked_of_the_page(model: Model, frames: list[tuple[bytes, Any]]) -> dict[str, Any]:
+def asked_of_the_page(model: Model, frames: list[tuple[bytes, Any]]) -> Any:
     """Return what a session of the page says of frames that it shall send, None for nothing."""
     data = {**protocol_data(model), "line": line_data(model)}
-    found: dict[str, Any] = run_script(
-        [*codec_scripts(model), *SESSION], PROGRAM, {"protocol": data, "frames": frames}
-    )
-    return found
-
-
-def part(made: ModuleType, name: str) -> Any:
-    """Return a module of a library."""
-    return importlib.import_module(f"{made.__name__}.{name}")
-
-
-def sent_by(made: ModuleType) -> Any:
-    """Return the direction of what the client sends."""
-    return next(iter(part(made, "_exchanges").EXCHANGES)).DIRECTION
+    scripts = [*codec_scripts(model), *SESSION]
+    return run_script(scripts, PROGRAM, {"protocol": data, "frames": frames})
 
 
 def said_by_the_client(made: ModuleType, frame: bytes, bounds: Any) -> str | None:
     """Return why the client does not send a frame, None if it does."""
-    limits = part(made, "_exchanges").LIMITS
-    session = Session(
-        part(made, "_library").LIBRARY,
-        baud=9600,
-        reply_timeout=1.0,
-        report_limit=1,
-        limits=limits.usual if bounds == "usual" else bounds,
-    )
-    message = made.decode(frame, sent_by(made))
+    parts = importlib.import_module(f"{made.__name__}._exchanges")
+    library_, limits = importlib.import_module(f"{made.__name__}._library").LIBRARY, parts.LIMITS
+    chosen = limits.usual if bounds == "usual" else bounds
+    session = Session(library_, baud=9600, reply_timeout=1.0, report_limit=1, limits=chosen)
+    message = made.decode(frame, next(iter(parts.EXCHANGES)).DIRECTION)
     try:
         session.submit(message)
     except made.EncodeError as error:
@@ -95,43 +79,26 @@ def moved(*positions: int) -> bytes:
 
 
 PWM = (500, 2500)
-# A frame, the limits that were chosen, and what is said of it: where, and the way out.
-CASES: list[tuple[bytes, Any, str | None]] = [
-    (moved(0, 1000), "usual", None),
-    (moved(500, 2500), PWM, None),
-    (moved(0xFFFF), ANY, None),
-    (
-        moved(5000),
-        "usual",
-        "targets[0].position: 5000 is outside the limits 0..1000; limits=None sends anything",
-    ),
-    (
-        moved(500, 1001),
-        "usual",
-        (
-            "targets[1].position: 1001 is outside the limits 0..1000; "
-            "limits=(500, 2500) is for PWM servo boards, limits=None for any"
-        ),
-    ),
-    (
-        moved(2500, 499),
-        PWM,
-        (
-            "targets[1].position: 499 is outside the limits 500..2500; "
-            "limits=(0, 1000) is for what is usual, limits=None for any"
-        ),
-    ),
-    (busservo.ServoUnload([1]).encode(), PWM, None),
-    (busservo.ServoPositionsRead([*range(1, 84)]).encode(), ANY, None),
+# Frames with the limits that were chosen: those that are sent, and what is said of others.
+SENT = [
+    *((moved(0, 1000), "usual"), (moved(500, 2500), PWM), (moved(0xFFFF), ANY)),
+    *((busservo.ServoUnload([1]).encode(), PWM), (busservo.ServoPositionsRead([1]).encode(), ANY)),
 ]
+REFUSED = {
+    (moved(5000), "usual"): "[0].position: 5000 is outside the limits 0..1000; limits=None sends "
+    "anything",
+    (moved(500, 1001), "usual"): "[1].position: 1001 is outside the limits 0..1000; "
+    "limits=(500, 2500) is for PWM servo boards, limits=None for any",
+    (moved(2500, 499), PWM): "[1].position: 499 is outside the limits 500..2500; "
+    "limits=(0, 1000) is for what is usual, limits=None for any",
+}
 
 
 def test_the_page_refuses_what_the_client_refuses() -> None:
-    model = reference("busservo").model
-    found = asked_of_the_page(model, [(frame, bounds) for frame, bounds, _ in CASES])
-    expected = [said for *_, said in CASES]
-    assert [said_by_the_client(busservo, frame, bounds) for frame, bounds, _ in CASES] == expected
-    assert found["said"] == expected
+    cases = [*SENT, *REFUSED]
+    expected = [None] * len(SENT) + [f"targets{said}" for said in REFUSED.values()]
+    assert [said_by_the_client(busservo, *case) for case in cases] == expected
+    assert asked_of_the_page(reference("busservo").model, cases)["said"] == expected
 
 
 def test_there_is_the_same_choice_as_the_client_has() -> None:
@@ -151,6 +118,7 @@ LEVEL = {"type": "u16", "about": "A level.", "limits": LIMITS}
 PAIR = {"blind_id": {"type": "u8", "about": "The blind."}, "height": LEVEL}
 COUNT = {"type": "u8", "about": "How many there are."}
 MANY = {"counted_by": "many", "count": "1..", "about": "Levels."}
+ITEMS = {"about": "Some.", "fields": PAIR}
 # Limits wherever a number can stand: its message, with values of it.
 PLACES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "One": ({"length": 2, "fields": {"level": LEVEL}}, {"level": 1}),
@@ -165,10 +133,7 @@ PLACES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     ),
     "Three": ({"length": 6, "fields": {"levels": {**LEVEL, "count": 3}}}, {"levels": [1, 1, 1]}),
     "Two": (
-        {
-            "length": 6,
-            "fields": {"items": {"element": "Of", "count": 2, "about": "Two.", "fields": PAIR}},
-        },
+        {"length": 6, "fields": {"items": {"element": "Of", "count": 2, **ITEMS}}},
         {"items": 2 * [{"blind_id": 1, "height": 1}]},
     ),
     "Listed": (
@@ -177,7 +142,7 @@ PLACES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
             "fields": {
                 "many": COUNT,
                 "level": LEVEL,
-                "items": {"element": "Item", **MANY, "fields": PAIR},
+                "items": {"element": "Item", **MANY, **ITEMS},
             },
         },
         {"level": 1, "items": [{"blind_id": 1, "height": 1}]},
@@ -222,14 +187,11 @@ def test_any_field_with_limits_is_kept_within_them(blinds: tuple[Model, ModuleTy
         for _ in range(2 * settings().max_examples):
             frame = encode(model.messages[name], near(chance, name, "", first))
             frames.append((frame, chance.choice(CHOSEN)))
-    found = asked_of_the_page(model, [(each, as_text(bounds)) for each, bounds in frames])["said"]
+    # JSON has limits of any size as texts.
+    asked = [(frame, [*map(str, b)] if isinstance(b, tuple) else b) for frame, b in frames]
+    found = asked_of_the_page(model, asked)["said"]
     assert found == [said_by_the_client(made, frame, bounds) for frame, bounds in frames]
     assert {None} < {*found}
-
-
-def as_text(bounds: Any) -> Any:
-    """Return limits as JSON has them, whatever their size."""
-    return [str(each) for each in bounds] if isinstance(bounds, tuple) else bounds
 
 
 def test_a_question_that_no_reply_has_room_for_is_not_sent(
@@ -237,11 +199,8 @@ def test_a_question_that_no_reply_has_room_for_is_not_sent(
 ) -> None:
     model, made = blinds
     ask = model.messages["BlindsRead"]
-    frames = [
-        (encode(ask, {"blind_ids": [*range(size)]}), bounds)
-        for size in (1, 84, 85, 200)
-        for bounds in ("usual", ANY)
-    ]
+    asked = [encode(ask, {"blind_ids": [*range(size)]}) for size in (1, 84, 85, 200)]
+    frames = [(frame, bounds) for frame in asked for bounds in ("usual", ANY)]
     found = asked_of_the_page(model, frames)["said"]
     assert found == [said_by_the_client(made, frame, bounds) for frame, bounds in frames]
     assert found[-1] == ("blind_ids: 200 items are requested at once, and a reply has room for 84")

@@ -41,12 +41,8 @@ const answers = asked.texts.map(([name, hex]) => {
   return writeNotation(kind, codec.decodeFrame(bytes, kind.direction).fields);
 });
 """
-KINDS = {
-    "ServoMove": ServoMove,
-    "ActionGroupRun": ActionGroupRun,
-    "ActionGroupSpeed": ActionGroupSpeed,
-    "ServoUnload": ServoUnload,
-}
+MESSAGES = (ServoMove, ActionGroupRun, ActionGroupSpeed, ServoUnload)
+KINDS = {each.__name__: each for each in MESSAGES}
 # Words that the command takes, with the frame that they make.
 GOOD = [
     ("ServoMove", "time_ms=800 targets=1:600,2:400"),
@@ -87,26 +83,20 @@ OUTSIDE = [
 ]
 
 
-def asked(compiled: Compiled, program: str, texts: Sequence[tuple[str, str]]) -> list[Any]:
+def asked(compiled: Compiled, program: str, texts: Sequence[tuple[str, str]]) -> Any:
     scripts = [*codec_scripts(compiled.model), "capture_place", "notation"]
     data = {"protocol": protocol_data(compiled.model), "texts": texts}
-    answers: list[Any] = run_script(scripts, program, data)
-    return answers
+    return run_script(scripts, program, data)
 
 
-def frames_of(compiled: Compiled) -> list[tuple[str, str]]:
-    """Return the message and the bytes of each frame among the vectors."""
+def is_read_back(compiled: Compiled) -> None:
+    """Have each frame among the vectors written and read."""
     valid = vectors_of(compiled)["valid"]
-    return [(each["message"], each["hex"].replace(" ", "").lower()) for each in valid]
-
-
-def read_back(compiled: Compiled) -> list[tuple[str, str]]:
-    """Return the same, as it is read from what is written of each."""
-    frames = frames_of(compiled)
-    written = asked(compiled, WRITE, frames)
-    texts = [(kind, text) for (kind, _), text in zip(frames, written, strict=True)]
-    answers = asked(compiled, READ, texts)
-    return [(kind, each.get("hex", each)) for (kind, _), each in zip(frames, answers, strict=True)]
+    names = [each["message"] for each in valid]
+    frames = [each["hex"].replace(" ", "").lower() for each in valid]
+    written = asked(compiled, WRITE, [*zip(names, frames, strict=True)])
+    answers = asked(compiled, READ, [*zip(names, written, strict=True)])
+    assert [each.get("hex", each) for each in answers] == frames
 
 
 def test_what_the_command_takes_makes_the_same_frame() -> None:
@@ -126,9 +116,8 @@ def test_what_the_command_refuses_is_refused_at_its_place() -> None:
 
 
 def test_numbers_that_no_frame_carries_are_named_with_their_bounds() -> None:
-    answers = asked(
-        reference("busservo").compiled, READ, [(name, text) for name, text, _ in OUTSIDE]
-    )
+    asking = [(name, text) for name, text, _ in OUTSIDE]
+    answers = asked(reference("busservo").compiled, READ, asking)
     for (_, text, said), answer in zip(OUTSIDE, answers, strict=True):
         assert answer["message"].startswith(said), text
 
@@ -136,7 +125,7 @@ def test_numbers_that_no_frame_carries_are_named_with_their_bounds() -> None:
 @in_turn("name", lambda: ["busservo", "everything"])
 def test_what_is_written_is_read_back(name: str) -> None:
     compiled = reference(name).compiled if name == "busservo" else compiled_file(FILES[name])
-    assert read_back(compiled) == frames_of(compiled)
+    is_read_back(compiled)
 
 
 def test_a_name_that_every_object_of_a_script_has_is_a_name_like_others() -> None:
@@ -145,7 +134,7 @@ def test_a_name_that_every_object_of_a_script_has_is_a_name_like_others() -> Non
         data = renamed(data, name, "constructor")
     changed = compiled_of(data)
     assert [finding.message for finding in changed.findings] == []
-    assert read_back(changed) == frames_of(changed)
+    is_read_back(changed)
     # What is not given is not there, though every object has something of that name.
     strange = [("Flags", "error=constructor mode=1 position=1 temperature=1")]
     (answer,) = asked(compiled_file(FILES["everything"]), READ, strange)

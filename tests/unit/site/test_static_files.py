@@ -51,30 +51,22 @@ def test_every_class_of_the_style_is_one_that_pages_have() -> None:
 
 
 def test_every_class_of_a_template_is_one_that_the_style_or_a_script_knows() -> None:
-    scripts = "\n".join(SCRIPTS.values())
-    selected = set(re.findall(r"\.([a-zA-Z][\w-]*)", scripts))
-    known = classes_of(STYLE) | selected
-    assert {
-        name: sorted(unknown)
-        for name, text in TEMPLATES.items()
-        if (unknown := classes_in(text) - known)
-    } == {}
+    known = {*re.findall(r"\.([a-zA-Z][\w-]*)", "\n".join(SCRIPTS.values())), *classes_of(STYLE)}
+    unknown = {name: classes_in(text) - known for name, text in TEMPLATES.items()}
+    assert {name: found for name, found in unknown.items() if found} == {}
 
 
 def test_classes_are_found_wherever_they_stand() -> None:
-    assert classes_of(".a > b.c-d:not(.e) { x: 1.5em } @media (p) { .f { y: 2 } } /* .g */") == {
-        *("a", "c-d", "e", "f")
-    }
-    assert classes_in('<p class="a {{ b }} c"><i class="{% if d %}e{% endif %} f">') == {
-        *("a", "c", "e", "f")
-    }
+    style = ".a > b.c-d:not(.e) { x: 1.5em } @media (p) { .f { y: 2 } } /* .g */"
+    assert classes_of(style) == {"a", "c-d", "e", "f"}
+    html = '<p class="a {{ b }} c"><i class="{% if d %}e{% endif %} f">'
+    assert classes_in(html) == {"a", "c", "e", "f"}
     assert classes_in('<p class="a-{{ b }} {{ c }} d">') == {"d"}
 
 
 def test_every_template_is_part_of_a_page() -> None:
     named = re.findall(r'(?:extends|include|from|import) "([^"]*)"', "\n".join(TEMPLATES.values()))
-    rendered = {page.template for page in three().site.pages}
-    rendered |= {"404", "guide"}
+    rendered = {page.template for page in three().site.pages} | {"404", "guide"}
     assert sorted(TEMPLATES.keys() - set(named) - {f"{each}.html.jinja" for each in rendered}) == []
 
 
