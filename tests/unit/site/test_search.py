@@ -59,53 +59,46 @@ def found(queries: list[str], filters: list[dict[str, str]] | None = None) -> An
     return run_script([], program, {"queries": queries, "filters": filters or []})
 
 
-# What is found first, by query; where several are named, these, in any order.
-SEARCHES: dict[str, set[str]] = {
-    # Names, whole and in parts, however they are written.
-    "ServoMove": {"ServoMove"},
-    "servomov": {"ServoMove"},
-    "CMD_SERVO_MOVE": {"ServoMove"},
-    "GET_BATTERY_VOLT": {"BatteryVoltageRead", "BatteryVoltage"},
-    "battery": {"BatteryVoltageRead"},
-    "voltageread": {"VoltageRead"},
-    "targets.position": {"targets[i].position"},
-    "targets[i].position": {"targets[i].position"},
-    "move_servos": {"move_servos()"},
-    "move_servos(targets": {"move_servos()"},
-    "hold_servos": {"hold_servos()"},
-    "unlimited": {"unlimited"},
-    "unload": {"ServoUnload"},
-    "LX-16A": {"Servos without the controller", "LX-16A bus servo protocol"},
-    "lx16a": {"Servos without the controller", "LX-16A bus servo protocol"},
-    "erratum 3": {"The group of ActionGroupSpeed is called the number of a servo"},
-    # Numbers, in decimal and in hex.
-    "0x03": {"ServoMove"},
-    "0x0B": {"ActionGroupSpeed", "MoveStart"},
-    "11": {"ActionGroupSpeed", "MoveStart"},
-    "65535": {"absent"},
-    "0xFF": {"all"},
-    # The words of users, which no page of the reference has.
-    "limp": {"ServoUnload"},
-    "torque off": {"ServoUnload"},
-    "beep": {"What the board shows", "The board beeps at a frame of mine"},
-    "power supply": {"Servos and supply"},
-    "baudrate": {"Hiwonder bus servo controller"},
-    "comport": {"Troubleshooting"},
-    "LED2": {"What the board shows", "Troubleshooting"},
-    "permission denied": {"Troubleshooting"},
-    "echo": {"Servos without the controller"},
-    "baud rate": {"Hiwonder bus servo controller"},
-    "degrees": {"ServoMove"},
-    # Prose, sections and the glossary.
-    "unsolicited reply": {"unsolicited reply"},
-    "asks for the version": {"Asks for the version"},
-    "wheel mode": {"ModeWrite"},
-}
+# What is found first, in any order, by queries: names however they are written, numbers in decimal
+# and in hex, words of users, which no page of the reference has, prose and sections.
+SEARCHES = """
+ServoMove < ServoMove | servomov | CMD_SERVO_MOVE | 0x03 | degrees
+BatteryVoltage | BatteryVoltageRead < GET_BATTERY_VOLT
+BatteryVoltageRead < battery
+VoltageRead < voltageread
+targets[i].position < targets.position | targets[i].position
+move_servos() < move_servos | move_servos(targets
+hold_servos() < hold_servos
+unlimited < unlimited
+ServoUnload < unload | limp | torque off
+LX-16A bus servo protocol | Servos without the controller < LX-16A | lx16a
+The group of ActionGroupSpeed is called the number of a servo < erratum 3
+ActionGroupSpeed | MoveStart < 0x0B | 11
+absent < 65535
+all < 0xFF
+The board beeps at a frame of mine | What the board shows < beep
+Servos and supply < power supply
+Hiwonder bus servo controller < baudrate | baud rate
+Troubleshooting < comport | permission denied
+Troubleshooting | What the board shows < LED2
+Servos without the controller < echo
+unsolicited reply < unsolicited reply
+Asks for the version < asks for the version
+ModeWrite < wheel mode
+"""
+
+
+def listed(table: str, mark: str) -> dict[str, str]:
+    """Return what is in front of the mark in the lines of a table, by each of what is behind it."""
+    lines = [line.split(mark) for line in table.strip().splitlines()]
+    return {each: front for front, behind in lines for each in behind.split(" | ")}
 
 
 @needs_node
 def test_searches_find_first() -> None:
-    for (query, names), answer in zip(SEARCHES.items(), found([*SEARCHES]), strict=True):
+    searches = listed(SEARCHES, " < ")
+    for (query, line), answer in zip(searches.items(), found([*searches]), strict=True):
+        names = {*line.split(" | ")}
         assert set(answer["titles"][: len(names)]) == names, query
         assert not answer["loose"]
 
@@ -330,22 +323,10 @@ BYTES: dict[str, tuple[list[str], list[str]]] = {
         ["Run action group 8 once", "Action group 8 has started, to run once"],
     ),
     "55 55 04 0F 4C 1D": (["BatteryVoltage"], ["The battery is at 7500 mV"]),
-    "55 55 01 07 01 20 03 E8 03 E8": (
-        ["Move"],
-        ["Servo 1 to position 800 in 1000 ms, sent to the servo itself"],
-    ),
+    "55 55 01 07 01 20 03 E8 03 E8": (["Move"], [f"{ONE}, sent to the servo itself"]),
     "00 55 55 02 07 55 55 02 0F": (["2 frames among these bytes"], []),
-    "03 01 E8": (
-        [],
-        [
-            "Servo 1 to position 800 in 1000 ms",
-            "Servo 1 to position 800 in 1000 ms, sent to the controller",
-        ],
-    ),
-    "55 55 09 03 01 E8 03 01 20 03": (
-        ["No frame of the Hiwonder bus servo controller", "No frame of the LX-16A servo bus"],
-        [],
-    ),
+    "03 01 E8": ([], [ONE, f"{ONE}, sent to the controller"]),
+    "55 55 09 03 01 E8 03 01 20 03": (NO_FRAME, []),
     "11 22 33": ([], []),
 }
 
@@ -378,94 +359,76 @@ def test_bytes_are_told_in_short() -> None:
 
 # ---------------------------------------------------------------------------- questions
 
-# One of these pages is among the first three hits, without `.html`; `@` stands for
-# `reference/busservo/`, `@@` for `reference/lxservo/`, `:` for `messages/`.
-QUESTIONS: dict[str, str] = {
-    # Students, on the first day.
-    "how to install": "getting-started captures",
-    "how do I install this on windows": "getting-started",
-    "raspberry pi": "getting-started",
-    "how do i wire my board": "getting-started",
-    "which baud rate": "@index",
-    "what is busservo": "@index getting-started",
-    "where do I start": "getting-started",
-    "my first program": "getting-started",
-    "can I try it without hardware": "getting-started test-your-robot",
-    "is there a simulator": "test-your-robot getting-started",
-    "how to uninstall": "getting-started",
-    "which port is my board on": "getting-started troubleshooting",
-    # Makers, with an arm that does something else.
-    "my reply is wrong": "troubleshooting",
-    "arm does not move": "troubleshooting",
-    "why is there no answer from the board": "troubleshooting lx16a",
-    "my servo moves to the wrong position": "troubleshooting",
-    "the board beeps, what does it mean": "troubleshooting getting-started",
-    "permission denied when I open the port": "troubleshooting",
-    "how do I stop the arm": "troubleshooting @:ActionGroupStop @@:MoveStop",
-    "how do I move two servos at the same time": "@:ServoMove talk-to-the-board",
-    "read the position of my servo": "@:ServoPositionsRead @@:PositionRead",
-    "how to make the servo limp": "@:ServoUnload",
-    "how do I know that the move is finished": "talk-to-the-board",
-    "change the id of a servo": "@@:ServoIdWrite lx16a",
-    "is my battery low": "@:BatteryVoltageRead @:BatteryVoltage",
-    "what voltage is my batery": "@:BatteryVoltageRead @:BatteryVoltage @@:Voltage @@:VoltageRead",
-    "my servo gets too hot": "@@:TemperatureLimitWrite",
-    "play back recorded poses": "command",
-    "Arduino": "@lookalikes troubleshooting",
-    "usb hid": "getting-started troubleshooting talk-to-the-board",
-    "is this the right protocol for my arm": "@lookalikes troubleshooting",
-    "run several servos on one wire without a controller": "lx16a",
-    # Those who write a codec, or read bytes.
-    "position reply layout": "@:ServoPositions",
-    "battery reply bytes": "@:BatteryVoltage",
-    "move command format": "@:ServoMove",
-    "what does the length byte count": "@index @stream write-a-spec design",
-    "is it little endian": "@errata @index what-changes-break",
-    "how is the checksum calculated": "@@index @@stream @stream write-a-spec",
-    "list of all commands": "@index @cheatsheet",
-    "cheatsheet": "@cheatsheet @@cheatsheet",
-    "decode my bytes": "@decoder @@decoder command codec",
-    "how do I resync after garbage": "@stream design",
-    "error in the vendor documentation": "@errata",
-    "conformance": "conformance",
-    "test my own implementation": "conformance",
-    "parse a stream of bytes": "codec @stream",
-    # Those who log and analyse.
-    "log the traffic": "command",
-    "plot a capture": "captures",
-    "pandas dataframe": "captures",
-    "export to csv": "command captures @decoder",
-    # Maintainers.
-    "how to add a command": "changing-the-protocol",
-    "rename a field": "changing-the-protocol",
-    "is this a breaking change": "what-changes-break changing-the-protocol",
-    "how do I contribute": "project/contributing",
-    "how fast is it": "project/benchmarks captures",
-    "what is new": "project/changelog @changelog",
-    # Publishers, with a protocol of their own.
-    "describe my own protocol": "write-a-spec",
-    "publish docs": "publish",
-    "github pages": "publish",
-    "where can I host the docs": "publish",
-    "hosting": "publish",
-    "licence": "project/contributing write-a-spec what-changes-break",
-    "guess the protocol from a recording": "guess-a-spec",
-}
+# Questions, behind the pages that answer them: one of these is among the first three hits, without
+# `.html`; `@` and `@@` stand for the references of busservo and lxservo, `@/` for their messages.
+QUESTIONS = """
+getting-started captures: how to install
+getting-started: how do I install this on windows | raspberry pi | how do i wire my board
+getting-started: where do I start | my first program | how to uninstall
+@index: which baud rate
+@index getting-started: what is busservo
+getting-started test-your-robot: can I try it without hardware
+test-your-robot getting-started: is there a simulator
+getting-started troubleshooting: which port is my board on
+troubleshooting: my reply is wrong | arm does not move | my servo moves to the wrong position
+troubleshooting: permission denied when I open the port
+troubleshooting lx16a: why is there no answer from the board
+troubleshooting getting-started: the board beeps, what does it mean
+troubleshooting @/ActionGroupStop @@/MoveStop: how do I stop the arm
+@/ServoMove talk-to-the-board: how do I move two servos at the same time
+@/ServoPositionsRead @@/PositionRead: read the position of my servo
+@/ServoUnload: how to make the servo limp
+talk-to-the-board: how do I know that the move is finished
+@@/ServoIdWrite lx16a: change the id of a servo
+@/BatteryVoltageRead @/BatteryVoltage: is my battery low
+@/BatteryVoltageRead @/BatteryVoltage @@/Voltage @@/VoltageRead: what voltage is my batery
+@@/TemperatureLimitWrite: my servo gets too hot
+command: play back recorded poses | log the traffic
+@lookalikes troubleshooting: Arduino | is this the right protocol for my arm
+getting-started troubleshooting talk-to-the-board: usb hid
+lx16a: run several servos on one wire without a controller
+@/ServoPositions: position reply layout
+@/BatteryVoltage: battery reply bytes
+@/ServoMove: move command format
+@index @stream write-a-spec design: what does the length byte count
+@errata @index what-changes-break: is it little endian
+@@index @@stream @stream write-a-spec: how is the checksum calculated
+@index @cheatsheet: list of all commands
+@cheatsheet @@cheatsheet: cheatsheet
+@decoder @@decoder command codec: decode my bytes
+@stream design: how do I resync after garbage
+@errata: error in the vendor documentation
+conformance: conformance | test my own implementation
+codec @stream: parse a stream of bytes
+captures: plot a capture | pandas dataframe
+command captures @decoder: export to csv
+changing-the-protocol: how to add a command | rename a field
+what-changes-break changing-the-protocol: is this a breaking change
+project/contributing: how do I contribute
+project/benchmarks captures: how fast is it
+project/changelog @changelog: what is new
+write-a-spec: describe my own protocol
+publish: publish docs | github pages | where can I host the docs | hosting
+project/contributing write-a-spec what-changes-break: licence
+guess-a-spec: guess the protocol from a recording
+"""
 
 
 def pages_of(answers: str) -> list[str]:
-    full = answers.replace("@@", "reference/lxservo/").replace("@", "reference/busservo/")
-    return [f"{page}.html" for page in full.replace(":", "messages/").split()]
+    full = re.sub("(@+)/", r"\1messages/", answers)
+    full = full.replace("@@", "reference/lxservo/").replace("@", "reference/busservo/")
+    return [f"{page}.html" for page in full.split()]
 
 
 @needs_node
 def test_questions_lead_to_a_page_that_answers_them() -> None:
     failed = []
-    for (question, answers), answer in zip(QUESTIONS.items(), found([*QUESTIONS]), strict=True):
+    questions = listed(QUESTIONS, ": ")
+    for (question, answers), answer in zip(questions.items(), found([*questions]), strict=True):
         first = [path.partition("#")[0] for path in answer["paths"][:3]]
         if not set(first) & {*pages_of(answers)}:
             failed.append(f"{question}: {answers}, not {answer['titles'][:3]} at {first}")
-    assert not failed, f"{len(failed)} of {len(QUESTIONS)}:\n" + "\n".join(failed)
+    assert not failed, f"{len(failed)} of {len(questions)}:\n" + "\n".join(failed)
 
 
 # ---------------------------------------------------------------------------- the index
