@@ -3,10 +3,11 @@
 import os
 import sys
 from pathlib import Path
-from subprocess import run
 from textwrap import dedent
 
 import pytest
+
+from tests.programs import ran
 
 # A module imports one of two others. Of properties, there is one of each kind: what is drawn from
 # most, what has parameters by a mark or by a fixture, steps.
@@ -75,15 +76,8 @@ def drawn(folder: Path, options: str, imported: str, hash_seed: int) -> list[str
     path = os.pathsep.join([*sys.path, str(folder)])
     environment = {"PYTHONPATH": path, "PYTHONHASHSEED": str(hash_seed), "IMPORTED": imported}
     command = [sys.executable, "-m", "pytest", "-c", os.devnull, "--rootdir", str(folder)]
-    done = run(
-        [*command, "-p", "tests.draws", "-p", "no:cacheprovider", *options.split()],
-        cwd=folder,
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+    plugins = ["-p", "tests.draws", "-p", "no:cacheprovider"]
+    done = ran(*command, *plugins, *options.split(), cwd=folder, environment=environment)
     return [line for line in done.stdout.splitlines() if line.startswith("drawn: ")]
 
 

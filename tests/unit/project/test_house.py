@@ -172,12 +172,9 @@ def test_a_declared_python_is_a_tested_one() -> None:
 @pytest.mark.skipif(os.name == "nt" or BASH is None, reason="there is no bash here")
 def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path: Path) -> None:
     elsewhere = tmp_path / "bin"
-    variables = {
-        "BARE_HOME": str(tmp_path / "home"),
-        "PATH": f"{elsewhere}{os.pathsep}{os.environ['PATH']}",
-        "PYTHONPATH": str(elsewhere),
-        "PIP_CERT": "kept",
-    }
+    path = f"{elsewhere}{os.pathsep}{os.environ['PATH']}"
+    variables = {"BARE_HOME": str(tmp_path / "home"), "PATH": path, "PIP_CERT": "kept"}
+    variables["PYTHONPATH"] = str(elsewhere)
     done = ran(BASH, ROOT / ".ci/bare", "env", environment=variables)
     kept = dict(line.partition("=")[::2] for line in done.stdout.splitlines())
     ways = r"(?i)PIP_|SSL_|REQUESTS_|NODE_EXTRA_|HTTPS?_PROXY|NO_PROXY|npm_config_|PYTHON_3_\d+$"

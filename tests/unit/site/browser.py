@@ -23,12 +23,8 @@ if TYPE_CHECKING:
 
 CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium")
 ARGUMENTS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
+    *("--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"),
+    *("--disable-component-update", "--disable-sync"),
 ]
 # How long a browser may take for anything.
 MILLISECONDS = 1000 * GENEROUS
@@ -88,11 +84,8 @@ class Visit:
         """Close the tab; fail if it had errors, or opened anything but pages from the disk."""
         self.tab.close()
         assert self.troubles == []
-        assert [each for each in self.requests if not each.startswith(self._here)] == []
-
-    @property
-    def _here(self) -> str:
-        return self.folder.parent.as_uri()
+        here = self.folder.parent.as_uri()
+        assert [each for each in self.requests if not each.startswith(here)] == []
 
 
 def arrives(tab: Tab, end: str) -> None:
@@ -109,7 +102,5 @@ def decoded(tab: Tab) -> list[str]:
     rows = tab.locator("#events [role=option]")
     names = texts(rows.locator(".what b"))
     kinds = [str(row.get_attribute("class")).split()[-1] for row in rows.all()]
-    return [
-        name if kind == "message" else f"{kind}: {name}"
-        for kind, name in zip(kinds, names, strict=True)
-    ]
+    both = zip(kinds, names, strict=True)
+    return [name if kind == "message" else f"{kind}: {name}" for kind, name in both]

@@ -86,24 +86,19 @@ def rendered_lamps(base: str = "", preview: bool = False) -> dict[str, str]:
 
 def metas(page: Page) -> dict[str, str]:
     """Return what the head of a page says, by name."""
-    return {
-        given.get("name") or given.get("property", ""): given["content"]
-        for tag, given in page.tags
-        if tag == "meta" and "content" in given
-    }
+    metas = page.having("content")
+    return {each.get("name") or each.get("property", ""): each["content"] for each in metas}
 
 
 def title(page: Page) -> str:
     """Return the title in the head of a page."""
-    found = re.search("<title>(.*?)</title>", page.text)
-    assert found is not None
-    return html.unescape(found[1])
+    (found,) = re.findall("<title>(.*?)</title>", page.text)
+    return html.unescape(found)
 
 
 def part(page: Page, name: str) -> str:
     """Return the navigation of a name, without what is around it."""
-    found = re.search(rf'<nav[^>]* aria-label="{name}".*?</nav>', page.text, re.DOTALL)
-    return "" if found is None else found[0]
+    return "".join(re.findall(rf'<nav[^>]* aria-label="{name}".*?</nav>', page.text, re.DOTALL))
 
 
 def links(text: str) -> list[tuple[str, str]]:

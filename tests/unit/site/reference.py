@@ -2,6 +2,7 @@
 
 import json
 import posixpath
+import re
 import shutil
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -63,8 +64,7 @@ class Page(HTMLParser):
         self.links += [given["href"]] if tag == "a" else []
         loading = [given[name] for name in ("src", "srcset", "data", "poster") if name in given]
         self.loads += loading + ([given.get("href", "")] if tag in ("link", "use", "image") else [])
-        if tag in ("h1", "h2", "h3", "h4", "h5", "h6"):
-            self.headings.append(int(tag[1]))
+        self.headings += [int(tag[1])] if re.fullmatch("h[1-6]", tag) else []
         if tag == "script":
             self.scripts.append((given, ""))
         if tag == "style":
@@ -144,20 +144,14 @@ class Reference:
     @cached_property
     def files(self) -> dict[str, str]:
         """The text of each file that is kept."""
-        name = self.compiled.spec.protocol.name
-        return {
-            path.removeprefix(f"docs/reference/{name}/"): text
-            for path, text in render_target(docs.TARGET, self.compiled).items()
-        }
+        files = render_target(docs.TARGET, self.compiled)
+        return {path.removeprefix(f"docs/{self.folder}"): text for path, text in files.items()}
 
     @cached_property
     def pages(self) -> dict[str, Page]:
         """Each page, by path below the root of the reference."""
-        return {
-            path.removeprefix(self.folder): page
-            for path, page in self.site.items()
-            if path.startswith(self.folder)
-        }
+        found = {path.partition(self.folder): page for path, page in self.site.items()}
+        return {path: page for (_, here, path), page in found.items() if here}
 
     @property
     def folder(self) -> str:

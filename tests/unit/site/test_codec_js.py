@@ -1,4 +1,7 @@
-"""The codec in the page, under node: compared with the reference, and with libraries."""
+"""The codec in the page, under node: compared with the reference, and with libraries.
+
+tests/contract/conformance has what it encodes.
+"""
 
 import random
 from collections.abc import Iterator
@@ -11,7 +14,7 @@ from typing import Any
 import pytest
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
-from framegen.model.codec import NotAFrame, decode, encode, values_of
+from framegen.model.codec import NotAFrame, decode, values_of
 from framegen.model.model import Model, derive
 from framegen.model.stream import ReferenceDecoder
 from framegen.site.scripts.codec_scripts import codec_scripts
@@ -190,20 +193,6 @@ def _verdict(model: Model, way: Direction | None, data: bytes) -> list[Any]:
     return [decoded.layout.name, decoded.values]
 
 
-@of_each
-def test_every_example_is_encoded_as_the_reference_encodes_it(name: str) -> None:
-    model = model_of(name)
-    questions: list[tuple[Any, ...]] = []
-    expected = []
-    for message in model.messages.values():
-        # With null for each field that is absent.
-        absent: dict[str, Any] = {slot.name: None for slot in message.optional}
-        for values in (example.values for example in message.message.examples):
-            questions.append(("encode", message.name, absent | values))
-            expected.append(list(encode(message, values)))
-    assert ask(model, questions) == expected
-
-
 # What a line says both ways: where each piece stands, its bytes, and the byte where it was refused.
 PIECES = {
     "noise without a header": ("00 01 02", [(0, "000102", 0)]),
@@ -229,11 +218,8 @@ def test_noise_is_reported_in_pieces_with_the_refused_byte(title: str) -> None:
 
 def bytewise(events: list[Any]) -> list[tuple[int, int, int]]:
     """Return each byte of noise: its place on the line, its value, and the refused place."""
-    return [
-        (at + index, byte, refused)
-        for _, data, _, _, at, refused in events[:-1]
-        for index, byte in enumerate(data)
-    ]
+    pieces = [(at, enumerate(data), refused) for _, data, _, _, at, refused in events[:-1]]
+    return [(at + index, byte, refused) for at, data, refused in pieces for index, byte in data]
 
 
 # Values that no frame can carry, by protocol and message: what is changed, and the refusal.
@@ -334,12 +320,8 @@ def test_a_long_line_is_decoded_as_by_the_library_however_it_is_cut(name: str) -
     library = import_module(name)
     decoder = library.StreamDecoder(library.Direction(way.key))
     expected = [*decoder.feed(line), *decoder.flush()]
-    asked = {
-        "protocol": protocol_data(model),
-        "line": line,
-        "direction": way.key,
-        "cuts": [[], cuts(chance, 50), cuts(chance, 100_000)],
-    }
+    asked = {"protocol": protocol_data(model), "line": line, "direction": way.key}
+    asked["cuts"] = [[], cuts(chance, 50), cuts(chance, 100_000)]
     for events, held in run_script(codec_scripts(model), LONG, asked):
         said = [[kind, hex_, what] for kind, _, _, hex_, what in events]
         assert joined(said) == joined(map(_as_the_page, expected))

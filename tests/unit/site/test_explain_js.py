@@ -99,11 +99,8 @@ def _changed(chance: random.Random, frame: bytes) -> bytes:
 @pytest.mark.parametrize("name", each_protocol(SPECS))
 def test_bytes_are_explained_in_the_words_of_the_reference(name: str) -> None:
     model = compiled_file(SPECS[name]).model
-    questions = [
-        (data, way)
-        for data in frames_for(model, name)
-        for way in (None, *(each.key for each in model.directions))
-    ]
+    ways = [None, *(each.key for each in model.directions)]
+    questions = [(data, way) for data in frames_for(model, name) for way in ways]
     asked = {"protocol": protocol_data(model), "questions": questions}
     answers = run_script(codec_scripts(model), PROGRAM, asked)
     for (data, way), said in zip(questions, answers, strict=True):

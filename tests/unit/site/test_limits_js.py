@@ -103,11 +103,8 @@ def test_the_page_refuses_what_the_client_refuses() -> None:
 
 def test_there_is_the_same_choice_as_the_client_has() -> None:
     found = asked_of_the_page(reference("busservo").model, [])
-    assert found["choices"] == [
-        [[0, 1000], "(0, 1000): what is usual"],
-        [[500, 2500], "(500, 2500): PWM servo boards"],
-        [None, "None: anything"],
-    ]
+    usual, pwm = "(0, 1000): what is usual", "(500, 2500): PWM servo boards"
+    assert found["choices"] == [[[0, 1000], usual], [[500, 2500], pwm], [None, "None: anything"]]
     assert asked_of_the_page(reference("greenhouse").model, [])["choices"] == []
 
 
@@ -209,14 +206,8 @@ def test_a_question_that_no_reply_has_room_for_is_not_sent(
 # ---------------------------------------------------------------------------- where one begins
 
 # The message that the encoder begins with: it asks, and with as little as possible.
-FIRST = {
-    "busservo": "BatteryVoltageRead",
-    "lxservo": "MoveRead",
-    "dynamixel1": "Ping",
-    "modbus": "CoilsRead",
-    "ubx": "NavPvtPoll",
-    "sbus": "Channels",
-}
+FIRST = {"busservo": "BatteryVoltageRead", "lxservo": "MoveRead", "dynamixel1": "Ping"}
+FIRST |= {"learm": "VersionRead", "modbus": "CoilsRead", "ubx": "NavPvtPoll", "sbus": "Channels"}
 
 
 @in_turn("name", lambda: FIRST)

@@ -11,6 +11,7 @@ from urllib.parse import unquote
 
 import pytest
 from framegen.cli import main
+from framegen.site.guides.guide import page_of as site_path
 from framegen.site.guides.links import is_elsewhere
 
 from tests.commands import called
@@ -114,16 +115,11 @@ def cases(guide: str, lines: list[str]) -> Iterator[Case]:
         lines += [form.format(words), ""]
 
 
-# Guides of each place that has some: what they begin with, and their pages.
+# Guides of each place that has some, and what they begin with.
 GUIDES = {
     "first.md": "# First\n\n## A part\n\n## Here\n",
     "sub/deep.md": "# Deep\n\n## Größe\n\n## Here\n",
     "../RULES.md": "# Rules\n\n## One\n\n## Here\n",
-}
-HTML = {
-    "first.md": "first.html",
-    "sub/deep.md": "sub/deep.html",
-    "../RULES.md": "project/rules.html",
 }
 
 
@@ -185,7 +181,7 @@ page_in = cache(page_of)
 
 @in_turn("guide", lambda: GUIDES)
 def test_what_is_not_told_is_on_the_page(built: Built, guide: str) -> None:
-    page = page_in(built.site, HTML[guide])
+    page = page_in(built.site, site_path(guide))
     for case in built.due[guide]:
         if (case.line, case.column) in built.told[guide]:
             continue

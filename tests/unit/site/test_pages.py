@@ -118,10 +118,8 @@ def test_protocols_of_one_project_are_in_one_site() -> None:
 
 def test_a_spec_that_lies_elsewhere_is_named_and_not_linked_to() -> None:
     text = reference("greenhouse").source.text
-    inside, outside = (
-        reference_of(Source(name, text)).files
-        for name in ("spec/demo.yaml", "/some/where/demo.yaml")
-    )
+    places = ("spec/demo.yaml", "/some/where/demo.yaml")
+    inside, outside = (reference_of(Source(place, text)).files for place in places)
     assert "(../../../../spec/demo.yaml)" in inside["messages/VentsOpen.md"]
     for path, page in outside.items():
         assert "demo.yaml" not in page.partition("-->")[2], path
@@ -210,15 +208,11 @@ def test_every_example_is_there_twice_and_can_be_copied(shown: Shown) -> None:
 def test_requests_and_replies_are_paired() -> None:
     page = SERVO.pages["examples.html"].words
     order = [
-        "Run action group 8 once",
-        "Action group 8 has started, to run once",
-        "Action group 8 has ended after one run",
-        "Run action group 2 until it is stopped",
+        *("Run action group 8 once", "Action group 8 has started, to run once"),
+        *("Action group 8 has ended after one run", "Run action group 2 until it is stopped"),
         "Action group 2 has started, to run until it is stopped",
-        "Ask for the battery voltage",
-        "The battery is at 7500 mV",
-        "Ask for the positions of servos 1 to 6",
-        "Servos 1 to 6 are all at position 500",
+        *("Ask for the battery voltage", "The battery is at 7500 mV"),
+        *("Ask for the positions of servos 1 to 6", "Servos 1 to 6 are all at position 500"),
     ]
     places = [page.index(title) for title in order]
     assert places == sorted(places)
@@ -317,11 +311,8 @@ See [ServoUnload](reference/busservo/messages/ServoUnload.md#fields), not ServoM
 `ServoMove(...)` is a class, `remove_servos` is none, and neither is controller.ServoMover.
 """
 OTHER = GUIDE.replace("# The arm", "# Elsewhere").replace("`busservo`", "another library")
-MENTIONS = {
-    "ServoMove": ["The arm: Moving, A word"],
-    "ServoUnload": ["The arm: Letting go", "Elsewhere: Letting go"],
-    "BatteryVoltage": [],
-}
+MENTIONS = {"ServoMove": ["The arm: Moving, A word"], "BatteryVoltage": []}
+MENTIONS |= {"ServoUnload": ["The arm: Letting go", "Elsewhere: Letting go"]}
 
 
 @in_turn("message", lambda: MENTIONS)

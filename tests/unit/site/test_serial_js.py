@@ -220,15 +220,9 @@ def outcomes(found: dict[str, Any]) -> list[Any]:
 
 # What is sent (>) and received (<), at which ms, or that time passes; and what is said of it: of
 # each answer how long it took, and whether it is late or what is missing in it.
-PIECES = {
-    "ask": ASK,
-    "voltage": VOLTAGE,
-    "its first bytes": VOLTAGE[:3],
-    "the rest": VOLTAGE[3:],
-    "where": WHERE,
-    "there": THERE,
-    "another": ServoPositions([(3, 1)]).encode(),
-}
+PIECES = {"ask": ASK, "voltage": VOLTAGE, "where": WHERE, "there": THERE}
+PIECES |= {"its first bytes": VOLTAGE[:3], "the rest": VOLTAGE[3:]}
+PIECES |= {"another": ServoPositions([(3, 1)]).encode()}
 ANSWERS = {
     "at once": ("0 > ask | 20 < voltage", "voltage after 20"),
     "incomplete": ("0 > where | 40 < there", "positions after 40 without servo_ids 9"),
@@ -401,11 +395,8 @@ def test_python_reads_a_recording_of_the_page() -> None:
     decoder = StreamDecoder(CODEC.received)
     events = [*decoder.feed(stream), *decoder.flush()]
     assert b"".join(data for *_, data in entries) == stream
-    messages, expected = (
-        [e for e in all_ if not hasattr(e, "data")]
-        for all_ in ([entry.event for entry in read], events)
-    )
-    assert messages == expected
+    expected = [event for event in events if not hasattr(event, "data")]
+    assert [each.event for each in read if not hasattr(each.event, "data")] == expected
     assert [entry.time for entry in read] == [round(time, 6) for time, *_ in entries]
     assert {entry.sender for entry in read} == {"controller"}
     assert read[0].began == 1767344947.25

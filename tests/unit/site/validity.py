@@ -3,10 +3,12 @@
 import json
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.factories import write_files
+from tests.programs import ran
 from tests.unit.site.reference import NODE, NODE_MODULES
 
 VALIDATOR = NODE_MODULES / "html-validate" / "bin" / "html-validate.mjs"
@@ -25,17 +27,10 @@ def complaints(folder: Path, pages: dict[str, str]) -> list[str]:
     # Into a file: it ends before it has written more than a pipe holds.
     said_of = folder / "said.json"
     with said_of.open("w", encoding="utf-8") as output:
-        done = subprocess.run(
-            [str(NODE), str(VALIDATOR), "--formatter", "json", str(folder)],
-            cwd=folder,
-            stdout=output,
-            stderr=subprocess.PIPE,
-            encoding="utf-8",
-            check=False,
-        )
+        options: Any = {"capture_output": False, "stdout": output, "stderr": subprocess.PIPE}
+        words = (NODE, VALIDATOR, "--formatter", "json", folder)
+        done = ran(*words, status=None, cwd=folder, **options)
     assert done.returncode in (0, 1), done.stderr
-    return [
-        f"{Path(file['filePath']).name}:{said['line']}: {said['ruleId']}: {said['message']}"
-        for file in json.loads(said_of.read_text("utf-8"))
-        for said in file["messages"]
-    ]
+    files = json.loads(said_of.read_text("utf-8"))
+    found = [(Path(file["filePath"]).name, said) for file in files for said in file["messages"]]
+    return [f"{name}:{said['line']}: {said['ruleId']}: {said['message']}" for name, said in found]
