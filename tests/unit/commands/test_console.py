@@ -171,8 +171,8 @@ def test_no_port_gets_the_number_of_a_stream_that_is_closed() -> None:
         "import os, sys; from framewire.command.console import run;"
         "sys.exit(run('it', lambda: os.open(os.devnull, os.O_RDONLY)))"
     )
-    closed = {"preexec_fn": partial(close_all, (0, 1, 2)), "capture_output": False}
-    assert ran(sys.executable, "-c", program, status=3, **closed)
+    close = partial(close_all, (0, 1, 2))
+    assert ran(sys.executable, "-c", program, status=3, capture_output=False, preexec_fn=close)
 
 
 # -- Text of strangers -----------------------------------------------------------------------------

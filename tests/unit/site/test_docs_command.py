@@ -35,7 +35,12 @@ def test_it_opens_the_index_or_reports_a_missing_browser(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened: list[str] = []
-    monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or len(opened) == 1)
+
+    def opening(url: str) -> bool:
+        opened.append(url)
+        return len(opened) == 1
+
+    monkeypatch.setattr(webbrowser, "open", opening)
     out = ("--out", str(tmp_path / "a b"))
     status, _, err = docs(SPEC, "--open", *out)
     assert (status, opened) == (0, [(tmp_path / "a b" / "index.html").as_uri()])

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable
 from functools import cache
+from typing import Any
 
 import pytest
 from framegen.comparison.listing import edition_of
@@ -189,9 +190,9 @@ BOTH = Editions(SECOND, (FIRST,))
 def test_one_page_of_an_edition_leads_to_the_next() -> None:
     site = BOTH.site
 
-    def beside(pages: Iterable[SitePage]) -> list[tuple[str | None, str | None]]:
+    def beside(pages: Iterable[SitePage]) -> list[tuple[Any, ...]]:
         links = [site.navigation.neighbours(page) for page in pages]
-        return [(before and before.path, after and after.path) for before, after in links]
+        return [tuple(getattr(each, "path", None) for each in both) for both in links]
 
     (older,) = site.collection.older
     paths = [page.path for page in older.pages]

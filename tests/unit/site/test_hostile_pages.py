@@ -65,17 +65,24 @@ def test_the_data_of_the_decoder_and_of_the_search_is_data() -> None:
     assert json.loads(data)["messages"][0]["name"] == "ServoMove"
     page, other = (each.site["search.html"] for each in both())
     assert "<" not in page.data
-    paths, expected = (
-        [entry["path"] for entry in json.loads(each.data)["entries"]] for each in (page, other)
-    )
-    assert paths == expected
-    assert sorted(set(skeleton(page))) == sorted(set(skeleton(other)))
-    listed, expected = (
-        {link for link in each.links if link.startswith("reference/")} for each in (page, other)
-    )
-    assert listed == expected
-    code, expected = ([text for given, text in each.scripts if not given] for each in (page, other))
-    assert code == expected
+    for part in (found_paths, elements, listed, code):
+        assert part(page) == part(other)
+
+
+def found_paths(page: Page) -> list[str]:
+    return [entry["path"] for entry in json.loads(page.data)["entries"]]
+
+
+def elements(page: Page) -> set[tuple[str, tuple[str, ...]]]:
+    return {*skeleton(page)}
+
+
+def listed(page: Page) -> set[str]:
+    return {link for link in page.links if link.startswith("reference/")}
+
+
+def code(page: Page) -> list[str]:
+    return [text for given, text in page.scripts if not given]
 
 
 def test_names_in_prose_lead_to_pages_and_nothing_else_does() -> None:
