@@ -20,8 +20,6 @@ libraries generated under the mutant:
     python -m tests.mutant_sample --rows tests/derive_mutants.yaml --only place --only order-field
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import re

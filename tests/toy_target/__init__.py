@@ -1,17 +1,10 @@
 """A target for a language that nobody speaks: a message a line. All that a target has to be."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-from framegen.targets.target import BentName, Comment, Reserved, Snippet, Target
-
-if TYPE_CHECKING:
-    from framegen.compile import Compiled
-    from framegen.language.spec import Example
-    from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
-    from framegen.targets.target import Snippets
+from framegen.compile import Compiled
+from framegen.language.spec import Example
+from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
+from framegen.targets.target import BentName, Comment, Reserved, Snippet, Snippets, Target
 
 WORDS = Reserved("message", frozenset(["VentsOpen", "Halt"]), "is a word of the language", "_")
 

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.unit.site.browser import Visit, launched
+from tests.unit.site.browser import Visit, launched, project_on_disk
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser, BrowserContext
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the site of this project, as `make docs` builds it; some files have another."""
+    return project_on_disk(tmp_path_factory.mktemp("a stick") / "the site")
 
 
 @pytest.fixture(scope="module")
@@ -34,3 +41,22 @@ def visit(context: BrowserContext, folder: Path) -> Iterator[Visit]:
     visit = Visit(context, folder)
     yield visit
     visit.end()
+
+
+@pytest.fixture
+def unscripted(browser: Browser, folder: Path) -> Iterator[Visit]:
+    """Yield such a visit in a browser that runs no script."""
+    with visiting(browser, folder, java_script_enabled=False) as visit:
+        yield visit
+
+
+@contextmanager
+def visiting(browser: Browser, folder: Path, script: str = "", **settings: Any) -> Iterator[Visit]:
+    """Yield such a visit with these settings; a script runs before those of any page."""
+    context = browser.new_context(**settings)
+    if script:
+        context.add_init_script(script)
+    visit = Visit(context, folder)
+    yield visit
+    visit.end()
+    context.close()

@@ -1,7 +1,5 @@
 """The guide to changes, followed in a repository of its own: every test passes when it is done."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

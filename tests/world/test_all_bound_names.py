@@ -1,9 +1,7 @@
 """Every name that a library binds anywhere is a good name for anything, for type checkers, too."""
 
-from __future__ import annotations
-
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -11,9 +9,6 @@ from tests.bound_crowds import CROWDS, crowd_of
 from tests.factories import ROOT, compiled_of, library_files, write_files
 from tests.names_at_work import at_work
 from tests.programs import ran
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 KINDS = [(kind, plain) for kind in CROWDS for plain in (True, False)]
 

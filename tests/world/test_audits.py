@@ -1,7 +1,5 @@
 """Audits by any spec, of any bytes: nothing is lost, and every report can be written."""
 
-from __future__ import annotations
-
 import json
 from random import Random
 

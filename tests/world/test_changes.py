@@ -4,22 +4,15 @@ And every effect that breaks something has a change that explains it. Each day i
 leaves, and every edit one way round; --seed 0, 1, ... tries all of them.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.changes.change import ChangeRule
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.explained import explain
 
 from tests.mutations.edits import EDITS, SPECS, edition, of_the_day
 from tests.mutations.leaves import told_at_their_places
 from tests.unit.comparison.rules_page import PAGE, section, verdicts
-
-if TYPE_CHECKING:
-    from framegen.comparison.changes.change import ChangeRule
-
 
 # One of so many leaves is changed.
 _EACH = 5

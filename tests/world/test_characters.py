@@ -1,17 +1,12 @@
 """Characters that ruff takes for others are those that framegen refuses."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from framegen.targets.python.docstring import docstring
 from framegen.targets.python.escape import literal
 
 from tests.side_by_side import linted
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 # All that a spec may hold, but for emoji and scripts that nobody uses any more.
 CHARACTERS = [chr(code) for code in range(0xA0, 0xD800) if chr(code).isprintable()]

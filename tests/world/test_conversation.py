@@ -1,7 +1,5 @@
 """Ends of two editions that talk: each mutation of some spec, and what is said of its exchanges."""
 
-from __future__ import annotations
-
 import pytest
 from framegen.comparison.pair import Pair
 from hypothesis import given

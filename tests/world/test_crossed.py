@@ -3,17 +3,11 @@
 `--sample 2000 --seed 5` takes the specs of so many seeds, the first of which is 5.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 
+from tests.contract.crossed.scripts import Scripts
 from tests.contract.crossed.test_crossed import SEEDS, read_alike, scripts
 from tests.unit.site.reference import NODE
-
-if TYPE_CHECKING:
-    from tests.contract.crossed.scripts import Scripts
 
 __all__ = ["scripts"]
 

@@ -1,24 +1,18 @@
 """Captures of every protocol, cut at safe places: the pieces hold the events of the whole."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.contract.protocols.conftest import libraries
-from tests.protocols.libraries import direction_of
+from tests.protocols.libraries import Libraries, direction_of
 from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from tests.protocols.libraries import Libraries
 
 __all__ = ["libraries"]
 

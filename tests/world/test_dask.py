@@ -1,21 +1,17 @@
 """The pieces of a folder of captures as work of a Dask cluster: two workers on one machine."""
 
-from __future__ import annotations
-
 import os
 import signal
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo.tables import Piece, Report, archive, scan
 from dask import distributed
 
 from tests.unit.runtime.tables.conversations import conversation, recorded
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 # Untyped, as far as it is used here.
 dask: Any = distributed

@@ -1,11 +1,9 @@
 """A dataset that several processes write: at once, and one behind another that was killed."""
 
-from __future__ import annotations
-
 import multiprocessing
 import sys
 from concurrent.futures import ProcessPoolExecutor
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from busservo.tables import archive, scan
 
@@ -18,9 +16,6 @@ from tests.unit.runtime.tables.test_dataset import (
     rows_in,
     rows_of,
 )
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 __all__ = ["captures"]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.unit.site.browser import Visit, needs_chromium, project_on_disk
+from tests.unit.site.browser import Visit, needs_chromium
 from tests.unit.site.test_drawings import DRAWINGS, drawings
 
 if TYPE_CHECKING:
@@ -38,16 +38,9 @@ def test_no_words_leave_the_paper(browser: Browser, drawing: Path) -> None:
 
 
 @pytest.mark.parametrize("width", [380, 1440])
-def test_the_policy_of_a_page_lets_its_drawings_show(
-    browser: Browser, tmp_path: Path, width: int
-) -> None:
-    context = browser.new_context(viewport={"width": width, "height": 900})
-    visit = Visit(context, project_on_disk(tmp_path / "site"))
-    tab = visit.open("getting-started.html")
-    assert tab.evaluate(PICTURES) == [[f"wiring-{each}.svg", True] for each in ORDER]
-    assert sorted(ORDER) == [drawing.stem.removeprefix("wiring-") for drawing in DRAWINGS]
-    assert visit.troubles == []
-    context.close()
-
-
-ORDER = ["adapter", "header", "hid", "servos"]
+def test_the_policy_of_a_page_lets_its_drawings_show(visit: Visit, width: int) -> None:
+    visit.tab.set_viewport_size({"width": width, "height": 900})
+    shown = visit.open("getting-started.html").evaluate(PICTURES)
+    order = ["adapter", "header", "hid", "servos"]
+    assert shown == [[f"wiring-{each}.svg", True] for each in order]
+    assert order == sorted(drawing.stem.removeprefix("wiring-") for drawing in DRAWINGS)

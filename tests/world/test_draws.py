@@ -1,7 +1,5 @@
 """All properties draw the same in any order, on any number of workers; each file by itself too."""
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

@@ -1,15 +1,10 @@
 """The pytest fixtures for other people's robots: there if imported, and not loaded otherwise."""
 
-from __future__ import annotations
-
 import os
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from tests.programs import ran
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TESTS = """
 import busservo

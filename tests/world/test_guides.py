@@ -1,18 +1,13 @@
 """Guides, followed: with boards in real time, git, processes, and what takes long, as a cluster."""
 
-from __future__ import annotations
-
 import re
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tests.documents import PAGES, ROOT, copy_project, played
 from tests.unit.project.test_readme import TAKE_TIME
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LONG = [page for page in PAGES if "\n```python slow\n" in page.read_text(encoding="utf-8")]
 CONSTRAINTS = (ROOT / "constraints.txt").read_text(encoding="utf-8")

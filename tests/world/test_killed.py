@@ -1,12 +1,10 @@
 """A run that is killed, or that the disk fails, at every step: the next one finishes."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -23,9 +21,6 @@ from tests.unit.writing.test_killed import (
     wholly,
 )
 from tests.unit.writing.trees import snapshot, without_workshop
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["no_power_fails"]
 

@@ -7,9 +7,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import busservo
-import lxservo
 import pytest
-from busservo import StreamDecoder, recordings
+from busservo import BatteryVoltage, BatteryVoltageRead, StreamDecoder, recordings
 from busservo._library import CODEC
 from busservo_simulator import Faults, VirtualController
 from framegen.cli import main
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     from tests.contract.independent.faults import Script
     from tests.unit.site.serial_host import End
 
-VOLTAGE = busservo.BatteryVoltage(7500).encode()
+VOLTAGE = BatteryVoltage(7500).encode()
 
 pytestmark = needs_chromium
 
@@ -73,6 +72,27 @@ def desk(browser: Browser, site: Path, end: End, **screen: Any) -> Iterator[Desk
     made.end()
 
 
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    with VirtualController() as board:
+        yield board
+
+
+@pytest.fixture
+def made(browser: Browser, site: Path, board: VirtualController) -> Iterator[Desk]:
+    """Return a desk with that board."""
+    with desk(browser, site, VirtualEnd(board)) as made:
+        yield made
+
+
+@pytest.fixture
+def live(made: Desk) -> LiveTab:
+    """Return the workbench at that desk, connected."""
+    live = made.open()
+    live.connect()
+    return live
+
+
 def events(recording: bytes, sender: str | None = None) -> list[Any]:
     """Return what Python reads in a recording of the page."""
     found = recordings.read(io.BytesIO(recording))
@@ -95,75 +115,76 @@ SENT = [
     ("ServoUnload", {"servo_ids": "3"}, "ServoUnload is sent. Nothing answers it."),
     ("ActionGroupStop", {}, "ActionGroupStop is sent. Nothing answers it, though"),
 ]
+# Press a button twice before anything else can happen, and return what is said of it.
+TWICE = """(send) => {
+    send.click();
+    send.click();
+    return document.querySelector("#line-reply").textContent;
+}"""
 
 
-def test_what_is_sent_is_answered_or_said_to_have_no_answer(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        for name, values, reply in SENT:
-            live.send(name, **values)
-            live.reply(reply)
-        live.count("sent", len(SENT))
-        assert not board.servos[3].loaded
-        assert [type(event).__name__ for event in events(live.recording(), "host")] == [
-            name for name, *_ in SENT
-        ]
+def test_what_is_sent_is_answered_or_said_to_have_no_answer(
+    board: VirtualController, made: Desk, live: LiveTab
+) -> None:
+    for name, values, reply in SENT:
+        live.send(name, **values)
+        live.reply(reply)
+    live.count("sent", len(SENT))
+    assert not board.servos[3].loaded
+    assert [type(event).__name__ for event in events(live.recording(), "host")] == [
+        name for name, *_ in SENT
+    ]
+    assert made.host.opened == [{"baudRate": 9600, "dataBits": 8, "parity": "none", "stopBits": 1}]
 
 
-def test_what_the_other_end_sends_is_not_sent(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        live.tab.locator("#message").select_option("BatteryVoltage")
-        assert live.tab.locator("#line-send").is_disabled()
-        expects = live.tab.locator("#line-expects").inner_text()
-        assert expects.startswith("BatteryVoltage is what the controller sends")
-        live.tab.locator("#message").select_option("BatteryVoltageRead")
-        assert live.tab.locator("#line-send").is_enabled()
-        assert made.host.written == b""
+def test_what_is_pressed_before_the_reply_has_come_is_sent_behind_it(live: LiveTab) -> None:
+    live.send("BatteryVoltageRead")
+    assert "after BatteryVoltageRead was sent" in live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+    said = live.tab.locator("#line-send").evaluate(TWICE)
+    assert said.startswith("BatteryVoltageRead is sent once the question before it is ")
+    live.count("frames", 3)
+    entries = [*recordings.read(io.BytesIO(live.recording()))]
+    asked, answered = ("host", BatteryVoltageRead()), ("controller", BatteryVoltage(7500))
+    assert [(entry.sender, entry.event) for entry in entries] == [asked, answered] * 3
 
 
-def test_what_is_beyond_the_limits_is_not_sent(browser: Browser, site: Path) -> None:
+def test_what_the_other_end_sends_is_not_sent(made: Desk, live: LiveTab) -> None:
+    live.tab.locator("#message").select_option("BatteryVoltage")
+    assert live.tab.locator("#line-send").is_disabled()
+    expects = live.tab.locator("#line-expects").inner_text()
+    assert expects.startswith("BatteryVoltage is what the controller sends")
+    live.tab.locator("#message").select_option("BatteryVoltageRead")
+    assert live.tab.locator("#line-send").is_enabled()
+    assert made.host.written == b""
+
+
+def test_what_is_beyond_the_limits_is_not_sent(made: Desk, live: LiveTab) -> None:
     """It is refused in the client's words, until somebody chooses other limits."""
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        # Whoever only presses Send moves nothing.
-        live.tab.locator("#line-send").click()
-        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
-        asked = made.host.written
-        values = {"time_ms": "100", "targets": "1:500,2:1200"}
-        live.send("ServoMove", **values)
-        bounds = "targets[1].position: 1200 is outside the limits 0..1000"
-        way_out = "limits=(500, 2500) is for PWM servo boards, limits=None for any"
-        assert live.reply("ServoMove is not sent.") == (
-            f"ServoMove is not sent. {bounds}; {way_out}"
-        )
-        live.send("ServoMove", time_ms="100", targets="1:5000")
-        assert live.reply("ServoMove is not sent. targets[0].position: 5000").endswith(
-            "is outside the limits 0..1000; limits=None sends anything"
-        )
-        assert made.host.written == asked
-        live.count("sent", 1)
-        live.tab.get_by_label("Limits of what is sent").select_option(
-            "(500, 2500): PWM servo boards"
-        )
-        assert live.tab.locator("#line-reply").inner_text() == ""
-        live.send("ServoMove", **values)
-        live.reply("ServoMove is sent.")
-        live.send("ServoMove", time_ms="100", targets="1:300")
-        live.reply(
-            "ServoMove is not sent. targets[0].position: 300 is outside the limits 500..2500"
-        )
-        live.tab.get_by_label("Limits of what is sent").select_option("None: anything")
-        live.send("ServoMove", time_ms="100", targets="1:5000")
-        live.reply("ServoMove is sent.")
-        moves = [((1, 500), (2, 1200)), ((1, 5000),)]
-        live.count("sent", 3)
-        assert made.host.written == asked + b"".join(
-            busservo.ServoMove(100, targets).encode() for targets in moves
-        )
+    # Whoever only presses Send moves nothing.
+    live.tab.locator("#line-send").click()
+    live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+    asked = made.host.written
+    choice = live.tab.get_by_label("Limits of what is sent")
+    values = {"time_ms": "100", "targets": "1:500,2:1200"}
+    live.send("ServoMove", **values)
+    bounds = "targets[1].position: 1200 is outside the limits 0..1000"
+    way_out = "limits=(500, 2500) is for PWM servo boards, limits=None for any"
+    assert live.reply("ServoMove is not sent.") == f"ServoMove is not sent. {bounds}; {way_out}"
+    assert made.host.written == asked
+    live.count("sent", 1)
+    choice.select_option("(500, 2500): PWM servo boards")
+    assert live.tab.locator("#line-reply").inner_text() == ""
+    live.send("ServoMove", **values)
+    live.reply("ServoMove is sent.")
+    live.send("ServoMove", time_ms="100", targets="1:300")
+    live.reply("ServoMove is not sent. targets[0].position: 300 is outside the limits 500..2500")
+    choice.select_option("None: anything")
+    live.send("ServoMove", time_ms="100", targets="1:5000")
+    live.reply("ServoMove is sent.")
+    moves = [((1, 500), (2, 1200)), ((1, 5000),)]
+    live.count("sent", 3)
+    sent = b"".join(busservo.ServoMove(100, targets).encode() for targets in moves)
+    assert made.host.written == asked + sent
 
 
 @pytest.mark.parametrize("one_by_one", [False, True])
@@ -200,22 +221,21 @@ def test_nothing_on_a_bad_line_is_lost(
         assert sum(isinstance(event, busservo.Message) for event in found) >= len(whole) - 3
 
 
-def test_both_ends_are_told_apart_where_they_can_be(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.settings()
-        live.tab.locator("#line-listen").select_option("any")
-        live.connect()
-        for message in [busservo.BatteryVoltageRead(), busservo.ActionGroupStarted(3, 1)]:
-            made.host.said.append({"hex": message.encode().hex()})
-            live.tab.wait_for_timeout(100)
-        live.count("frames", 2)
-        live.drawn()
-        ways = live.tab.locator("#line-log .way-of").all_inner_texts()
-        assert ways == ["host → controller", "either"]
-        assert live.rows()[1] == "ActionGroupRun or ActionGroupStarted group=3 times=1"
-        entries = [*recordings.read(io.BytesIO(live.recording()))]
-        assert [entry.sender for entry in entries] == ["host", None]
+def test_both_ends_are_told_apart_where_they_can_be(made: Desk) -> None:
+    live = made.open()
+    live.settings()
+    live.tab.locator("#line-listen").select_option("any")
+    live.connect()
+    for message in [BatteryVoltageRead(), busservo.ActionGroupStarted(3, 1)]:
+        made.host.said.append({"hex": message.encode().hex()})
+        live.tab.wait_for_timeout(100)
+    live.count("frames", 2)
+    live.drawn()
+    ways = live.tab.locator("#line-log .way-of").all_inner_texts()
+    assert ways == ["host → controller", "either"]
+    assert live.rows()[1] == "ActionGroupRun or ActionGroupStarted group=3 times=1"
+    entries = [*recordings.read(io.BytesIO(live.recording()))]
+    assert [entry.sender for entry in entries] == ["host", None]
 
 
 # ---------------------------------------------------------------------------- replies
@@ -259,6 +279,14 @@ def test_silence_is_said_in_plain_words(browser: Browser, site: Path) -> None:
         live.reply("BatteryVoltageRead is sent; BatteryVoltage is waited for.")
         assert "Something else was heard" in live.reply("No reply to ")
         live.count("errors", 2)
+        # Nor does a pulled cable leave anybody waiting.
+        live.send("BatteryVoltageRead")
+        made.host.unplug(live.tab)
+        live.status("The line was lost")
+        live.reply("No reply to BatteryVoltageRead")
+        live.tab.get_by_role("button", name="Give up").click()
+        live.status("Not connected.")
+        assert not made.host.is_open
 
 
 # ---------------------------------------------------------------------------- what goes wrong
@@ -271,129 +299,81 @@ FAULTS = {
 }
 
 
-def test_a_line_goes_on_after_errors(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        for number, name in enumerate(FAULTS, 1):
-            made.host.said.append({"error": name})
-            live.count("errors", number)
-        for said, words in zip(live.comments()[1:], FAULTS.values(), strict=True):
-            assert words in said
-        live.send("BatteryVoltageRead")
-        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+def test_a_line_goes_on_after_errors(made: Desk, live: LiveTab) -> None:
+    for number, name in enumerate(FAULTS, 1):
+        made.host.said.append({"error": name})
+        live.count("errors", number)
+    for said, words in zip(live.comments()[1:], FAULTS.values(), strict=True):
+        assert words in said
+    made.host.write_error = "UnknownError"
+    live.send("ActionGroupStop")
+    assert "The write has failed." in live.reply("ActionGroupStop was not sent.")
+    made.host.write_error = ""
+    live.send("BatteryVoltageRead")
+    live.reply("BatteryVoltage voltage_mv=7500 mV, ")
 
 
-def test_a_cable_is_pulled_in_the_middle_of_a_frame(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        made.host.said.append({"hex": VOLTAGE[:4].hex()})
-        live.count("bytes", 4)
-        made.host.unplug(live.tab)
-        live.status("The line was lost")
-        assert "chosen anew" in live.advice()
-        assert live.tab.locator("#line-send").is_disabled()
-        made.host.plug_in(live.tab)
-        live.status("Connected to USB 1A86:7523")
-        live.send("BatteryVoltageRead")
-        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
-        found = events(live.recording(), "controller")
-        assert [type(event).__name__ for event in found] == ["Noise", "BatteryVoltage"]
-        assert data_of(found) == VOLTAGE[:4] + VOLTAGE
-        connected = "connected to USB 1A86:7523"
-        assert live.comments() == [connected, "the line was lost", connected]
-        live.close()
-        assert not made.host.is_open
+def test_a_cable_is_pulled_in_the_middle_of_a_frame(made: Desk, live: LiveTab) -> None:
+    made.host.said.append({"hex": VOLTAGE[:4].hex()})
+    live.count("bytes", 4)
+    made.host.unplug(live.tab)
+    live.status("The line was lost")
+    assert "chosen anew" in live.advice()
+    assert live.tab.locator("#line-send").is_disabled()
+    made.host.plug_in(live.tab)
+    live.status("Connected to USB 1A86:7523")
+    live.send("BatteryVoltageRead")
+    live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+    found = events(live.recording(), "controller")
+    assert [type(event).__name__ for event in found] == ["Noise", "BatteryVoltage"]
+    assert data_of(found) == VOLTAGE[:4] + VOLTAGE
+    connected = "connected to USB 1A86:7523"
+    assert live.comments() == [connected, "the line was lost", connected]
+    live.close()
+    assert not made.host.is_open
 
 
-def test_a_cable_is_pulled_while_a_reply_is_waited_for(browser: Browser, site: Path) -> None:
-    board = VirtualController(faults=Faults(dropped=1.0))
-    with board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        live.send("BatteryVoltageRead")
-        made.host.unplug(live.tab)
-        live.status("The line was lost")
-        live.reply("No reply to BatteryVoltageRead")
-        live.tab.get_by_role("button", name="Give up").click()
-        live.status("Not connected.")
-        assert not made.host.is_open
+def test_a_port_that_does_not_open_says_why(made: Desk) -> None:
+    live, second = made.open(), made.open()
+    connect = live.tab.get_by_role("button", name="Connect your board")
+    made.host.refused = True
+    connect.click()
+    live.status("The port cannot be opened: it is in use, or this user may not open it.")
+    assert "dialout" in live.advice()
+    made.host.refused = made.host.chosen = False
+    connect.click()
+    live.status("No port was chosen.")
+    assert "driver of the adapter" in live.advice()
+    made.host.chosen = True
+    live.settings()
+    for rate in ["", "0", "-1", "9600.5"]:
+        live.tab.locator("#line-baud").fill(rate)
+        connect.click()
+        live.status("The rate of the line is a whole number")
+    live.tab.locator("#line-baud").fill("115200")
+    live.connect()
+    assert live.advice() == ""
+    assert [each["baudRate"] for each in made.host.opened] == [115200]
+    # A second tab says that the first has the port.
+    second.tab.get_by_role("button", name="Connect your board").click()
+    second.status("The port cannot be opened: it is in use")
+    assert "another tab of this browser" in second.advice()
+    live.close()
+    second.connect()
 
 
-def test_a_frame_that_cannot_be_sent_is_said_to_be_unsent(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        made.host.write_error = "UnknownError"
-        live.send("ActionGroupStop")
-        assert "The write has failed." in live.reply("ActionGroupStop was not sent.")
-        made.host.write_error = ""
-        live.send("BatteryVoltageRead")
-        live.reply("BatteryVoltage voltage_mv=7500 mV, ")
+def test_a_port_that_was_allowed_before_needs_no_choice(made: Desk) -> None:
+    live = made.open()
+    made.host.chosen = False
+    made.host.plug_in(live.tab)
+    live.tab.get_by_role("button", name="Connect to USB 1A86:7523 again").click()
+    live.status("Connected to")
 
 
-def test_a_port_in_use_is_said_to_be_in_use(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        made.host.refused = True
-        live.tab.get_by_role("button", name="Connect your board").click()
-        live.status("The port cannot be opened: it is in use, or this user may not open it.")
-        assert "dialout" in live.advice()
-        made.host.refused = False
-        live.connect()
-        assert live.advice() == ""
-
-
-def test_a_second_tab_says_that_the_first_has_the_port(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        first, second = made.open(), made.open()
-        first.connect()
-        second.tab.get_by_role("button", name="Connect your board").click()
-        second.status("The port cannot be opened: it is in use")
-        assert "another tab of this browser" in second.advice()
-        first.close()
-        second.connect()
-
-
-def test_nothing_chosen_is_no_error(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        made.host.chosen = False
-        live.tab.get_by_role("button", name="Connect your board").click()
-        live.status("No port was chosen.")
-        assert "driver of the adapter" in live.advice()
-
-
-def test_a_port_that_was_allowed_before_needs_no_choice(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        made.host.chosen = False
-        made.host.plug_in(live.tab)
-        live.tab.get_by_role("button", name="Connect to USB 1A86:7523 again").click()
-        live.status("Connected to")
-
-
-def test_a_page_that_is_left_closes_its_port(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        live.tab.evaluate("() => dispatchEvent(new PageTransitionEvent('pagehide'))")
-        live.status("Not connected.")
-        assert not made.host.is_open
-
-
-def test_a_rate_that_is_none_opens_nothing(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.settings()
-        for rate in ["", "0", "-1", "9600.5"]:
-            live.tab.locator("#line-baud").fill(rate)
-            live.tab.get_by_role("button", name="Connect your board").click()
-            live.status("The rate of the line is a whole number")
-        live.tab.locator("#line-baud").fill("115200")
-        live.connect()
-        assert [each["baudRate"] for each in made.host.opened] == [115200]
+def test_a_page_that_is_left_closes_its_port(made: Desk, live: LiveTab) -> None:
+    live.tab.evaluate("() => dispatchEvent(new PageTransitionEvent('pagehide'))")
+    live.status("Not connected.")
+    assert not made.host.is_open
 
 
 @pytest.mark.parametrize("said", [True, False])
@@ -403,12 +383,7 @@ def test_a_single_wire_gives_back_what_is_sent(browser: Browser, site: Path, sai
         live.settings()
         live.tab.locator("#line-echo").set_checked(said)
         live.connect()
-        name = next(
-            kind.__name__
-            for kind in lxservo.MESSAGES
-            if kind.__name__ in ("PositionRead", "ServoPositionRead")
-        )
-        live.send(name, servo_id="1")
+        live.send("PositionRead", servo_id="1")
         live.reply("P")
         frame = made.host.written
         live.count("noise", 0 if said else len(frame))
@@ -418,108 +393,85 @@ def test_a_single_wire_gives_back_what_is_sent(browser: Browser, site: Path, sai
 # ---------------------------------------------------------------------------- a page that lasts
 
 
-def test_a_long_session_stays_small(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        block = (VOLTAGE * 2000).hex()
-        for _ in range(5):
-            made.host.said.append({"hex": block})
-        live.count("frames", 10_000)
-        assert live.tab.locator("#line-log li").count() <= 300
-        assert live.tab.locator("#content *").count() < 3500
-        assert len(events(live.recording())) == 10_000
+def test_a_long_session_stays_small(made: Desk, live: LiveTab) -> None:
+    block = (VOLTAGE * 2000).hex()
+    for _ in range(5):
+        made.host.said.append({"hex": block})
+    live.count("frames", 10_000)
+    assert live.tab.locator("#line-log li").count() <= 300
+    assert live.tab.locator("#content *").count() < 3500
+    assert len(events(live.recording())) == 10_000
 
 
-def test_the_list_is_held_and_goes_on(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        live.tab.get_by_role("button", name="Hold the list").click()
-        board.send_bytes(VOLTAGE)
-        live.count("frames", 1)
-        assert live.rows() == []
-        live.tab.get_by_role("button", name="Hold the list").click()
-        live.tab.wait_for_function(
-            "() => document.querySelectorAll('#line-log .says').length === 1"
-        )
-        live.tab.locator("#line-clear").click()
-        live.count("frames", 0)
-        assert live.rows() == []
+def test_the_list_is_held_and_goes_on(board: VirtualController, live: LiveTab) -> None:
+    live.tab.get_by_role("button", name="Hold the list").click()
+    board.send_bytes(VOLTAGE)
+    live.count("frames", 1)
+    assert live.rows() == []
+    live.tab.get_by_role("button", name="Hold the list").click()
+    live.tab.wait_for_function("() => document.querySelectorAll('#line-log .says').length === 1")
+    live.tab.locator("#line-clear").click()
+    live.count("frames", 0)
+    assert live.rows() == []
 
 
-def test_the_recording_goes_to_the_list_of_the_page(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.connect()
-        live.send("BatteryVoltageRead")
-        live.reply("BatteryVoltage ")
-        live.close()
-        live.tab.get_by_role("button", name="Load it into the workbench").click()
-        live.tab.wait_for_function(
-            "() => document.getElementById('decoded').textContent.includes('10 bytes: 2 messages')"
-        )
-
-
-def test_the_keyboard_is_enough(browser: Browser, site: Path) -> None:
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board)) as made:
-        live = made.open()
-        live.tab.locator("#line-connect").focus()
-        live.tab.keyboard.press("Enter")
-        live.status("Connected to")
-        assert live.tab.evaluate("document.activeElement.id") == "line-close"
-        live.tab.locator("#line-send").focus()
-        live.tab.keyboard.press("Enter")
-        live.count("sent", 1)
-        assert live.tab.evaluate("document.activeElement.id") == "line-send"
-        live.tab.locator("#line-close").focus()
-        live.tab.keyboard.press("Enter")
-        live.status("Not connected.")
-        assert live.tab.evaluate("document.activeElement.id") == "line-connect"
-
-
-def test_a_browser_without_web_serial_says_so(browser: Browser, site: Path) -> None:
-    context = browser.new_context()
-    context.add_init_script("delete Navigator.prototype.serial")
-    visit = Visit(context, site / "busservo" / "reference" / "busservo")
-    tab = visit.open("decoder.html")
-    assert (
-        tab.locator("#line-unavailable")
-        .inner_text()
-        .startswith("This browser cannot open a serial port: it has no Web Serial.")
+def test_the_recording_goes_to_the_list_of_the_page(live: LiveTab) -> None:
+    live.send("BatteryVoltageRead")
+    live.reply("BatteryVoltage ")
+    live.close()
+    live.tab.get_by_role("button", name="Load it into the workbench").click()
+    live.tab.wait_for_function(
+        "() => document.getElementById('decoded').textContent.includes('10 bytes: 2 messages')"
     )
-    assert "busservo monitor" in tab.locator("#line-unavailable").inner_text()
-    assert not tab.locator("#line-connect").is_visible()
-    assert not tab.locator("#line-send").is_visible()
-    visit.end()
-    context.close()
 
 
-def test_a_page_from_the_disk_reaches_the_browsers_own_ports(browser: Browser, site: Path) -> None:
+def test_the_keyboard_is_enough(made: Desk) -> None:
+    live = made.open()
+
+    def pressed(button: str) -> None:
+        live.tab.locator(button).focus()
+        live.tab.keyboard.press("Enter")
+
+    pressed("#line-connect")
+    live.status("Connected to")
+    assert live.tab.evaluate("document.activeElement.id") == "line-close"
+    pressed("#line-send")
+    live.count("sent", 1)
+    assert live.tab.evaluate("document.activeElement.id") == "line-send"
+    pressed("#line-close")
+    live.status("Not connected.")
+    assert live.tab.evaluate("document.activeElement.id") == "line-connect"
+
+
+@pytest.mark.parametrize("has_serial", [True, False])
+def test_a_page_from_the_disk_reaches_the_browsers_own_ports_or_says_that_it_has_none(
+    browser: Browser, site: Path, has_serial: bool
+) -> None:
     """Chromium counts the disk as secure, and the page's policy does not stand in the way."""
     context = browser.new_context()
+    if not has_serial:
+        context.add_init_script("delete Navigator.prototype.serial")
     visit = Visit(context, site / "busservo" / "reference" / "busservo")
     tab = visit.open("decoder.html")
-    assert tab.evaluate(
-        "async () => [isSecureContext, (await navigator.serial.getPorts()).length]"
-    ) == [
-        True,
-        0,
-    ]
-    assert tab.locator("#line-connect").is_visible()
+    for part in ("#line-connect", "#line-send"):
+        assert tab.locator(part).is_visible() == has_serial
+    if has_serial:
+        ports = "async () => [isSecureContext, (await navigator.serial.getPorts()).length]"
+        assert tab.evaluate(ports) == [True, 0]
+    else:
+        said = tab.locator("#line-unavailable").inner_text()
+        assert said.startswith("This browser cannot open a serial port: it has no Web Serial.")
+        assert "busservo monitor" in said
     visit.end()
     context.close()
-
-
-# ---------------------------------------------------------------------------- one screen
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (320, 640)])
 def test_what_is_sent_and_what_the_line_says_are_seen_together(
-    browser: Browser, site: Path, width: int, height: int
+    browser: Browser, site: Path, board: VirtualController, width: int, height: int
 ) -> None:
     screen = {"viewport": {"width": width, "height": height}}
-    with VirtualController() as board, desk(browser, site, VirtualEnd(board), **screen) as made:
+    with desk(browser, site, VirtualEnd(board), **screen) as made:
         live = made.open()
         live.connect()
         live.send("ServoMove", time_ms="100", targets="1:600")

@@ -10,13 +10,9 @@ from framegen.cli import main
 from tests.factories import BUSSERVO, compiled_file, vectors_of
 from tests.protocols.specs import FILES
 from tests.unit.site import looks
-from tests.unit.site.browser import (
-    Visit,
-    needs_chromium,
-    site_on_disk,
-    texts,
-)
+from tests.unit.site.browser import Visit, needs_chromium, site_on_disk, texts
 from tests.unit.site.reference import reference
+from tests.world.conftest import visiting
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,11 +34,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def visit(browser: Browser, folder: Path) -> Iterator[Visit]:
-    context = browser.new_context(viewport={"width": 380, "height": 800})
-    visit = Visit(context, folder)
-    yield visit
-    visit.end()
-    context.close()
+    with visiting(browser, folder, viewport={"width": 380, "height": 800}) as visit:
+        yield visit
 
 
 def hex_of(tab: Tab) -> str:
@@ -75,9 +68,8 @@ def test_bytes_follow_the_fields(visit: Visit) -> None:
 
 def test_fields_follow_the_bytes(visit: Visit) -> None:
     tab = visit.open(SERVO_MOVE)
-    tab.locator("#live-hex").fill(
-        "0x55,0x55,0x0B,0x03,0x02,0x20,0x03,0x02,0x20,0x03,0x09,0x21,0x03"
-    )
+    hex_of_c = "0x55,0x55,0x0B,0x03,0x02,0x20,0x03,0x02,0x20,0x03,0x09,0x21,0x03"
+    tab.locator("#live-hex").fill(hex_of_c)
     assert field(tab, "time_ms").input_value() == "800"
     found = [each.input_value() for each in field(tab, "position").all()]
     assert found == ["800", "801"]
@@ -190,12 +182,8 @@ def test_every_message_begins_with_a_frame_and_keeps_its_place_in_the_page(
         assert looks.faults(tab) == [], width
 
 
-def test_without_a_script_there_are_no_fields(browser: Browser, folder: Path) -> None:
-    context = browser.new_context(java_script_enabled=False)
-    visit = Visit(context, folder)
-    assert not visit.open(SERVO_MOVE).locator(".live").is_visible()
-    visit.end()
-    context.close()
+def test_without_a_script_there_are_no_fields(unscripted: Visit) -> None:
+    assert not unscripted.open(SERVO_MOVE).locator(".live").is_visible()
 
 
 # Puts a frame into the page, and takes what its fields make of it.
@@ -223,13 +211,10 @@ def test_fields_make_the_frame_that_they_were_read_from(
     frames: dict[str, list[str]] = {}
     for case in vectors_of(compiled)["valid"]:
         frames.setdefault(case["message"], []).append(case["hex"])
-    context = browser.new_context()
-    visit = Visit(context, tmp_path / "reference" / compiled.spec.protocol.name)
-    for message, cases in frames.items():
-        tab = visit.open(f"messages/{message}.html")
-        for case in cases:
-            read, made = tab.evaluate(ROUND_TRIP, case)
-            assert read.startswith(f"{message}, "), (read, case)
-            assert made == case, message
-    visit.end()
-    context.close()
+    with visiting(browser, tmp_path / "reference" / compiled.spec.protocol.name) as visit:
+        for message, cases in frames.items():
+            tab = visit.open(f"messages/{message}.html")
+            for case in cases:
+                read, made = tab.evaluate(ROUND_TRIP, case)
+                assert read.startswith(f"{message}, "), (read, case)
+                assert made == case, message

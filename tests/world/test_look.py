@@ -1,7 +1,5 @@
 """A site of one's own, in a real browser."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from framegen.cli import main

@@ -1,17 +1,12 @@
 """Large captures are read and written in little memory, whatever their size."""
 
-from __future__ import annotations
-
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tests.programs import ran
 from tests.unit.runtime.tables.conversations import conversation
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 resource = pytest.importorskip("resource")
 

@@ -1,13 +1,12 @@
 """`teach`, `play` and `move` on a terminal: however they end, nothing is lost or goes on moving."""
 
-from __future__ import annotations
-
 import re
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from busservo._exchanges import POSE
+from busservo_simulator import VirtualController
 from framewire.command.posefile import read_poses
 
 if sys.platform != "linux":
@@ -18,11 +17,6 @@ from tests.lines.terminal import OnTerminal
 from tests.timeouts import await_that
 from tests.unit.runtime.command.conftest import board
 from tests.unit.runtime.command.test_teach_and_play import PATIENT, poses_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from busservo_simulator import VirtualController
 
 __all__ = ["board", "no_board_refuses_anything"]
 

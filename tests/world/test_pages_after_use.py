@@ -13,6 +13,7 @@ from tests.unit.site.browser import MILLISECONDS, Visit, needs_chromium, project
 from tests.unit.site.reference import NODE_MODULES
 from tests.unit.site.serial_host import LiveTab, SerialHost, VirtualEnd
 from tests.unit.site.uses import GUIDE, SERVO_MOVE, USES, WORKBENCH
+from tests.world.conftest import visiting
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,16 +24,8 @@ if TYPE_CHECKING:
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 KINDS = ["index.html", "search.html", GUIDE, WORKBENCH, SERVO_MOVE]
 # Of older editions, messages have the templates that they have in the newest.
-GROUPS = [
-    "",
-    "project",
-    "reference/busservo",
-    "reference/busservo/messages",
-    "reference/lxservo",
-    "reference/lxservo/messages",
-    "reference/busservo/1.0.0",
-    "reference/lxservo/1.0.0",
-]
+PARTS = [f"reference/{name}" for name in ("busservo", "lxservo")]
+GROUPS = ["", "project", *(f"{part}{end}" for part in PARTS for end in ("", "/messages", "/1.0.0"))]
 
 pytestmark = needs_chromium
 
@@ -164,14 +157,9 @@ def test_live_traffic_leaves_the_page_whole(browser: Browser, folder: Path, widt
 
 
 @pytest.mark.parametrize("page", [*KINDS, "404.html", "reference/busservo/changelog.html"])
-def test_without_a_script_nothing_is_dead(browser: Browser, folder: Path, page: str) -> None:
-    context = browser.new_context(java_script_enabled=False)
-    visit = Visit(context, folder)
-    tab = visit.open(page)
-    found = looks.faults_at_widths(tab) + looks.dead_controls(tab)
-    assert found == []
-    visit.end()
-    context.close()
+def test_without_a_script_nothing_is_dead(unscripted: Visit, page: str) -> None:
+    tab = unscripted.open(page)
+    assert looks.faults_at_widths(tab) + looks.dead_controls(tab) == []
 
 
 @pytest.mark.parametrize("page", KINDS)
@@ -180,15 +168,12 @@ def test_enlarged_twice_the_page_is_whole_and_its_header_small(
 ) -> None:
     """A display of 1280 by 800, at 200 %."""
     screen: Any = {"width": 640, "height": 400}
-    context = browser.new_context(viewport=screen, device_scale_factor=2)
-    visit = Visit(context, folder)
-    tab = visit.open(page)
-    assert looks.faults(tab) == []
-    header = tab.locator("body > header").bounding_box()
-    assert header is not None
-    assert header["height"] <= 400 / 4
-    visit.end()
-    context.close()
+    with visiting(browser, folder, viewport=screen, device_scale_factor=2) as visit:
+        tab = visit.open(page)
+        assert looks.faults(tab) == []
+        header = tab.locator("body > header").bounding_box()
+        assert header is not None
+        assert header["height"] <= 400 / 4
 
 
 # Pages of A4 that nothing on the paper should exceed.

@@ -3,10 +3,8 @@
 --seed chooses the specs, and where in them something is changed.
 """
 
-from __future__ import annotations
-
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from framegen.comparison.pair import Pair
@@ -20,9 +18,6 @@ from tests.few_each import few_each
 from tests.mutations.edits import EDITS, of_the_day, pair_of
 from tests.mutations.mutations import MUTATIONS, Editions, after, editions
 from tests.programs import ran
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SPECS = ("busservo", "lamp", "blinds", "everything", "modbus", "roboclaw", "dynamixel1")
 # What a type checker is asked about takes it seconds.

@@ -1,8 +1,6 @@
 """The libraries of protocols that others made: linted and typed, as those in this repository."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -10,9 +8,6 @@ from tests.factories import compiled_file, library_files, write_files
 from tests.protocols.specs import FILES
 from tests.side_by_side import linted, type_checked
 from tests.unit.skeleton.test_new_project import assert_its_tests_pass_with
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_no_tool_finds_anything_in_a_library(tmp_path: Path) -> None:

@@ -1,7 +1,5 @@
 """The guide to publishing, followed: it leads to the site that it describes."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import sys

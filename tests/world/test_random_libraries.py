@@ -1,32 +1,25 @@
 """The libraries of random specs: the same frames, refusals and streams as the reference."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.cases.invalid import invalid_frames
 from framegen.cases.streams import streams
 from framegen.cases.unencodable import unencodable
 from framegen.cases.valid import valid_frames
+from framegen.language.values import Direction
+from framegen.model.model import Model
 from framegen.model.stream import Event, ReferenceDecoder
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tests.contract.test_random_specs import plain
-from tests.factories import compiled_of, library, library_files
+from tests.factories import Data, compiled_of, library, library_files
 from tests.protocols.libraries import direction_of, made_of, values_in
 from tests.protocols.streams import Told, joined, reported
 from tests.random_specs import lines, specs, with_examples
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
-
-    from tests.factories import Data
 
 # Of the streams of a spec, as many are tried; they are like those of others.
 STREAMS = 12

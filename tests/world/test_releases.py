@@ -3,10 +3,6 @@
 Every edit is tried one way round, and the next day the other.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.due import due, version_finding
@@ -16,10 +12,8 @@ from framegen.compile import compile_spec
 from framegen.reading.source import Source
 from framegen.reading.yamltext import block
 
+from tests.factories import Data
 from tests.mutations.edits import EDITS, of_the_day
-
-if TYPE_CHECKING:
-    from tests.factories import Data
 
 
 def text_of(data: Data) -> str:

@@ -1,23 +1,17 @@
 """The rows that `make test` leaves out of its tables, such as protocols that are like others."""
 
-from __future__ import annotations
-
 import inspect
 import re
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.contract.protocols.conftest import libraries
 from tests.lines.boards import no_board_refuses_anything
-from tests.rows import left_out_of
+from tests.rows import Row, left_out_of
 from tests.unit.runtime.tables.test_dataset import captures
 from tests.unit.writing.test_generate import project
-
-if TYPE_CHECKING:
-    from tests.rows import Row
 
 __all__ = ["captures", "libraries", "no_board_refuses_anything", "project"]
 

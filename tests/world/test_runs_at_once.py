@@ -1,10 +1,8 @@
 """Several runs of `framegen generate` in one folder at once."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from framegen.writing import changes
 from framegen.writing.workshop import NAME
@@ -13,9 +11,6 @@ from tests.documents import ROOT
 from tests.unit.writing.conftest import no_power_fails
 from tests.unit.writing.test_places import root
 from tests.unit.writing.trees import AFTER, BEFORE, RENAMED, schema
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 __all__ = ["no_power_fails", "root"]
 

@@ -1,4 +1,7 @@
-"""The search in a real browser: from the box of any page to what was looked for, and back."""
+"""The search in a real browser: from the box of any page to what was looked for, and back.
+
+tests/unit/site/test_search.py has what is found; this has what is shown of it.
+"""
 
 from __future__ import annotations
 
@@ -9,13 +12,13 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 
 from tests.factories import write_files
-from tests.unit.site.browser import Visit, arrives, needs_chromium, project_on_disk, texts
+from tests.unit.site.browser import Visit, arrives, needs_chromium, texts
 from tests.unit.site.test_hostile_pages import hostile
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import BrowserContext
     from playwright.sync_api import Page as Tab
 
 PAGES = [
@@ -26,12 +29,6 @@ PAGES = [
 ]
 
 pytestmark = needs_chromium
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the site of this project, as `framegen docs` builds it."""
-    return project_on_disk(tmp_path_factory.mktemp("a stick") / "the site")
 
 
 def box(tab: Tab) -> Any:
@@ -177,32 +174,56 @@ def test_more_is_shown_on_demand(visit: Visit) -> None:
     assert focused(tab) == titles(tab)[30]
 
 
+# What is searched for, what is said of it, and the titles that come first.
+SAID: list[tuple[str, str, list[str]]] = [
+    (
+        "batery",
+        r"Nothing has “batery”\. [0-9]+ found instead for battery.*",
+        ["BatteryVoltageRead"],
+    ),
+    ("battery xyzzy", r"No page has “xyzzy”\. [0-9]+ found without it\.", ["BatteryVoltageRead"]),
+    ("servo xyzzy", r"Nothing found for “servo xyzzy”\. No page has “xyzzy”\.", []),
+    ("falls down when torque is off", r"[0-9]+ found for “falls down when torque is off”\.", []),
+    ("9600", ".*9600.*", []),
+    ("dead beef", "Nothing has “dead beef”.*", []),
+    ("01e803", ".*found for 3 bytes.", []),
+    ("55550207", ".*", ["ActionGroupStop", "ActionGroupStopped"]),
+    ("55 55 05 06 08 01 00", ".*", ["ActionGroupRun", "ActionGroupStarted"]),
+    ("55 55 02 0", r".*The last digit, 0, is half a byte\.", []),
+    ("55 55 09 03 01 E8 03 01 20 03", r"10 bytes, and no whole frame\.", []),
+    ("55 55 0G 02", r"“0G” is no byte in hex\.", []),
+    ("11 22 33", r"Nothing found for 3 bytes\.", []),
+    ("xyzzy", r"Nothing found for “xyzzy”\.", []),
+]
+
+
+def test_the_page_says_what_was_found_and_how_a_query_was_read(visit: Visit) -> None:
+    tab = visit.open("search.html")
+    for query, words, first in SAID:
+        box(tab).fill(query)
+        assert re.fullmatch(words, said(tab)), (query, said(tab))
+        assert titles(tab)[: len(first)] == first, query
+        advised = tab.locator("#search-advice").is_visible()
+        assert advised == said(tab).startswith("Nothing"), query
+    box(tab).fill("9600")
+    assert "Nothing comes back" in titles(tab)
+    box(tab).fill("55 55 05 06 08 01 00")
+    assert "group 8, times 1" in tab.locator("#search-results > li").first.inner_text()
+    box(tab).fill("55 55 09 03 01 E8 03 01 20 03")
+    assert "with that they are ServoMove" in tab.locator("#search-results").inner_text()
+
+
 def test_a_slip_is_corrected(visit: Visit) -> None:
     found = len(titles(visit.open("search.html?q=battery")))
     tab = visit.open("search.html?q=batery")
-    assert re.match(r"Nothing has “batery”\. [0-9]+ found instead for battery", said(tab))
     assert len(titles(tab)) == found
-    assert titles(tab)[0] == "BatteryVoltageRead"
-    assert tab.locator("#search-advice").is_visible()
     tab.get_by_role("button", name="battery").click()
     assert box(tab).input_value() == "battery"
     assert not tab.locator("#search-advice").is_visible()
 
 
-def test_words_that_no_page_has_are_named(visit: Visit) -> None:
-    tab = visit.open("search.html?q=battery xyzzy")
-    assert re.fullmatch(r"No page has “xyzzy”\. [0-9]+ found without it\.", said(tab))
-    assert titles(tab)[0] == "BatteryVoltageRead"
-    box(tab).fill("servo xyzzy")
-    assert said(tab) == "Nothing found for “servo xyzzy”. No page has “xyzzy”."
-    assert tab.locator("#search-advice").is_visible()
-    box(tab).fill("falls down when torque is off")
-    assert re.fullmatch(r"[0-9]+ found for “falls down when torque is off”\.", said(tab))
-
-
 def test_no_hit_gives_advice(visit: Visit) -> None:
     tab = visit.open("search.html?q=xyzzy")
-    assert said(tab) == "Nothing found for “xyzzy”."
     assert titles(tab) == []
     advice = tab.locator("#search-advice")
     assert advice.is_visible()
@@ -212,7 +233,6 @@ def test_no_hit_gives_advice(visit: Visit) -> None:
 
 def test_bytes_of_no_frame_are_taken_to_the_workbench(visit: Visit) -> None:
     tab = visit.open("search.html?q=11 22 33")
-    assert said(tab) == "Nothing found for 3 bytes."
     tab.locator("#search-advice").get_by_role("link", name="the workbench").first.click()
     arrives(tab, "reference/busservo/decoder.html?hex=112233")
 
@@ -234,12 +254,6 @@ def test_bytes_find_the_frame_and_offer_to_decode_it(visit: Visit) -> None:
     tab.wait_for_url(re.compile(r"reference/busservo/decoder\.html\?hex=5555020f"))
 
 
-def test_bytes_that_are_a_frame_both_ways_are_shown_both_ways(visit: Visit) -> None:
-    tab = visit.open("search.html?q=55 55 05 06 08 01 00")
-    assert titles(tab)[:2] == ["ActionGroupRun", "ActionGroupStarted"]
-    assert "group 8, times 1" in tab.locator("#search-results > li").first.inner_text()
-
-
 def test_a_part_of_a_frame_is_marked_where_it_stands(visit: Visit) -> None:
     tab = visit.open("search.html?q=03 01 E8")
     assert titles(tab)[0] == "Servo 1 to position 800 in 1000 ms"
@@ -248,35 +262,11 @@ def test_a_part_of_a_frame_is_marked_where_it_stands(visit: Visit) -> None:
     assert code.locator("mark").inner_text() == "03 01 E8"
 
 
-def test_numbers_and_words_of_hex_digits_are_words_first(visit: Visit) -> None:
-    tab = visit.open("search.html?q=9600")
-    assert "9600" in said(tab)
-    assert "Nothing comes back" in titles(tab)
-    box(tab).fill("dead beef")
-    assert said(tab).startswith("Nothing has “dead beef”.")
-    box(tab).fill("01e803")
-    assert said(tab).endswith("found for 3 bytes.")
-    box(tab).fill("55550207")
-    assert titles(tab)[:2] == ["ActionGroupStop", "ActionGroupStopped"]
-
-
-def test_half_a_byte_and_wrong_digits_are_told(visit: Visit) -> None:
-    tab = visit.open("search.html?q=55 55 02 0")
-    assert said(tab).endswith("The last digit, 0, is half a byte.")
-    box(tab).fill("55 55 09 03 01 E8 03 01 20 03")
-    assert said(tab) == "10 bytes, and no whole frame."
-    assert "with that they are ServoMove" in tab.locator("#search-results").inner_text()
-    box(tab).fill("55 55 0G 02")
-    assert said(tab) == "“0G” is no byte in hex."
-
-
 # ---------------------------------------------------------------------------- for everybody
 
 
-def test_without_a_script_the_page_lists_everything(browser: Browser, folder: Path) -> None:
-    context = browser.new_context(java_script_enabled=False)
-    visit = Visit(context, folder)
-    tab = visit.open("reference/busservo/messages/ServoMove.html")
+def test_without_a_script_the_page_lists_everything(unscripted: Visit) -> None:
+    tab = unscripted.open("reference/busservo/messages/ServoMove.html")
     assert not box(tab).is_visible()
     tab.get_by_role("link", name="Search and index").click()
     arrives(tab, "search.html")
@@ -285,8 +275,6 @@ def test_without_a_script_the_page_lists_everything(browser: Browser, folder: Pa
     assert tab.locator("#search-letters a").count() > 500
     tab.locator("#search-letters").get_by_role("link", name="ServoUnload", exact=True).click()
     arrives(tab, "reference/busservo/messages/ServoUnload.html")
-    visit.end()
-    context.close()
 
 
 def test_the_keyboard_alone_reaches_every_choice(visit: Visit) -> None:
@@ -294,7 +282,7 @@ def test_the_keyboard_alone_reaches_every_choice(visit: Visit) -> None:
     tab.keyboard.press("Tab")
     assert tab.evaluate("document.activeElement.name") == "search-kinds"
     tab.keyboard.press("ArrowRight")
-    assert asked_kind(tab) == "message"
+    assert tab.locator("#search-kinds input:checked").input_value() == "message"
     assert titles(tab) == ["BatteryVoltageRead", "BatteryVoltage"]
     tab.keyboard.press("Tab")
     assert tab.evaluate("document.activeElement.name") == "search-protocols"
@@ -302,10 +290,6 @@ def test_the_keyboard_alone_reaches_every_choice(visit: Visit) -> None:
     assert focused(tab) == "BatteryVoltageRead"
     tab.keyboard.press("/")
     assert focused(tab) == "search-words"
-
-
-def asked_kind(tab: Tab) -> str:
-    return str(tab.locator("#search-kinds input:checked").input_value())
 
 
 def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path) -> None:

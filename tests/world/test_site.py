@@ -6,27 +6,16 @@ from pathlib import Path
 import pytest
 
 from tests.factories import compiled_file
-from tests.unit.site.browser import project_on_disk
 from tests.unit.site.reference import ROOT, Page, broken_links
 from tests.unit.site.validity import complaints, needs_validator
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder that `make docs` builds."""
-    assert "\t$(IN)/framegen docs --strict --out $(SITE) " in (ROOT / "Makefile").read_text("utf-8")
-    return project_on_disk(tmp_path_factory.mktemp("build") / "site")
-
-
-@pytest.fixture(scope="module")
 def site(folder: Path) -> dict[str, Page]:
-    """Return the pages in it."""
-    return {
-        file.relative_to(folder).as_posix(): Page(
-            file.relative_to(folder).as_posix(), file.read_text("utf-8")
-        )
-        for file in sorted(folder.rglob("*.html"))
-    }
+    """Return the pages in the folder that `make docs` builds."""
+    assert "\t$(IN)/framegen docs --strict --out $(SITE) " in (ROOT / "Makefile").read_text("utf-8")
+    files = {file.relative_to(folder).as_posix(): file for file in sorted(folder.rglob("*.html"))}
+    return {path: Page(path, file.read_text("utf-8")) for path, file in files.items()}
 
 
 def guides(site: dict[str, Page]) -> dict[str, Page]:

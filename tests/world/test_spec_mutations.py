@@ -4,15 +4,14 @@ Facts that `check` cannot see by nature are listed in BLIND, each with its reaso
 unseen: they need another guard.
 """
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Callable, Iterator
+from typing import Any, TypeAlias
 
 import pytest
 from framegen.checks import remarks
 
-from tests.factories import BUSSERVO, FIRST, compiled_of, data_of
+from tests.factories import BUSSERVO, FIRST, Steps, compiled_of, data_of
 from tests.mutations.places import (
     GONE,
     at,
@@ -24,11 +23,6 @@ from tests.mutations.places import (
     swaps,
     with_,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from tests.factories import Steps
 
 Mutation: TypeAlias = "tuple[Steps, Any]"
 

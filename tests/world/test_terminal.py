@@ -1,11 +1,10 @@
 """The verbs as people run them: on a terminal or in a pipe, with Ctrl-C, with cables that fail."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from busservo import BatteryVoltage, open_controller
@@ -17,10 +16,6 @@ if sys.platform != "linux":
 from tests.lines.boards import no_board_refuses_anything
 from tests.lines.terminal import OnTerminal, start
 from tests.timeouts import GENEROUS, LIVE, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 __all__ = ["no_board_refuses_anything"]
 

@@ -3,10 +3,8 @@
 tests/world/test_protocols.py has the libraries of protocols that others made.
 """
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from framegen.site.scripts.javascript_module import javascript_module
@@ -18,9 +16,6 @@ from tests.side_by_side import type_checked
 from tests.unit.site.reference import NODE, NODE_MODULES
 from tests.unit.site.test_javascript_module import SPECS
 from tests.unit.targets.test_names import CROWDS, files_of_crowd
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 COMPILER = NODE_MODULES / "typescript" / "bin" / "tsc"
 

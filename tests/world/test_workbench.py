@@ -10,27 +10,23 @@ from typing import TYPE_CHECKING
 import pytest
 from busservo import recordings
 from busservo._library import CODEC
+from framegen.cli import main
+from framegen.language.values import to_hex
+from framegen.model.codec import encode
 from framewire.command.entries import EntryLines
 
-from tests.factories import in_larger_unit, vectors_of
-from tests.unit.site.browser import (
-    Visit,
-    decoded,
-    needs_chromium,
-    site_on_disk,
-    texts,
-)
+from tests.factories import in_larger_unit
+from tests.protocols.specs import FILES, messages_of
+from tests.unit.site.browser import Visit, decoded, needs_chromium, site_on_disk, texts
 from tests.unit.site.looks import WIDTHS, faults
-from tests.unit.site.peers import joined, noisy_lines, reference_events
 from tests.unit.site.reference import ROOT, reference
+from tests.world.conftest import visiting
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator
+    from playwright.sync_api import Browser, Locator
     from playwright.sync_api import Page as Tab
 
 SITE = reference("busservo")
-VECTORS = vectors_of(SITE.compiled)
-WAYS = ["host_to_controller", "controller_to_host"]
 CUT_OFF = ROOT / "tests" / "captures" / "cut_off.hex"
 
 MOVE = "55 55 08 03 01 E8 03 01 20 03"
@@ -94,15 +90,6 @@ def decoded_in_turn(tab: Tab, lines: list[str]) -> list[tuple[list[str], str, li
     ]
 
 
-@pytest.mark.parametrize("direction", WAYS)
-def test_the_valid_vectors_are_decoded(bench: Tab, direction: str) -> None:
-    bench.get_by_label("Sent", exact=True).select_option(direction)
-    vectors = [each for each in VECTORS["valid"] if each["direction"] == direction]
-    shown = decoded_in_turn(bench, [each["hex"] for each in vectors])
-    assert [names for names, _, _ in shown] == [[each["message"]] for each in vectors]
-    assert all(said.endswith(": 1 message, 0 bytes of noise.") for _, said, _ in shown)
-
-
 def test_an_example_is_cut_into_the_same_cells_as_on_its_page(visit: Visit) -> None:
     shown: dict[str, dict[str, list[str]]] = {}
     for name, message in SITE.model.messages.items():
@@ -130,18 +117,18 @@ def test_values_are_shown_in_their_larger_unit_as_they_are_explained(bench: Tab)
         assert shown == [in_larger_unit(text, value) for value in values]
 
 
-def test_noisy_streams_are_decoded_as_the_reference_decodes_them(bench: Tab) -> None:
-    ways = [None, *SITE.model.directions]
-    lines = [(line, way) for line in noisy_lines(SITE.model, 17, 400) for way in ways]
-    answers = bench.evaluate(
-        """(lines) => lines.map(([text, direction]) =>
-            codec.makeStream({ direction }).flush(parseHex(text)).map(
-            ({ type, bytes, message, reason }) => [type, toHex(bytes), message || reason]))""",
-        [[line.hex(), way and way.key] for line, way in lines],
-    )
-    for (line, way), answer in zip(lines, answers, strict=True):
-        said = [[kind, text.replace(" ", "").lower(), what] for kind, text, what in answer]
-        assert joined(said) == reference_events(SITE.model, line, way), f"{way}: {line.hex(' ')}"
+def test_frames_noise_and_unknown_frames_are_shown(bench: Tab) -> None:
+    fill(bench, MIXED)
+    assert decoded(bench) == [
+        *("noise: bad header", "ServoMove", "unknown: unknown command"),
+        *("ActionGroupRun or ActionGroupStarted", "noise: too short"),
+    ]
+    rows(bench).nth(1).click()
+    cells = [" ".join(cell.split()) for cell in texts(bench.locator("#event .strip li"))]
+    assert cells[4:6] == [
+        "7 E8 03 time_ms 1000 ms low byte first",
+        "9 01 targets[0].servo_id 1",
+    ]
 
 
 def test_a_frame_that_is_legal_both_ways_has_both_names(bench: Tab) -> None:
@@ -160,18 +147,15 @@ def test_a_frame_that_is_legal_both_ways_has_both_names(bench: Tab) -> None:
         ("55 55 09 03 01 E8 03 01 20 03", "ServoMove has a length of 8, 11, 14 .. 254, not 9"),
         ("55 55 08 03 01", "a length of 8 makes 10 bytes"),
         ("55 55 03 63 01", "no message host -> controller has the command 99"),
-        ("55 55 01 07 01 20 03 E8 03 E8", "This looks like a frame of the LX-16A"),
     ],
 )
 def test_a_refusal_says_why_with_its_numbers(bench: Tab, text: str, said: str) -> None:
     fill(bench, text)
     assert said in detail(bench)
-
-
-def test_what_was_meant_stands_before_why_it_is_refused(bench: Tab) -> None:
+    # What was meant stands before why it is refused.
     fill(bench, "55 55 01 07 01 20 03 E8 03 E8")
-    said = detail(bench)
-    assert said.index("This looks like a frame of the LX-16A") < said.index("has a length of")
+    meant = detail(bench)
+    assert meant.index("This looks like a frame of the LX-16A") < meant.index("has a length of")
 
 
 def test_the_right_frame_takes_the_place_of_the_wrong_one(bench: Tab) -> None:
@@ -196,18 +180,24 @@ def test_an_empty_field_is_no_fault(bench: Tab, text: str) -> None:
 # ---------------------------------------------------------------------------- what people have
 
 
-def test_lines_of_a_recording_keep_their_directions_and_times(bench: Tab) -> None:
-    fill(bench, CUT_OFF.read_text("utf-8"))
-    assert "Read as lines of a recording" in status(bench)
-    assert texts(rows(bench).locator(".who")) == [
-        "host →",
-        "← controller",
-        "noise",
-        "host →",
-        "← controller",
-        "← controller",
-    ]
-    assert texts(rows(bench).locator(".place"))[:2] == ["0.000000", "0.011458"]
+ENDS = ["host →", "← controller"]
+
+
+def test_lines_of_a_recording_keep_their_directions_and_times_in_a_link_too(visit: Visit) -> None:
+    tab = visit.open("decoder.html")
+    # A short file of text comes into the field.
+    drop(tab, "cut_off.hex", CUT_OFF.read_bytes())
+    wait_for(tab, "Read as lines of a recording")
+    assert tab.locator("#hex").input_value() == CUT_OFF.read_text("utf-8")
+    assert texts(rows(tab).locator(".who")) == [*ENDS, "noise", *ENDS, "← controller"]
+    assert texts(rows(tab).locator(".place"))[:2] == ["0.000000", "0.011458"]
+    other = visit.open(f"decoder.html?{copied_link(tab).partition('?')[2]}")
+    assert texts(rows(other).locator(".who"))[:2] == ENDS
+
+
+def copied_link(tab: Tab) -> str:
+    tab.get_by_role("button", name="Copy link").click()
+    return str(tab.evaluate("navigator.clipboard.readText()"))
 
 
 @pytest.mark.parametrize(
@@ -263,12 +253,6 @@ def test_a_file_of_raw_bytes_is_dropped(bench: Tab) -> None:
     bench.get_by_role("button", name="Close it").click()
     assert decoded(bench) == []
     assert not bench.locator("#source").is_visible()
-
-
-def test_a_short_file_of_text_comes_into_the_field(bench: Tab) -> None:
-    drop(bench, "cut_off.hex", CUT_OFF.read_bytes())
-    wait_for(bench, "lines of a recording")
-    assert bench.locator("#hex").input_value() == CUT_OFF.read_text("utf-8")
 
 
 def test_a_file_that_windows_wrote_is_text(bench: Tab, tmp_path: Path) -> None:
@@ -376,16 +360,17 @@ def test_messages_and_noise_are_counted_and_found(bench: Tab) -> None:
 # ---------------------------------------------------------------------------- links and files
 
 
-@pytest.mark.parametrize("word", ["controller", "controller_to_host"])
-def test_an_address_names_the_direction_or_who_sends(visit: Visit, word: str) -> None:
+@pytest.mark.parametrize(
+    ("word", "chosen"),
+    [(word, "controller_to_host") for word in ("controller", "controller_to_host")]
+    + [("nobody", "")],
+)
+def test_an_address_names_the_direction_or_who_sends_or_leaves_both_open(
+    visit: Visit, word: str, chosen: str
+) -> None:
     tab = visit.open(f"decoder.html?hex=5555040f4c1d&direction={word}")
-    assert tab.get_by_label("Sent", exact=True).input_value() == "controller_to_host"
+    assert tab.get_by_label("Sent", exact=True).input_value() == chosen
     assert decoded(tab) == ["BatteryVoltage"]
-
-
-def test_an_address_that_names_neither_leaves_both_directions_open(visit: Visit) -> None:
-    tab = visit.open("decoder.html?hex=5555040f4c1d&direction=nobody")
-    assert tab.get_by_label("Sent", exact=True).input_value() == ""
 
 
 def test_a_link_holds_the_capture_the_direction_and_the_encoder(visit: Visit) -> None:
@@ -394,8 +379,7 @@ def test_a_link_holds_the_capture_the_direction_and_the_encoder(visit: Visit) ->
     tab.get_by_label("Sent", exact=True).select_option("host_to_controller")
     tab.get_by_label("Message").select_option("ServoMove")
     tab.locator("#words").fill("time_ms=800 targets=1:600,2:400")
-    tab.get_by_role("button", name="Copy link").click()
-    link = str(tab.evaluate("navigator.clipboard.readText()"))
+    link = copied_link(tab)
     assert link.endswith(
         f"?hex={MIXED.replace(' ', '')}&direction=host_to_controller&message=ServoMove"
         "&time_ms=800&targets=1:600,2:400"
@@ -405,15 +389,6 @@ def test_a_link_holds_the_capture_the_direction_and_the_encoder(visit: Visit) ->
     assert decoded(other) == shown
     assert other.locator("#words").input_value() == "time_ms=800 targets=1:600,2:400"
     assert other.locator("#encoded").inner_text() == "55 55 0B 03 02 20 03 01 58 02 02 90 01"
-
-
-def test_a_recording_survives_in_a_link(visit: Visit) -> None:
-    tab = visit.open("decoder.html")
-    fill(tab, CUT_OFF.read_text("utf-8"))
-    tab.get_by_role("button", name="Copy link").click()
-    link = str(tab.evaluate("navigator.clipboard.readText()"))
-    other = visit.open(f"decoder.html?{link.partition('?')[2]}")
-    assert texts(rows(other).locator(".who"))[:2] == ["host →", "← controller"]
 
 
 def test_a_capture_that_is_too_long_for_a_link_is_left_out_and_that_is_said(bench: Tab) -> None:
@@ -442,15 +417,6 @@ def test_a_capture_is_saved_as_the_command_prints_it(bench: Tab, name: str, form
 # ---------------------------------------------------------------------------- the encoder
 
 
-def test_the_encoder_makes_the_frames_of_the_vectors(bench: Tab) -> None:
-    for vector in VECTORS["valid"]:
-        fill(bench, vector["hex"])
-        bench.get_by_label("Sent", exact=True).select_option(vector["direction"])
-        bench.get_by_role("button", name="Edit in the encoder").click()
-        assert bench.get_by_label("Message").input_value() == vector["message"]
-        assert bench.locator("#encoded").inner_text() == vector["hex"]
-
-
 @pytest.mark.parametrize(
     ("words", "said", "selected"),
     [
@@ -476,6 +442,31 @@ def test_the_encoder_refuses_what_it_does_not_understand(
     bench.locator("#words").fill("time_ms=800 targets=1:2")
     assert bench.locator("#encoder-problem").inner_text() == ""
     assert bench.locator("#copy-frame").is_enabled()
+
+
+def test_what_the_encoder_offers_is_the_first_example_of_each_message(
+    browser: Browser, tmp_path: Path
+) -> None:
+    assert main(["docs", str(FILES["everything"]), "--out", str(tmp_path)]) == 0
+    with visiting(browser, tmp_path / "reference" / "everything") as visit:
+        tab = visit.open("decoder.html")
+        for name, layout in messages_of("everything").items():
+            example = layout.message.examples[0]
+            tab.get_by_label("Message").select_option(name)
+            offered = tab.locator("#encoded").inner_text()
+            assert offered == to_hex(encode(layout, example.values)), name
+            fill(tab, to_hex(example.hex))
+            assert any(name in each.split(" or ") for each in decoded(tab))
+
+
+def test_a_decoded_frame_is_edited_in_the_encoder(bench: Tab) -> None:
+    for message in SITE.model.messages.values():
+        for example in message.message.examples:
+            bench.get_by_label("Sent", exact=True).select_option(message.direction.key)
+            fill(bench, to_hex(example.hex))
+            bench.get_by_role("button", name="Edit in the encoder").click()
+            assert bench.get_by_label("Message").input_value() == message.name
+            assert bench.locator("#encoded").inner_text() == to_hex(example.hex)
 
 
 def test_the_encoder_takes_named_values(bench: Tab) -> None:

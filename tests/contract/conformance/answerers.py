@@ -1,10 +1,10 @@
 """The codecs of this project that answer questions: a row for each language."""
 
-from __future__ import annotations
-
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
+from framegen.compile import Compiled
 from framegen.render import snippets
 from framegen.site.project import Project
 from framegen.site.rendering import render_page
@@ -16,13 +16,8 @@ from tests.handed import answers_of
 from tests.unit.conformance.harness import run
 from tests.unit.site.reference import NODE
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from framegen.compile import Compiled
-
-    # Specs with the questions to each, and a folder to work in, as answers to all of them.
-    Answerer: TypeAlias = Callable[[Sequence[tuple[Compiled, list[str]]], Path], list[list[str]]]
+# Specs with the questions to each, and a folder to work in, as answers to all of them.
+Answerer: TypeAlias = Callable[[Sequence[tuple[Compiled, list[str]]], Path], list[list[str]]]
 
 ANSWER = Path(__file__).parent / "answer.js"
 

@@ -1,7 +1,5 @@
 """The codec in C, right and wrong: each wrong one by a small change, as found in public code."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,17 +1,12 @@
 """Lines of any protocol for Hypothesis: frames, damaged and unknown ones, and noise like them."""
 
-from __future__ import annotations
-
 from functools import cache
-from typing import TYPE_CHECKING
 
 from framegen.cases.sender import LONGEST, Sender
 from framegen.cases.streams import senders_of
+from framegen.language.values import Direction
+from framegen.model.model import Model
 from hypothesis import strategies as st
-
-if TYPE_CHECKING:
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
 
 
 @cache

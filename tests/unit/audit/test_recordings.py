@@ -1,14 +1,13 @@
 """Recordings of every kind that the project makes, audited as the library reads them."""
 
-from __future__ import annotations
-
 from collections import Counter
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from busservo import Controller, Message, Noise, NoReplyError, UnknownFrame, strategies
 from busservo.recordings import read
 from busservo_simulator import Faults
+from framegen.audit.audit import Audit
 from framewire.command.checks.checks import examine
 from framewire.command.checks.report import Report
 from hypothesis import given
@@ -23,11 +22,6 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.unit.conformance.device.runs import run
 from tests.unit.runtime.command.checks.conftest import nothing_else_comes
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from framegen.audit.audit import Audit
 
 __all__ = ["nothing_else_comes"]
 MODEL = compiled_file(BUSSERVO).model

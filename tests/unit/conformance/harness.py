@@ -3,17 +3,13 @@
 It knows nothing of the generator but the file of vectors, as anybody else's harness would.
 """
 
-from __future__ import annotations
-
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tests.programs import ran
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 # More than any frame has: the vector sets no bound.
 NO_BOUND = 1 << 20

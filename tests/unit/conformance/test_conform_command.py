@@ -1,33 +1,26 @@
 """`framegen conform`, as it is used: what it prints, with which status, and what it refuses."""
 
-from __future__ import annotations
-
 import json
 import re
 import sys
+from collections.abc import Iterator
 from functools import cache, partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 from unittest import mock
 from xml.etree import ElementTree as ET
 
 import pytest
 from framegen import cli
+from framegen.conformance.language import Question
 from framegen.conformance.questions import questions
+from framegen.model.model import Model
 
-from tests.commands import called
+from tests.commands import Ended, called
 from tests.contract.conformance.c_codecs import WRONG, compile_codec, needs_compiler
 from tests.factories import BUSSERVO, DEMO, ROOT, data_of, first_edition
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from framegen.conformance.language import Question
-    from framegen.model.model import Model
-
-    from tests.commands import Ended
 
 SPEC = str(BUSSERVO)
 EDITION = f"busservo {data_of(BUSSERVO)['protocol']['version']}"

@@ -1,7 +1,5 @@
 """A program under test: whatever it does instead of answering is reported, and blocks nothing."""
 
-from __future__ import annotations
-
 import os
 import sys
 import textwrap

@@ -1,10 +1,10 @@
 """Answers are compared with the reference's; the first wrong one is shrunk, and all are counted."""
 
-from __future__ import annotations
-
 import json
+from collections.abc import Callable
 from itertools import islice
-from typing import TYPE_CHECKING, TypeAlias
+from pathlib import Path
+from typing import TypeAlias
 from unittest import mock
 
 import pytest
@@ -25,12 +25,8 @@ from tests.factories import BUSSERVO, DEMO, compiled_file, first_model
 from tests.in_turn import in_turn
 from tests.rows import Rows
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    # What a program makes of a question that the reference answers so, after that many questions.
-    Change: TypeAlias = Callable[[Question, list[str], int], list[str] | Reply]
+# What a program makes of a question that the reference answers so, after that many questions.
+Change: TypeAlias = Callable[[Question, list[str], int], list[str] | Reply]
 
 # Which of them has every kind of part and field, and the others.
 SPECS = [BUSSERVO, DEMO.with_name("everything.yaml")]

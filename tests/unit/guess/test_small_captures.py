@@ -3,22 +3,15 @@
 A small capture is what newcomers have. What it does not show is undecided, and not absent.
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import xor
 from random import Random
-from typing import TYPE_CHECKING
 
 import pytest
 from framegen.guess.capture import Capture
-from framegen.guess.guess import guess
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from framegen.guess.guess import Guess
+from framegen.guess.guess import Guess, guess
 
 SUMS: dict[str, Callable[[bytes], int]] = {
     "sum": lambda data: sum(data) & 0xFF,

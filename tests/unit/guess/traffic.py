@@ -1,17 +1,12 @@
 """What a line carries that speaks a protocol: frames of its messages, with values by chance."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from random import Random
+from typing import Any
 
 from framegen.model.codec import encode
+from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
 from framegen.model.slots import Items, Number, Packed, Text
-
-if TYPE_CHECKING:
-    from random import Random
-
-    from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
 
 # Longer lists tell nothing that shorter ones do not.
 _MOST = 12

@@ -1,18 +1,12 @@
 """What a guess has decided, held to the spec of the protocol that was recorded."""
 
-from __future__ import annotations
+from collections.abc import Iterator
 
-from typing import TYPE_CHECKING
-
+from framegen.guess.guess import Guess
 from framegen.guess.hidden import HiddenFit
+from framegen.model.envelope import Envelope
+from framegen.model.model import Model
 from framegen.model.slots import Constant
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.guess.guess import Guess
-    from framegen.model.envelope import Envelope
-    from framegen.model.model import Model
 
 # More bytes than a frame has around its fields.
 _SIZE = 40

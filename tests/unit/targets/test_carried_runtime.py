@@ -4,13 +4,11 @@ Each runs in a Python of its own, which has no `framewire`: started with `-S`, i
 that is installed.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import sysconfig
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from framegen.render import render, render_target
@@ -20,9 +18,6 @@ from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, vectors_of, wri
 from tests.protocols.specs import FILES
 from tests.timeouts import GENEROUS
 from tests.unit.conformance.harness import cases_of, differences, run
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SHARED = ROOT / "runtime" / "framewire"
 LXSERVO = ROOT / "spec" / "lxservo.yaml"

@@ -1,7 +1,5 @@
 """No character that the library shows as it is, is one that ruff takes for another."""
 
-from __future__ import annotations
-
 from framegen.targets.python.characters import columns, shown, unbroken
 
 

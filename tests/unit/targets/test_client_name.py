@@ -1,18 +1,19 @@
 """A client with a name of its own: whatever is called after a client is called after that."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo_simulator import VirtualClock
 from busservo_simulator.virtual_loop import run_virtual
 from framegen.checks import client_name
 from framegen.comparison import surface
+from framegen.compile import Compiled
+from framegen.language.spec import Spec
 from framegen.render import render, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
@@ -32,12 +33,6 @@ from tests.lines.timed_line import DeviceLine, client_on
 from tests.mutations.places import having, renamed
 from tests.names_at_work import at_work
 from tests.side_by_side import library_of, linted
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from framegen.compile import Compiled
-    from framegen.language.spec import Spec
 
 # One with poses, and one whose devices have addresses.
 FILES = {"busservo": BUSSERVO, "lxservo": ROOT / "spec" / "lxservo.yaml"}

@@ -1,22 +1,24 @@
 """A word that Python or the library has taken is a good name: the library bends it."""
 
-from __future__ import annotations
-
 import ast
 import builtins
 import json
 import keyword
 import re
 import sys
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import busservo
 import pytest
 from framegen.cli import main
+from framegen.compile import Compiled
 from framegen.language.package_names import BUILTINS, DEVICES, KEYWORDS, why_taken
+from framegen.model.model import Model
 from framegen.render import render, render_target, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
@@ -49,14 +51,7 @@ from tests.names_at_work import examples_work, methods_work, reports_work, strat
 from tests.rows import some
 from tests.side_by_side import library_of, linted
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from types import ModuleType
-
-    from framegen.compile import Compiled
-    from framegen.model.model import Model
-
-    Command = Callable[..., tuple[int, str, str]]
+Command = Callable[..., tuple[int, str, str]]
 
 PACKAGE = Path(busservo.__file__).parent
 # Those that import the messages by name.

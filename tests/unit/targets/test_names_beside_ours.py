@@ -1,13 +1,12 @@
 """Ids and fields may be called like what is said beside them: no column, no key is there twice."""
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
+from framegen.compile import Compiled
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 
@@ -16,9 +15,6 @@ from tests.handed import handed_by
 from tests.unit.site.reference import NODE
 from tests.unit.site.scripts import run_script
 from tests.unit.site.test_captures_js import SAVE, SAVERS
-
-if TYPE_CHECKING:
-    from framegen.compile import Compiled
 
 # Each of these stands somewhere beside the numbers of an unknown frame, or beside fields.
 IDS = ["offset", "sender", "time", "from", "noise", "reason", "unknown", "parameters", "count"]

@@ -1,7 +1,5 @@
 """A new request in the spec is a new method, verb, handler and page, with no hand-written line."""
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

@@ -3,34 +3,27 @@
 What is said of a spec must be said of the same spec with its fields renamed, in the other names.
 """
 
-from __future__ import annotations
-
 import re
+from collections.abc import Iterator
 from functools import cache
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from framegen.audit.misfits import outside
+from framegen.compile import Compiled
 from framegen.explain import explain
+from framegen.language.spec import Example
 from framegen.model.codec import encode, values_of
+from framegen.model.layout import MessageLayout
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
 from framegen.targets.docs.strip import pattern_strip
 from framegen.targets.python.names import names_of
 
-from tests.factories import DEMO, compiled_of, data_of, library, library_files
+from tests.factories import DEMO, Data, compiled_of, data_of, library, library_files
 from tests.unit.site.reference import NODE
 from tests.unit.site.scripts import run_script
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.compile import Compiled
-    from framegen.language.spec import Example
-    from framegen.model.layout import MessageLayout
-
-    from tests.factories import Data
 
 EVERYTHING = DEMO.with_name("everything.yaml")
 # What a user gives with every message cannot be the name of a field, too: `part-name` says so.

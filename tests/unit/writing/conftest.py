@@ -1,7 +1,5 @@
 """Fixtures for every test of the writer."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

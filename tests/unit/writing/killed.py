@@ -5,22 +5,18 @@ into a copy of TREE for each step and each moment of it, in a child that kills i
 prints the copy, the step and the moment.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal
 import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.writing import disk, write
 
 from tests.unit.writing.trees import AFTER, BEFORE, RENAMED, schema
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 STEPS = ("make_folder", "write_file", "move", "remove_file", "remove_folder")
 EDITIONS = {"first": [BEFORE, schema()], "next": [AFTER, schema()], "renamed": [RENAMED, schema()]}

@@ -3,21 +3,15 @@
 The writer takes one file like another, so that these stand for whole libraries.
 """
 
-from __future__ import annotations
-
 import re
 from functools import cache
-from typing import TYPE_CHECKING
 
 import pytest
-from framegen.compile import compile_spec
+from framegen.compile import Compiled, compile_spec
+from framegen.reading.source import Source
 from framegen.render import render_target
 from framegen.targets import table
-
-if TYPE_CHECKING:
-    from framegen.compile import Compiled
-    from framegen.reading.source import Source
-    from framegen.targets.target import Target
+from framegen.targets.target import Target
 
 LEFT_OUT = re.compile(
     r"generated/\w+/_runtime/(?:client|codec|command|explain|frame|recording|tables)/"

@@ -5,16 +5,16 @@ That whole libraries are written is held by tests/unit/project/test_house.py and
 tests/unit/skeleton/test_new_project.py.
 """
 
-from __future__ import annotations
-
 import shutil
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import pytest
 from framegen.cli import main
+from framegen.compile import Compiled
 from framegen.reading.source import Source
 from framegen.render import render, render_shared
 from framegen.targets.table import TARGETS
@@ -26,11 +26,6 @@ from tests.repository import commit, git, start
 from tests.rows import Rows
 from tests.unit.writing.made_once import compiled_once, make_once, the_same_is_made_once
 from tests.unit.writing.trees import Snapshot, put, snapshot, times
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from framegen.compile import Compiled
 
 __all__ = ["the_same_is_made_once"]
 

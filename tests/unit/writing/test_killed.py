@@ -3,14 +3,14 @@
 tests/world/test_killed.py has every step, and runs that are killed.
 """
 
-from __future__ import annotations
-
 import shutil
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from framegen.cli import main
+from framegen.output import Output
 from framegen.reading.yamltree import Unusable
 from framegen.writing import changes, write
 from framegen.writing.workshop import NAME
@@ -18,12 +18,6 @@ from framegen.writing.workshop import NAME
 from tests.documents import ROOT
 from tests.unit.writing.killed import EDITIONS, moments, patched, steps
 from tests.unit.writing.trees import LIBRARY, Snapshot, put, snapshot, without_workshop
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from framegen.output import Output
 
 SPOILT = f"{LIBRARY}/changed.py"
 

@@ -1,11 +1,11 @@
 """Owners of files: what framegen wrote, what somebody edited, and what somebody else put there."""
 
-from __future__ import annotations
-
 import os
 import shutil
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from framegen.output import Output, banner
@@ -25,10 +25,6 @@ from tests.unit.writing.trees import (
     snapshot,
     times,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 MANIFEST = "generated/kiln.manifest"
 CHANGED, NEW = f"{LIBRARY}/changed.py", f"{LIBRARY}/new.py"

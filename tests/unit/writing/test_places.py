@@ -1,10 +1,8 @@
 """Odd places for output: links, pipes, folders, read-only folders; two runs at once."""
 
-from __future__ import annotations
-
 import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from framegen.reading.yamltree import Unusable
@@ -12,9 +10,6 @@ from framegen.writing import changes, survey, write
 from framegen.writing.workshop import NAME, workshop
 
 from tests.unit.writing.trees import AFTER, BEFORE, LIBRARY, put, snapshot
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 CHANGED = f"{LIBRARY}/changed.py"
 

@@ -1,7 +1,5 @@
 """Small output to write, and the contents of a folder."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from pathlib import Path

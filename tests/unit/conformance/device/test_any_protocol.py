@@ -1,19 +1,19 @@
 """A device of any protocol passes where it is right, and each of its mutants is found."""
 
-from __future__ import annotations
-
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from itertools import chain, cycle
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo_simulator import VirtualClock
 from framegen.conformance.device.permission import Permission, permit
 from framegen.conformance.device.queries import requests
 from framegen.model.codec import decode, encode, values_of
+from framegen.model.exchanges import Exchange
+from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh
 from framegen.reading.yamltree import Unusable
@@ -21,25 +21,24 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from lxservo_simulator import VirtualBus
 
-from tests.factories import compiled_file, compiled_of, data_of, layout_of, library, library_files
+from tests.factories import (
+    Data,
+    compiled_file,
+    compiled_of,
+    data_of,
+    layout_of,
+    library,
+    library_files,
+)
 from tests.in_turn import in_turn
 from tests.lines.at_board import end_of
-from tests.lines.devices import answers_to, by_the_reference, is_divided
+from tests.lines.devices import Answer, answers_to, by_the_reference, is_divided
 from tests.lines.timed_line import TimedLine
 from tests.protocols.libraries import made_of, values_in
 from tests.protocols.specs import FILES
 from tests.random_specs import WAYS, specs, with_examples
 from tests.rows import each_protocol
 from tests.unit.conformance.device.runs import Run, model_of, run
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.model.exchanges import Exchange
-    from framegen.model.model import Model
-
-    from tests.factories import Data
-    from tests.lines.devices import Answer
 
 PUMPS = Path(__file__).with_name("pumps_of_two_kinds.yaml")
 SPECS = {**FILES, "pumps": PUMPS}
