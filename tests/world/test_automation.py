@@ -21,8 +21,7 @@ BASH = shutil.which("bash")
 MILLISECONDS = {"under": "ramp_s", "replace": "unit: s", "with": "unit: ms"}
 
 needs_bash = pytest.mark.skipif(
-    os.name == "nt" or BASH is None or GIT is None,
-    reason="there is no bash here, or no git",
+    os.name == "nt" or BASH is None or GIT is None, reason="there is no bash here, or no git"
 )
 
 

@@ -167,9 +167,7 @@ def chosen(taken: Taken, mutants: list[Mutant]) -> Iterator[tuple[Mutant, Compil
     return found if taken.is_whole else islice(found, CHANGED)
 
 
-def batches(
-    found: Iterator[tuple[Mutant, Compiled]],
-) -> Iterator[list[tuple[Mutant, Compiled]]]:
+def batches(found: Iterator[tuple[Mutant, Compiled]]) -> Iterator[list[tuple[Mutant, Compiled]]]:
     while batch := list(islice(found, BATCH)):
         yield batch
 

@@ -17,12 +17,8 @@ from tests.repository import commit, git, start
 GIT = shutil.which("git")
 pytestmark = pytest.mark.skipif(GIT is None, reason="there is no git here")
 FILES = (
-    ".ci/release.py",
-    "CHANGELOG.md",
-    "pyproject.toml",
-    "codegen/pyproject.toml",
-    "codegen/framegen/__init__.py",
-    "simulator/pyproject.toml",
+    *(".ci/release.py", "CHANGELOG.md", "pyproject.toml", "codegen/pyproject.toml"),
+    *("codegen/framegen/__init__.py", "simulator/pyproject.toml"),
 )
 
 

@@ -125,10 +125,7 @@ def test_frames_noise_and_unknown_frames_are_shown(bench: Tab) -> None:
     ]
     rows(bench).nth(1).click()
     cells = [" ".join(cell.split()) for cell in texts(bench.locator("#event .strip li"))]
-    assert cells[4:6] == [
-        "7 E8 03 time_ms 1000 ms low byte first",
-        "9 01 targets[0].servo_id 1",
-    ]
+    assert cells[4:6] == ["7 E8 03 time_ms 1000 ms low byte first", "9 01 targets[0].servo_id 1"]
 
 
 def test_a_frame_that_is_legal_both_ways_has_both_names(bench: Tab) -> None:

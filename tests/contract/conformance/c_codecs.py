@@ -76,30 +76,21 @@ WRONG = {
         new="p[2] + 3, items, room;",
         caught_by=frozenset({"decode", "encode", "stream"}),
         smallest="decode host_to_controller 55550107",
-        parted=(
-            "refused length-mismatch 2",
-            "message ActionGroupStop 55550107",
-        ),
+        parted=("refused length-mismatch 2", "message ActionGroupStop 55550107"),
     ),
     "a false header costs the length that it claims": Wrong(
         old=NOISE,
         new=NOISE_OF.format(size='have > 2 && !memcmp(p, "UU", 2) && p[2] < have ? p[2] + 1 : 1'),
         caught_by=frozenset({"stream"}),
         smallest="stream host_to_controller 257 55550355550207",
-        parted=(
-            "noise unknown-command 555503",
-            "noise unknown-command 55550355550207",
-        ),
+        parted=("noise unknown-command 555503", "noise unknown-command 55550355550207"),
     ),
     "a false header costs two bytes, so that a stray 55 costs a frame": Wrong(
         old=NOISE,
         new=NOISE_OF.format(size='have > 1 && !memcmp(p, "UU", 2) ? 2 : 1'),
         caught_by=frozenset({"stream"}),
         smallest="stream host_to_controller 257 5555550207",
-        parted=(
-            "noise unknown-command 55",
-            "noise unknown-command 5555550207",
-        ),
+        parted=("noise unknown-command 55", "noise unknown-command 5555550207"),
     ),
     "numbers are read with their high byte first": Wrong(
         old="each[0] + each[1] * 256",
@@ -126,30 +117,21 @@ WRONG = {
         new="else if (0)",
         caught_by=frozenset({"stream"}),
         smallest="stream host_to_controller 257 55550200",
-        parted=(
-            "unknown 55550200",
-            "noise unknown-command 55550200",
-        ),
+        parted=("unknown 55550200", "noise unknown-command 55550200"),
     ),
     "a frame of unknown command takes along what is inside": Wrong(
         old="all <= have && !begins(p, all, CUT)",
         new="all <= have",
         caught_by=frozenset({"stream"}),
         smallest="stream host_to_controller 257 55550255550207",
-        parted=(
-            "noise unknown-command 555502",
-            "unknown 55550255",
-        ),
+        parted=("noise unknown-command 555502", "unknown 55550255"),
     ),
     "a frame that is cut stops the line for ever": Wrong(
         old="else if (!quiet && (why == CUT",
         new="else if ((why == CUT",
         caught_by=frozenset({"stream"}),
         smallest="stream host_to_controller 257 555508030100000000 quiet 00",
-        parted=(
-            "noise too-short 555508030100000000",
-            "quiet",
-        ),
+        parted=("noise too-short 555508030100000000", "quiet"),
     ),
     "what does not fit into 64 bytes is dropped": Wrong(
         old="held[have++] = (byte)x;",

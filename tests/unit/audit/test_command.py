@@ -160,13 +160,7 @@ def test_a_report_names_its_board(tmp_path: Path, capsys: Capture) -> None:
 def test_every_form_of_a_file_holds_the_same(form: str) -> None:
     model = compiled_file(BUSSERVO).model
     contents = {"raw": bytes.fromhex(BAD), "hex": BAD.encode(), "auto": BAD.encode()}
-    recording = read_recording(
-        "line",
-        contents[form],
-        [*model.spec.endpoints],
-        model.roles,
-        form,
-    )
+    recording = read_recording("line", contents[form], [*model.spec.endpoints], model.roles, form)
     assert b"".join(each.data for each in recording.stretches) == bytes.fromhex(BAD)
     assert audited(model, contents[form]).size == recording.size
 

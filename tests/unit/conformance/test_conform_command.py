@@ -70,8 +70,7 @@ def test_our_own_library_conforms() -> None:
     assert (status, err) == (0, "the same questions again: --more 300 --seed 1\n")
     name = re.escape(" ".join(LIBRARY))
     assert re.fullmatch(
-        rf"{name}: conforms to {re.escape(EDITION)}: \d{{3,}} answers as the reference's\n",
-        out,
+        rf"{name}: conforms to {re.escape(EDITION)}: \d{{3,}} answers as the reference's\n", out
     )
 
 

@@ -156,8 +156,7 @@ DIFFER = {
 
 
 @in_turn(
-    "question, said, at",
-    lambda: [pytest.param(*row, id=name) for name, row in DIFFER.items()],
+    "question, said, at", lambda: [pytest.param(*row, id=name) for name, row in DIFFER.items()]
 )
 def test_a_difference_is_found_where_it_is(question: str, said: list[str], at: int) -> None:
     found = compare(MODEL, "a title", read(question), Reply(tuple(said)))
@@ -409,16 +408,7 @@ def test_a_malformed_question_is_refused_with_the_reason(line: str, error: str) 
 
 # -- The report ----------------------------------------------------------------------------------
 
-WORDS = [
-    "message",
-    "noise",
-    "refused",
-    "frame",
-    "unknown",
-    "quiet",
-    "ActionGroupStop",
-    "bad-header",
-]
+WORDS = "message noise refused frame unknown quiet ActionGroupStop bad-header".split()
 LINES_SAID = st.lists(
     st.lists(st.one_of(st.sampled_from([*WORDS, "55", "555", "55550207"]), st.text(max_size=4)))
     .map(" ".join)

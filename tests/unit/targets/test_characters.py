@@ -4,16 +4,8 @@ from framegen.targets.python.characters import columns, shown, unbroken
 
 
 def test_text_of_a_script_is_shown_in_it() -> None:
-    for text in (
-        "Öffnet",
-        "открыть",
-        "Ανοίγει",
-        "打开阀门。",
-        "ノート",
-        "열기",
-        "5 µm ± 2 °C ≤ 3 Ω",
-    ):
-        assert shown(text) == text
+    text = "Öffnet открыть Ανοίγει 打开阀门。 ノート 열기 5 µm ± 2 °C ≤ 3 Ω"
+    assert shown(text) == text
 
 
 def test_a_wide_character_takes_two_columns_and_may_end_a_line() -> None:

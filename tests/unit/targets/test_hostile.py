@@ -22,7 +22,6 @@ from framegen.reading.text import is_invisible
 from framegen.targets.python.characters import columns
 from framegen.targets.python.docstring import TYPOGRAPHY, docstring, prose
 from framegen.targets.python.escape import Text, assigned, literal
-from framegen.targets.python.names import names_of
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -39,7 +38,6 @@ from tests.factories import (
     data_of,
     files_of,
     is_misfit,
-    layout_of,
     library_files,
     rules_broken,
     vectors_of,
@@ -56,63 +54,20 @@ SPECS = {"busservo": data_of(BUSSERVO), "greenhouse": data_of(DEMO)}
 
 # Text that a reader of the output may take for something else, were it not made safe.
 INERT = [
-    '"',
-    "'",
-    '""',
-    "''",
-    '"""',
-    "'''",
-    '""""""',
-    '"quoted"',
-    'ends with """',
-    '""" begins with it',
-    'half an escape \\"""',
-    '\\" and \\""" and \\\\"""',
-    "trailing \\",
-    "trailing \\\\",
-    "\\",
-    "\\N{BULLET} \\x41 \\u0041 \\101 \\n",
-    "two\nlines",
-    "a paragraph\n\nand another",
-    '"""\nimport os\nos.system("x")\n"""',
-    "\nimport os\n",
-    "{{ 7*7 }}",
-    "{% raise %}{# comment #}{%- endfor %}",
-    "{% raw %}{{ messages }}{% endraw %}",
-    "{0} {self} {x!r:>10} %s %(name)s %",
-    "</script><script>alert(1)</script>",
-    "<!-- --> & &lt; ]]>",
-    '>>> import os; os.system("x")',
-    ">>>> print(1)\n... print(2)\n>>> 1/0",
-    "> >> >>> 1/0",
-    ">>>\n>>> 1/0\n1",
-    "# type: ignore",
-    "# noqa # fmt: off",
-    "# -*- coding: utf-7 -*-",
-    "coding: latin-1",
-    "+ACIAIgAi- import os",
-    "r'''",
-    'f"{1/0}"',
-    'b"x"',
-    "$(touch x) `touch x` ; rm -rf / | cat && true",
-    "../../../etc/passwd",
-    "C:\\new\\table\\x",
-    "\uff50rint \ufb01 ① \uff21",
-    "\u0440\u0430ypal is Cyrillic",
-    "e\u0301 a\u0308\u0323",
-    "\U0001f600 \U00010000 \U0001d4d0",
-    "漢字仮名交じり文",
-    "\u00a0\u2003\u3000",
-    "-",
-    "- item\n- item",
-    "=====\n:param x: y\n.. code::",
-    ":",
-    "x" * 300,
-    "word " * 60,
-    '" ' * 60,
-    "\\ " * 60,
-    ">>> " * 60,
-    " ",
+    *('"', "'", '""', "''", '"""', "'''", '""""""', '"quoted"', 'ends with """'),
+    *('""" begins with it', 'half an escape \\"""', '\\" and \\""" and \\\\"""', "trailing \\"),
+    *("trailing \\\\", "\\", "\\N{BULLET} \\x41 \\u0041 \\101 \\n", "two\nlines"),
+    *("a paragraph\n\nand another", '"""\nimport os\nos.system("x")\n"""', "\nimport os\n"),
+    *("{{ 7*7 }}", "{% raise %}{# comment #}{%- endfor %}", "{% raw %}{{ messages }}{% endraw %}"),
+    *("{0} {self} {x!r:>10} %s %(name)s %", "</script><script>alert(1)</script>"),
+    *("<!-- --> & &lt; ]]>", '>>> import os; os.system("x")'),
+    *(">>>> print(1)\n... print(2)\n>>> 1/0", "> >> >>> 1/0", ">>>\n>>> 1/0\n1", "# type: ignore"),
+    *("# noqa # fmt: off", "# -*- coding: utf-7 -*-", "coding: latin-1", "+ACIAIgAi- import os"),
+    *("r'''", 'f"{1/0}"', 'b"x"', "$(touch x) `touch x` ; rm -rf / | cat && true"),
+    *("../../../etc/passwd", "C:\\new\\table\\x", "\uff50rint \ufb01 ① \uff21"),
+    *("\u0440\u0430ypal is Cyrillic", "e\u0301 a\u0308\u0323", "\U0001f600 \U00010000 \U0001d4d0"),
+    *("漢字仮名交じり文", "\u00a0\u2003\u3000", "-", "- item\n- item", ":", "x" * 300),
+    *("=====\n:param x: y\n.. code::", "word " * 60, '" ' * 60, "\\ " * 60, ">>> " * 60, " "),
 ]
 # What nobody can see, or what turns that which is seen around: no spec may hold it.
 UNSEEN = [
@@ -120,6 +75,9 @@ UNSEEN = [
     "\U000e0041",
     "\ud800",
 ]
+
+
+UNUSABLE = {"invisible-character", "unusable"}
 
 
 def python_of(files: dict[str, str]) -> dict[str, str]:
@@ -155,10 +113,8 @@ def doctests(tree: ast.Module) -> list[str]:
 
 @cache
 def imports(text: str) -> list[str]:
-    found = (ast.Import, ast.ImportFrom)
-    return [
-        ast.dump(node) for node in ast.walk(ast.parse(text.encode())) if isinstance(node, found)
-    ]
+    nodes = ast.walk(ast.parse(text.encode()))
+    return [ast.dump(node) for node in nodes if isinstance(node, ast.Import | ast.ImportFrom)]
 
 
 Traits: TypeAlias = "tuple[str, list[str], list[str]]"
@@ -167,7 +123,7 @@ Traits: TypeAlias = "tuple[str, list[str], list[str]]"
 @cache
 def _traits(text: str) -> Traits:
     tree = ast.parse(text.encode())
-    run = doctests(tree)
+    run = doctests(tree)  # before the strings are gone
     return skeleton(tree), comments(text), run
 
 
@@ -262,10 +218,7 @@ def test_text_that_nobody_can_see_is_a_finding_everywhere(unseen: str) -> None:
     some = [path for path, _ in texts(data) if is_prose(path)][::10]
     assert len(some) > 3
     for place in some:
-        assert set(rules_broken(_with(data, {place: f"a{unseen}b"}))) <= {
-            "invisible-character",
-            "unusable",
-        }
+        assert {*rules_broken(_with(data, {place: f"a{unseen}b"}))} <= UNUSABLE
 
 
 # What no table above has thought of. A backslash and a quote are where it would go wrong.
@@ -288,8 +241,8 @@ def test_any_text_is_inert(text: str) -> None:
 def test_any_text_at_all_is_inert_or_a_finding(text: str) -> None:
     data = _with(SPECS["greenhouse"], {("messages", "VentsOpen", "summary"): text})
     if any(map(is_invisible, text)):
-        broken = rules_broken(data)
-        assert set(broken) <= {"invisible-character", "unusable"}
+        broken = {*rules_broken(data)}
+        assert broken <= UNUSABLE
         assert broken
     else:
         assert traits(files_of(data)).keys() == harmless("greenhouse").keys()
@@ -342,17 +295,10 @@ def test_what_is_no_prose_is_a_finding_or_inert() -> None:
             assert imports(module) == imports(plain[path])
 
 
-@in_turn(
-    "version",
-    lambda: [
-        *INERT[::7],
-        "coding",
-        "coding=utf-7",
-        "coding: utf-7",
-        "x coding",
-        '1.0\nimport os; os.system("x")\n#',
-    ],
-)
+CODINGS = ["coding", "coding=utf-7", "coding: utf-7", "x coding"]
+
+
+@in_turn("version", lambda: [*INERT[::7], *CODINGS, '1.0\nimport os; os.system("x")\n#'])
 def test_a_hostile_version_is_a_finding(version: str) -> None:
     data: Data = {**SPECS["greenhouse"]}
     data["protocol"] = {**data["protocol"], "version": version}
@@ -360,19 +306,13 @@ def test_a_hostile_version_is_a_finding(version: str) -> None:
     assert {*rules_broken(data)} & {"version", "unusable"}
 
 
-@in_turn(
-    "name",
-    lambda: [
-        "a\nimport os\n.yaml",
-        "coding: utf-7.yaml",
-        "coding:utf-7",
-        "# vim: fileencoding=latin-1",
-        '"""',
-        "ünïcode.yaml",
-        "folder/../x\\y.yaml",
-        f"spec/{'long' * 60}.yaml",
-    ],
-)
+FILE_NAMES = [
+    *("a\nimport os\n.yaml", "coding: utf-7.yaml", "coding:utf-7", "# vim: fileencoding=latin-1"),
+    *('"""', "ünïcode.yaml", "folder/../x\\y.yaml", f"spec/{'long' * 60}.yaml"),
+]
+
+
+@in_turn("name", lambda: FILE_NAMES)
 def test_a_hostile_file_name_stays_in_its_comment(name: str) -> None:
     expected = python_of(files_of(SPECS["greenhouse"]))
     for path, module in python_of(files_of(SPECS["greenhouse"], name)).items():
@@ -395,35 +335,10 @@ def test_a_path_is_cut_where_a_line_of_code_would_not_hold_it() -> None:
 # ------------------------------------------------------------------ names
 
 NO_NAMES = [
-    "",
-    " ",
-    "a b",
-    "a-b",
-    "a.b",
-    "a;b",
-    'a"b',
-    "a'b",
-    "a\nb",
-    "a\\b",
-    "1st",
-    "_",
-    "_private",
-    "__init__",
-    "__class__",
-    "__import__('os')",
-    "x = 1\nimport os",
-    "{{ 7*7 }}",
-    "{% endfor %}",
-    "../evil",
-    "/etc/passwd",
-    "naïve",
-    "\uff50rint",
-    "ﬁeld",
-    "vent_\u0456d",  # with a Cyrillic letter
-    "\u210cost",
-    "x²",
-    "名",
-    "a\u200bb",
+    *("", " ", "a b", "a-b", "a.b", "a;b", 'a"b', "a'b", "a\nb", "a\\b", "1st", "_", "_private"),
+    *("__init__", "__class__", "__import__('os')", "x = 1\nimport os", "{{ 7*7 }}", "{% endfor %}"),
+    *("../evil", "/etc/passwd", "naïve", "\uff50rint", "ﬁeld", "vent_\u0456d", "\u210cost", "x²"),
+    *("名", "a\u200bb"),
 ]
 # A name of each kind in the demo spec.
 NAMED = {
@@ -447,36 +362,6 @@ def test_what_is_no_plain_name_is_a_finding(kind: str) -> None:
     for name in NO_NAMES:
         data = renamed(SPECS["greenhouse"], NAMED[kind], name)
         assert usable(data) is None, name
-
-
-def test_no_message_can_take_a_name_that_the_generated_modules_use() -> None:
-    """Whatever modules that import or define the messages have besides them."""
-    used: set[str] = set()
-    for path, text in python_of(files_of(SPECS["greenhouse"])).items():
-        if path.split("/")[2] not in ("__init__.py", "messages.py", "strategies.py"):
-            continue
-        module = ast.parse(text)
-        for node in ast.walk(module):
-            if isinstance(node, ast.ImportFrom | ast.Import):
-                used |= {alias.asname or alias.name for alias in node.names}
-            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
-                used.add(node.id)
-        # What the body of a class defines, it finds there.
-        used -= {
-            target.id
-            for node in module.body
-            if isinstance(node, ast.ClassDef)
-            for statement in node.body
-            if isinstance(statement, ast.Assign)
-            for target in statement.targets
-            if isinstance(target, ast.Name)
-        }
-    spec = SPECS["greenhouse"]
-    own = {*spec["messages"], "Vent"}
-    risky = {name for name in used - own if name[0].isupper() and "_" not in name}
-    assert len(risky) > 10
-    names = names_of(layout_of(spec))
-    assert [name for name in risky if names.of("message", name) == name] == []
 
 
 ODD_CLASSES = sorted(
@@ -510,17 +395,12 @@ def test_messages_and_fields_of_odd_names_work(classes: Makes) -> None:
 # ------------------------------------------------------------------ the filters alone
 
 
-@given(TEXT)
-def test_a_literal_says_its_text(text: str) -> None:
-    assert ast.literal_eval(literal(text)) == text
-    assert "\n" not in literal(text)
-
-
-@given(st.text())
-def test_a_literal_says_any_text_in_visible_characters(text: str) -> None:
+@given(TEXT | st.text())
+def test_a_literal_says_its_text_in_visible_characters(text: str) -> None:
     shown = literal(text)
     assert ast.literal_eval(shown) == text
     assert not any(map(is_invisible, shown))
+    assert "\n" not in shown
 
 
 @example("\"\n'\n\U00010000\\")
@@ -581,6 +461,12 @@ def test_prose_escapes_no_more_than_it_must(text: str, said: str) -> None:
     assert prose(text) == said
 
 
+NO_SUMMARIES = [
+    *("Is it open?", "Stop!", "Modes:", "Wait...", '"Quoted"', "This opens it.", "- Opens it"),
+    *("Calls f(x)", "word " * 30, "x" * 95, ""),
+]
+
+
 @in_turn(
     "text, summary",
     lambda: [
@@ -593,19 +479,9 @@ def test_prose_escapes_no_more_than_it_must(text: str, said: str) -> None:
         ("50 %", "50 %."),
         ("°C", "°C."),
         ("Opens it. " + "Waits. " * 20, "Opens it. " + "Waits. " * 11 + "Waits."),
-        # These can be no summary, and follow one that the generator has.
-        ("Is it open?", "No summary."),
-        ("Stop!", "No summary."),
-        ("Modes:", "No summary."),
-        ("Wait...", "No summary."),
-        ('"Quoted"', "No summary."),
-        ("This opens it.", "No summary."),
-        ("- Opens it", "No summary."),
         ("Back\\", "Back\\."),
-        ("Calls f(x)", "No summary."),
-        ("word " * 30, "No summary."),
-        ("x" * 95, "No summary."),
-        ("", "No summary."),
+        # These can be no summary, and follow one that the generator has.
+        *((text, "No summary.") for text in NO_SUMMARIES),
     ],
 )
 def test_a_summary_is_a_sentence_of_one_line(text: str, summary: str) -> None:
@@ -627,9 +503,6 @@ def test_a_docstring_breaks_its_lines_at_the_width() -> None:
         text = docstring([word * 60, word * 30], 4, "No summary.")
         assert 85 < max(map(columns, (" " * 4 + text).split("\n"))) <= 100
         assert text.count("\n\n") == 2
-
-
-def test_a_docstring_of_nothing_is_the_summary_that_there_is() -> None:
     assert docstring([], 4, "So.") == docstring(["", " \n\n "], 4, "So.") == '"""So."""'
 
 

@@ -6,11 +6,10 @@ import json
 import keyword
 import re
 import sys
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Iterator
+from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import busservo
@@ -18,7 +17,6 @@ import pytest
 from framegen.cli import main
 from framegen.compile import Compiled
 from framegen.language.package_names import BUILTINS, DEVICES, KEYWORDS, why_taken
-from framegen.model.model import Model
 from framegen.render import render, render_target, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
@@ -31,6 +29,7 @@ from framewire.client.async_client import AsyncClient
 from framewire.client.client import Client
 from framewire.frame.element import Element
 
+from tests.commands import called
 from tests.crowd import Crowd, taken, taken_elements, taken_names, taken_pose
 from tests.factories import (
     BUSSERVO,
@@ -47,11 +46,9 @@ from tests.factories import (
 from tests.in_turn import in_turn
 from tests.lines.timed_line import client_of
 from tests.mutations.places import renamed
-from tests.names_at_work import examples_work, methods_work, reports_work, strategies_work
+from tests.names_at_work import at_work
 from tests.rows import some
 from tests.side_by_side import library_of, linted
-
-Command = Callable[..., tuple[int, str, str]]
 
 PACKAGE = Path(busservo.__file__).parent
 # Those that import the messages by name.
@@ -269,36 +266,9 @@ def test_the_vectors_and_the_reference_keep_the_names_of_the_author(name: str) -
 # ------------------------------------------------------------------ the libraries of such names
 
 
-@pytest.fixture(scope="module", params=CROWDS)
-def crowd(request: pytest.FixtureRequest) -> Iterator[tuple[Model, ModuleType]]:
-    """Return a spec of taken names, and its library."""
-    name = str(request.param)
-    with library(files_of_crowd(name)) as made:
-        yield compiled_crowd(name).model, made
-
-
-def test_every_example_makes_its_frame_and_is_read_from_it(
-    crowd: tuple[Model, ModuleType],
-) -> None:
-    model, lib = crowd
-    examples_work(lib, model)
-
-
-def test_every_method_sends_its_message_and_returns_the_reply(
-    crowd: tuple[Model, ModuleType],
-) -> None:
-    model, lib = crowd
-    methods_work(lib, model)
-
-
-def test_a_report_is_waited_for_by_any_of_its_fields(crowd: tuple[Model, ModuleType]) -> None:
-    model, lib = crowd
-    reports_work(lib, model)
-
-
-def test_every_message_has_a_strategy(crowd: tuple[Model, ModuleType]) -> None:
-    _, lib = crowd
-    strategies_work(lib)
+@pytest.mark.parametrize("name", CROWDS)
+def test_a_library_of_such_names_works(name: str) -> None:
+    at_work(compiled_crowd(name))
 
 
 def test_a_pose_is_read_and_held_under_bent_names() -> None:
@@ -347,26 +317,15 @@ def test_the_command_says_the_names_that_the_library_has(
 # ------------------------------------------------------------------ what framegen says of them
 
 
-@pytest.fixture
-def framegen(capsys: pytest.CaptureFixture[str]) -> Command:
-    """Return a function that runs the command: its exit status, its output and its error stream."""
-
-    def run_it(*words: str) -> tuple[int, str, str]:
-        code = main(words)
-        return code, *capsys.readouterr()
-
-    return run_it
+framegen = partial(called, main)
 
 
 def test_the_reference_shows_the_bent_name_in_code() -> None:
-    [python] = [target for target in TARGETS if target.name == "python"]
-    assert python.snippets is not None
     model = layout_of(renamed(renamed(data_of(DEMO), "TextShow", "Reason"), "number", "class"))
     message = model.messages["Reason"]
-    (codec,) = python.snippets(model, message, message.message.examples[0])
-    shown = codec.code
-    assert "from greenhouse import Direction, ReasonMessage, StreamDecoder" in shown
-    assert "print(event.class_)  # -2" in shown
+    (codec,) = snippets()["python"](model, message, message.message.examples[0])
+    assert "from greenhouse import Direction, ReasonMessage, StreamDecoder" in codec.code
+    assert "print(event.class_)  # -2" in codec.code
 
 
 @in_turn(
@@ -413,17 +372,14 @@ def test_the_pages_of_odd_names_are_linked_to(tmp_path: Path) -> None:
     for page in tmp_path.rglob("*"):
         linking = page.suffix in (".md", ".html")
         text = page.read_text(encoding="utf-8").partition("<script")[0] if linking else ""
-        for link in re.findall(r'href="([^"#:?]+)["#?]', text) + re.findall(
-            r"\]\(([^)#:?]+)", text
-        ):
+        found = re.findall(r'href="([^"#:?]+)["#?]|\]\(([^)#:?]+)', text)
+        for link in (one or other for one, other in found):
             assert (page.parent / link).exists(), (page, link)
             links += link.endswith(("Con_.html", "Con_.md", "Nul_.html", "Nul_.md"))
     assert links > 20
 
 
-def test_check_notes_each_bent_name_once_and_finds_nothing(
-    tmp_path: Path, framegen: Command
-) -> None:
+def test_check_notes_each_bent_name_once_and_finds_nothing(tmp_path: Path) -> None:
     text = DEMO.read_text(encoding="utf-8").replace("vent_id", "id").replace("ramp_s", "class")
     spec = tmp_path / "made.yaml"
     spec.write_text(text, encoding="utf-8")
@@ -438,27 +394,18 @@ def test_check_notes_each_bent_name_once_and_finds_nothing(
         assert err.endswith("nothing found\n")
 
 
-def test_targets_lists_what_there_is(framegen: Command) -> None:
+def test_targets_lists_what_there_is_and_prints_what_becomes_of_a_word() -> None:
     code, out, _ = framegen("targets")
     assert code == 0
     assert [line.split()[0] for line in out.splitlines() if line[0] != " "] == [
         target.name for target in TARGETS
     ]
     assert "generated/busservo/" in out
-
-
-def test_targets_prints_what_becomes_of_a_word(framegen: Command) -> None:
     code, out, _ = framegen("targets", "python")
     assert code == 0
     assert "message: NAME becomes NAMEMessage where it is a class of every library" in out
     assert {word for row in reserved.RESERVED for word in row.words} <= {*out.split()}
-
-
-def test_a_target_without_reserved_words_says_so(framegen: Command) -> None:
-    assert framegen("targets", "vectors")[1].endswith("every name stays as it is.\n")
-
-
-def test_an_unknown_target_gets_a_hint(framegen: Command) -> None:
+    assert framegen("targets", "vectors").out.endswith("every name stays as it is.\n")
     code, _, err = framegen("targets", "pyhton")
     assert code == 2
     assert "did you mean `python`?" in err
@@ -466,23 +413,16 @@ def test_an_unknown_target_gets_a_hint(framegen: Command) -> None:
 
 def test_what_stands_around_the_fields_is_renamed_as_they_are() -> None:
     compiled = compiled_file(DEMO.with_name("taken_names.yaml"))
-    names = names_of(compiled.model)
+    bent = names_of(compiled.model)
     with library(library_files(compiled)) as made:
         for layout in compiled.model.messages.values():
-            kind = getattr(made, names.message(layout.name).name)
+            kind = getattr(made, bent.message(layout.name).name)
             for example in layout.message.examples:
-                values = names.values(layout.name, example.values)
+                values = bent.values(layout.name, example.values)
                 assert kind.from_dict(values).encode() == example.hex
                 assert kind.decode(example.hex).to_dict() == values
         text = made.TextMessage
-        assert text.__match_args__ == (
-            "id_",
-            "error",
-            "err_voltage",
-            "absent_",
-            "type_",
-            "flat_",
-            "hash_",
-        )
+        names = "id_ error err_voltage absent_ type_ flat_ hash_"
+        assert text.__match_args__ == tuple(names.split())
         assert (text.DIRECTION_, text.FRAME_, text.IDS, text.ID_ALL) == (1, 2, (1, 2), 255)
         assert text.DIRECTION is made.Direction.ASKER_TO_TELLER

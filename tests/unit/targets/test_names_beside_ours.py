@@ -56,16 +56,19 @@ def each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return dict(pairs)
 
 
-def test_what_is_printed_has_each_key_once_and_each_number() -> None:
+def printed() -> tuple[list[dict[str, Any]], str]:
+    """Return what the command prints of the line, and of the frame of no message in words."""
     with library(library_files(crowded())) as made:
         entries: Any = import_module("framewire.command.events")
         codec = handed_by(made.__name__).codec
         events = made.StreamDecoder(None).feed(line())
-        said = [
-            json.loads(entries.in_json(event, None, codec), object_pairs_hook=each_once)
-            for event in events
-        ]
-        words = entries.in_words(events[1], None, codec)
+        texts = [entries.in_json(event, None, codec) for event in events]
+        said = [json.loads(text, object_pairs_hook=each_once) for text in texts]
+        return said, entries.in_words(events[1], None, codec)
+
+
+def test_what_is_printed_has_each_key_once_and_each_number() -> None:
+    said, words = printed()
     assert [each.get("reason") for each in said] == ["bad header", "unknown command", None]
     assert [each for each in said[1].values() if isinstance(each, int)] == [*NOBODY]
     assert (said[1]["offset_"], said[1]["parameters"]) == (NOBODY[0], "09")
@@ -81,9 +84,8 @@ def test_a_table_has_each_column_once_and_each_number() -> None:
         assert len({*table.schema.names}) == len(table.schema.names)
     nobody = noise.to_pylist()[1]
     assert (nobody["offset"], nobody["reason"], nobody["unknown"]) == (1, "unknown command", True)
-    assert [nobody[f"{name}_"] for name in ("offset", "reason", "unknown", "parameters")] == [
-        NOBODY[IDS.index(name)] for name in ("offset", "reason", "unknown", "parameters")
-    ]
+    for name in ("offset", "reason", "unknown", "parameters"):
+        assert nobody[f"{name}_"] == NOBODY[IDS.index(name)]
     (shown,) = colours.to_pylist()
     assert (shown["offset"], shown["offset_"], shown["size_"], shown["clock_"]) == (13, 1, 2, 3)
 
@@ -94,11 +96,6 @@ def test_the_pages_save_it_under_the_same_names() -> None:
     asked = {"protocol": protocol_data(model), "texts": [(line().hex(" "), None, "json")]}
     program = SAVE.replace("controller_to_host", "desk_to_lamp")
     (saved,) = run_script([*codec_scripts(model), *SAVERS], program, asked)
-    with library(library_files(crowded())) as made:
-        entries: Any = import_module("framewire.command.events")
-        codec = handed_by(made.__name__).codec
-        events = made.StreamDecoder(None).feed(line())
-        said = [json.loads(entries.in_json(event, None, codec)) for event in events]
     shown = [json.loads(each, object_pairs_hook=each_once) for each in saved.splitlines()]
     assert [each.pop("offset") for each in shown] == [0, 1, 13]
-    assert shown == said
+    assert shown == printed()[0]

@@ -200,9 +200,7 @@ def test_the_doctor_makes_only_checks_that_can_find_something(
     assert [line.split()[1] for line in shown.splitlines() if line[0] != " "] == checks
 
 
-def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(
-    call: Call,
-) -> None:
+def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(call: Call) -> None:
     assert "replay" not in call("weather", "monitor", "--help")[1]
     assert "reply" not in call("stage_lamp", "--help")[1]
     assert "print the reply" in call("greenhouse", "--help")[1]

@@ -143,10 +143,7 @@ def test_every_number_type_is_offered() -> None:
 
 def test_every_signed_type_is_offered_to_read_a_number_as() -> None:
     offered, nothing = SCHEMA["$defs"]["NumberField"]["properties"]["signed_as"]["anyOf"]
-    assert (offered["enum"], nothing) == (
-        ["i8", "i16", "i24", "i32", "i64"],
-        {"type": "null"},
-    )
+    assert (offered["enum"], nothing) == (["i8", "i16", "i24", "i32", "i64"], {"type": "null"})
 
 
 def test_an_editor_has_something_to_say_of_every_key() -> None:

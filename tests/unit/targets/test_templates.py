@@ -23,22 +23,9 @@ SOURCES = sorted(path for path in CODEGEN.rglob("*") if path.suffix in (".py", "
 
 # What a template may be made of: text, loops, conditions, and what is put in place.
 ALLOWED = (
-    nodes.Template,
-    nodes.Output,
-    nodes.TemplateData,
-    nodes.For,
-    nodes.If,
-    nodes.Name,
-    nodes.Getattr,
-    nodes.Const,
-    nodes.List,
-    nodes.Filter,
-    nodes.FilterBlock,
-    nodes.Concat,
-    nodes.And,
-    nodes.Not,
-    nodes.Add,
-    nodes.Keyword,
+    *(nodes.Template, nodes.Output, nodes.TemplateData, nodes.For, nodes.If, nodes.Name),
+    *(nodes.Getattr, nodes.Const, nodes.List, nodes.Filter, nodes.FilterBlock, nodes.Concat),
+    *(nodes.And, nodes.Not, nodes.Add, nodes.Keyword),
 )
 FILTERS = {"argument", "assigned", "docstring", "imports", "join", "literal", "quoted"}
 

@@ -1,21 +1,15 @@
-"""vectors.json: cases for implementations in any language, true of this one and of the oracle."""
+"""vectors.json: cases for implementations in any language, true of the oracle.
+
+That the library answers as they say is held by tests/contract/conformance/test_answerers.py.
+"""
 
 import json
 from importlib.resources import files
 from typing import Any
 
-import busservo
 import pytest
 from busservo import (
-    MESSAGES,
-    DecodeError,
-    Direction,
-    EncodeError,
-    Message,
-    Noise,
     Reason,
-    StreamDecoder,
-    UnknownFrame,
 )
 from framegen.cases.streams import senders_of
 from framegen.cases.valid import range_ends
@@ -24,7 +18,6 @@ from tests import oracle
 from tests.cases import CASES
 from tests.factories import BUSSERVO, DEMO, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
-from tests.strategies import joined, said
 
 VECTORS: dict[str, Any] = json.loads(
     files("busservo").joinpath("vectors.json").read_text(encoding="utf-8")
@@ -33,61 +26,25 @@ VALID: list[dict[str, Any]] = VECTORS["valid"]
 UNENCODABLE: list[dict[str, Any]] = VECTORS["unencodable"]
 INVALID: list[dict[str, Any]] = VECTORS["invalid"]
 STREAMS: list[dict[str, Any]] = VECTORS["streams"]
-CLASSES: dict[str, Any] = {kind.__name__: kind for kind in MESSAGES}
-
-each_valid = in_turn(
-    "vector", lambda: VALID, ids=lambda vector: f"{vector['message']}: {vector['title']}"
-)
-each_unencodable = in_turn("vector", lambda: UNENCODABLE, ids=lambda vector: str(vector["title"]))
-each_invalid = in_turn(
-    "vector", lambda: INVALID, ids=lambda vector: f"{vector['direction']}: {vector['hex']}"
-)
-
-each_stream = in_turn(
-    "vector", lambda: STREAMS, ids=lambda vector: f"{vector['direction']}: {vector['title']}"
-)
 
 
-def arguments(fields: dict[str, Any]) -> dict[str, Any]:
-    """Return the fields of a vector as a message takes them: pairs instead of objects."""
-    return {
-        name: [tuple(item.values()) if isinstance(item, dict) else item for item in value]
-        if isinstance(value, list)
-        else value
-        for name, value in fields.items()
-    }
-
-
-@each_valid
-def test_a_valid_vector_is_encoded(vector: dict[str, Any]) -> None:
-    message = CLASSES[vector["message"]](**arguments(vector["fields"]))
-
-    assert message.encode() == bytes.fromhex(vector["hex"])
-    assert message.DIRECTION is Direction(vector["direction"])
-
-
-@each_valid
-def test_a_valid_vector_is_decoded(vector: dict[str, Any]) -> None:
-    message = busservo.decode(bytes.fromhex(vector["hex"]), Direction(vector["direction"]))
-
-    assert said(message) == (vector["message"], vector["fields"])
-
-
-@each_valid
+@in_turn("vector", lambda: VALID, ids=lambda vector: f"{vector['message']}: {vector['title']}")
 def test_the_oracle_agrees_with_a_valid_vector(vector: dict[str, Any]) -> None:
     frame = bytes.fromhex(vector["hex"])
-
     assert oracle.build(vector["message"], vector["fields"]) == frame
     assert oracle.parse(frame, vector["direction"]) == (vector["message"], vector["fields"])
 
 
-@each_unencodable
-def test_values_that_no_frame_carries_are_refused(vector: dict[str, Any]) -> None:
-    with pytest.raises(EncodeError):
-        CLASSES[vector["message"]](**arguments(vector["fields"]))
-
+@in_turn("vector", lambda: UNENCODABLE, ids=lambda vector: str(vector["title"]))
+def test_the_oracle_refuses_values_that_no_frame_carries(vector: dict[str, Any]) -> None:
     with pytest.raises(oracle.OracleError):
         oracle.build(vector["message"], vector["fields"])
+
+
+@in_turn("vector", lambda: INVALID, ids=lambda vector: f"{vector['direction']}: {vector['hex']}")
+def test_the_oracle_refuses_an_invalid_vector(vector: dict[str, Any]) -> None:
+    with pytest.raises(oracle.OracleError):
+        oracle.parse(bytes.fromhex(vector["hex"]), vector["direction"])
 
 
 def test_every_bound_is_overstepped() -> None:
@@ -97,21 +54,6 @@ def test_every_bound_is_overstepped() -> None:
         "ServoUnload: a servo_ids of -1",
         "ServoUnload: a servo_ids of 256",
     ]
-
-
-@each_invalid
-def test_an_invalid_vector_is_refused(vector: dict[str, Any]) -> None:
-    with pytest.raises(DecodeError) as caught:
-        busservo.decode(bytes.fromhex(vector["hex"]), Direction(vector["direction"]))
-
-    assert caught.value.reason is Reason(vector["reason"])
-    assert caught.value.offset == vector["offset"]
-
-
-@each_invalid
-def test_the_oracle_refuses_an_invalid_vector(vector: dict[str, Any]) -> None:
-    with pytest.raises(oracle.OracleError):
-        oracle.parse(bytes.fromhex(vector["hex"]), vector["direction"])
 
 
 def scanned_events(vector: dict[str, Any]) -> list[list[object]]:
@@ -130,45 +72,9 @@ def scanned_events(vector: dict[str, Any]) -> list[list[object]]:
     return stretches
 
 
-def stretches_of(vector: dict[str, Any]) -> list[list[bytes]]:
-    """Return the chunks of a stream up to each quiet."""
-    stretches: list[list[bytes]] = [[]]
-    for part in vector["parts"]:
-        if part == "quiet":
-            stretches.append([])
-        else:
-            stretches[-1].append(bytes.fromhex(part))
-    return stretches
-
-
-@each_stream
-def test_a_stream_is_decoded(vector: dict[str, Any]) -> None:
-    decoder = StreamDecoder(Direction(vector["direction"]), vector["max_frame"])
-    *stretches, last = stretches_of(vector)
-    found = []
-    for chunks in stretches:
-        events = [event for chunk in chunks for event in decoder.feed(chunk)]
-        found += [*map(shown, joined(events + decoder.flush())), {"event": "quiet"}]
-    found += map(shown, joined(event for chunk in last for event in decoder.feed(chunk)))
-
-    assert found == vector["events"]
-
-
-def shown(event: Message | Noise) -> dict[str, Any]:
-    """Return an event as the vectors have it."""
-    if isinstance(event, Noise):
-        digits = event.data.hex(" ").upper()
-        if isinstance(event, UnknownFrame):
-            return {"event": "unknown", "hex": digits}
-        return {"event": "noise", "reason": event.reason.value, "hex": digits}
-    name, fields = said(event)
-    digits = event.encode().hex(" ").upper()
-    return {"event": "message", "message": name, "fields": fields, "hex": digits}
-
-
 @in_turn("vector", lambda: [each for each in STREAMS if each["max_frame"] is None])
 def test_the_oracle_agrees_with_a_stream(vector: dict[str, Any]) -> None:
-    *stretches, last = map(b"".join, stretches_of(vector))
+    *stretches, last = map(bytes.fromhex, " ".join(vector["parts"]).split("quiet"))
     way = vector["direction"]
     *found, begun = scanned_events(vector)
 
@@ -179,21 +85,14 @@ def test_the_oracle_agrees_with_a_stream(vector: dict[str, Any]) -> None:
 
 
 def test_the_vectors_cover_every_message() -> None:
-    assert {vector["message"] for vector in VALID} == set(CLASSES)
-    assert {vector["title"].split(":")[0] for vector in INVALID} == set(CLASSES)
     model = compiled_file(BUSSERVO).model
-    shown = {
-        name
-        for way in model.directions
-        for sender in senders_of(model, way)
-        for name in sender.small_frames
+    assert {vector["message"] for vector in VALID} == {*model.messages}
+    assert {vector["title"].split(":")[0] for vector in INVALID} == {*model.messages}
+    senders = [each for way in model.directions for each in senders_of(model, way)]
+    events = [event for vector in STREAMS for event in vector["events"]]
+    assert {event["message"] for event in events if event["event"] == "message"} == {
+        name for sender in senders for name in sender.small_frames
     }
-    assert {name for vector in STREAMS for name in messages_in(vector)} == shown
-
-
-def messages_in(vector: dict[str, Any]) -> list[str]:
-    """Return the messages that a stream holds."""
-    return [event["message"] for event in vector["events"] if event["event"] == "message"]
 
 
 def test_the_vectors_cover_every_reason_that_this_protocol_has() -> None:

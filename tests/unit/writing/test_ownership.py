@@ -543,8 +543,7 @@ def test_output_of_the_former_layout_is_taken_over_in_one_run(tmp_path: Path) ->
         '{\n  "$schema": "x",\n  "title": "framegen spec",\n}',
     )
     wider = replace(
-        BEFORE,
-        files={**BEFORE.files, f"{LIBRARY}/py.typed": "", f"{LIBRARY}/vectors.json": "{}\n"},
+        BEFORE, files={**BEFORE.files, f"{LIBRARY}/py.typed": "", f"{LIBRARY}/vectors.json": "{}\n"}
     )
     done = write(tmp_path, [wider, schema()])
     assert len(done.notices) == 2
