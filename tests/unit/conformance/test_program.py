@@ -12,6 +12,7 @@ from framegen.conformance import program as module
 from framegen.conformance.program import Program, Reply
 from framegen.reading.yamltree import Unusable
 
+from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
 
 SOON = 0.3
@@ -42,32 +43,27 @@ def test_a_program_is_started_once_and_questioned_line_by_line() -> None:
     assert one.lines[0] == other.lines[0]
 
 
-def test_lines_may_end_as_on_windows() -> None:
-    source = r"""
-        import sys
-        for line in sys.stdin:
-            sys.stdout.buffer.write(b"frame 55\r\nend\r\n"); sys.stdout.flush()
-    """
-    assert replies_to(source, "encode A") == [Reply(("frame 55",))]
-
-
-def test_bytes_that_are_no_text_are_shown_escaped() -> None:
-    source = r"""
-        import sys
-        for line in sys.stdin:
-            sys.stdout.buffer.write(b"\xff\x00end\nend\n"); sys.stdout.flush()
-    """
-    assert replies_to(source, "encode A") == [Reply(("\\xff\x00end",))]
-
-
 @pytest.mark.parametrize(
-    ("source", "failure"),
-    [
+    ("printed", "line"),
+    [(r"frame 55\r\nend\r\n", "frame 55"), (r"\xff\x00end\nend\n", "\\xff\x00end")],
+    ids=["lines end as on Windows", "bytes that are no text are escaped"],
+)
+def test_a_line_is_text(printed: str, line: str) -> None:
+    source = f"""
+        import sys
+        for line in sys.stdin:
+            sys.stdout.buffer.write(b"{printed}"); sys.stdout.flush()
+    """
+    assert replies_to(source, "encode A") == [Reply((line,))]
+
+
+@in_turn(
+    "source, failure",
+    lambda: [
         ("", "it ended with status 0 before it printed a line"),
         ("raise SystemExit(3)", "it ended with status 3 before it printed a line"),
         ("input(); print('frame 55', flush=True)", "it ended with status 0 after 1 line"),
     ],
-    ids=["at once", "with a status", "in an answer"],
 )
 def test_a_program_that_ends_is_reported(source: str, failure: str) -> None:
     (reply,) = replies_to(source, "decode a 55")

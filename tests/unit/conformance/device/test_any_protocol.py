@@ -256,7 +256,7 @@ def late(_model: Model, answer: Answer) -> Answer:
 CHECKED = ["dynamixel1", "mhz19", "modbus", "msp", "lxservo", "pumps"]
 ADDRESSED = ["dynamixel1", "modbus", "lxservo", "pumps"]
 # Without a checksum, on a bus, with one, and with frames of two kinds.
-FEW = ["lxservo", "msp", "pumps"]
+FEW = ["learm", "lxservo", "msp", "pumps"]
 MUTANTS: list[tuple[str, Mutant, list[str], str]] = [
     ("its replies have a wrong end", replies_changed(_flipped), CHECKED, "no frame"),
     ("it says another address", replies_changed(_from_another), ADDRESSED, "wrong reply"),
@@ -280,7 +280,7 @@ def test_a_mutant_is_found_and_called_by_its_name(mutant: Mutant, name: str, kin
     assert kind in {found for _, found in done.faults}
 
 
-@in_turn("name", lambda: ["dynamixel1", "mhz19", "msp", "lxservo", "pumps"])
+@in_turn("name", lambda: ["learm", *(name for name in CHECKED if name != "modbus")])
 def test_a_device_that_loses_what_follows_malformed_bytes_is_found(name: str) -> None:
     model = model_of(SPECS[name])
     done = on(name, deaf_behind_malformed(model, by_the_reference(model)), "--malformed")
@@ -426,16 +426,14 @@ def listening(name: str, frames: list[bytes]) -> Run:
 
 
 @in_turn("name", lambda: REPORTING)
-def test_a_device_that_only_reports_is_listened_to(name: str) -> None:
+def test_a_device_that_only_reports_is_listened_to_and_a_report_that_is_none_is_found(
+    name: str,
+) -> None:
     done = listening(name, [*reports(name)])
     assert (done.code, done.faults, done.written) == (0, [], [])
     [step] = done.report["steps"]
     assert step["title"] == LISTENS
     assert all(" came " in note for note in step["notes"])
-
-
-@in_turn("name", lambda: REPORTING)
-def test_a_report_that_is_none_is_found(name: str) -> None:
     good = next(reports(name))
     bad = good[: len(good) // 2] + good[len(good) // 2 + 1 :]
     done = listening(name, [good, good, bad])

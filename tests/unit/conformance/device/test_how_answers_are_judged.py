@@ -70,10 +70,16 @@ def test_the_simulator_passes(malformed: bool) -> None:
 
 
 # What becomes of a reply, to which step, what that is called, and how it is put in words.
-LATER = "which was requested later"
-MISCOUNTED = "count mismatch at byte 4: a length of 21 makes servo_count 6, not 7"
-UNHEADED = "5 bytes came without any header: is the baud rate right?"
 NOTHING = "no ServoPositions within 0.285 s"
+UNHEADED = (
+    "no BatteryVoltage within 0.260 s; 5 bytes came without any header: is the baud rate right?"
+)
+MISCOUNTED = "count mismatch at byte 4: a length of 21 makes servo_count 6, not 7"
+LATE = "ServoPositions came after 0.437 s, and was due within 0.285 s"
+UNASKED = "ServoPositions reports positions.servo_id 99, which was not requested"
+OVERTAKEN = "BatteryVoltage came after the reply to ServoPositionsRead, which was requested later"
+ONCE_MORE = "BatteryVoltage came once more than it was requested"
+VOLTAGE = firmware.battery_reply(7500)
 FAULTS: dict[str, tuple[Script, str, str, str]] = {
     "dropped": (faults.dropped, POSITIONS, "silence", NOTHING),
     "cut": (faults.cut(7), POSITIONS, "no frame", ""),
@@ -89,46 +95,16 @@ FAULTS: dict[str, tuple[Script, str, str, str]] = {
     "a count too low": (faults.miscounted(-1), POSITIONS, "no frame", ""),
     "a length too high": (faults.mislengthened(1), POSITIONS, "no frame", ""),
     "a length too low": (faults.mislengthened(-1), BATTERY, "no frame", ""),
-    "late": (
-        faults.late(0.4),
-        POSITIONS,
-        "late reply",
-        "ServoPositions came after 0.437 s, and was due within 0.285 s",
-    ),
+    "late": (faults.late(0.4), POSITIONS, "late reply", LATE),
     "very late": (faults.late(1.0), BATTERY, "late reply", ""),
     "twice": (faults.duplicated(), POSITIONS, "unsolicited reply", ""),
-    "once more": (
-        faults.duplicated(),
-        BATTERY,
-        "unsolicited reply",
-        "BatteryVoltage came once more than it was requested",
-    ),
+    "once more": (faults.duplicated(), BATTERY, "unsolicited reply", ONCE_MORE),
     "three times": (faults.duplicated(copies=2), BATTERY, "unsolicited reply", ""),
-    "of another servo": (
-        changed(5, 99),
-        POSITIONS,
-        "wrong reply",
-        "ServoPositions reports positions.servo_id 99, which was not requested",
-    ),
+    "of another servo": (changed(5, 99), POSITIONS, "wrong reply", UNASKED),
     "of one servo twice": (changed(5, 2), POSITIONS, "wrong reply", ""),
-    "behind the next one": (
-        faults.late(0.05),
-        TOGETHER,
-        "wrong order",
-        f"BatteryVoltage came after the reply to ServoPositionsRead, {LATER}",
-    ),
-    "of another question": (
-        lambda _: [Piece(0.0, firmware.battery_reply(7500))],
-        POSITIONS,
-        "unsolicited reply",
-        "",
-    ),
-    "zeros": (
-        lambda _: [Piece(0.0, bytes(5))],
-        BATTERY,
-        "silence",
-        f"no BatteryVoltage within 0.260 s; {UNHEADED}",
-    ),
+    "behind the next one": (faults.late(0.05), TOGETHER, "wrong order", OVERTAKEN),
+    "of another question": (lambda _: [Piece(0, VOLTAGE)], POSITIONS, "unsolicited reply", ""),
+    "zeros": (lambda _: [Piece(0.0, bytes(5))], BATTERY, "silence", UNHEADED),
 }
 
 
@@ -143,7 +119,13 @@ def test_a_fault_is_found_where_it_is_and_called_by_its_name(name: str) -> None:
     assert words in [fault["text"] for fault in done.step(title)["faults"]] or not words
 
 
+def of_servos(*servos: int) -> Script:
+    """Return a script that replies with the positions of these."""
+    return lambda _: [Piece(0.0, firmware.positions_reply([(servo, 5) for servo in servos]))]
+
+
 # What a device may do, and how it is noted.
+BEGUN = bytes.fromhex("55 55 FC 15 53")
 NOTES: dict[str, tuple[Script, str]] = {
     "late, but in time": (faults.late(0.2), ""),
     "with a pause in it": (faults.halted(7, 0.1), ""),
@@ -151,17 +133,14 @@ NOTES: dict[str, tuple[Script, str]] = {
     "noise behind it": (faults.followed(b"\xff"), "noise, bad header: 1 byte, FF"),
     "a header byte before it": (faults.preceded(b"\x55"), "noise, length mismatch: 1 byte, 55"),
     "a frame begun before it": (
-        faults.preceded(bytes.fromhex("55 55 FC 15 53")),
+        faults.preceded(BEGUN),
         "noise, too short: 5 bytes, 55 55 FC 15 53",
     ),
     "a report before it": (faults.preceded(REPORT), "report: ActionGroupStarted after 0.0"),
     "a report behind it": (faults.followed(REPORT), "report: ActionGroupStarted after 0.0"),
     "an unknown frame": (faults.preceded(UNKNOWN), "unknown frame: 5 bytes, 55 55 03 63 01"),
-    "no servo": (lambda _: [Piece(0.0, firmware.positions_reply([]))], "reports 0 of 6"),
-    "four of six": (
-        lambda _: [Piece(0.0, firmware.positions_reply([(servo, 5) for servo in (6, 1, 3, 2)]))],
-        "ServoPositions reports 4 of 6",
-    ),
+    "no servo": (of_servos(), "ServoPositions reports 0 of 6"),
+    "four of six": (of_servos(6, 1, 3, 2), "ServoPositions reports 4 of 6"),
 }
 
 
@@ -274,20 +253,9 @@ def test_a_command_that_is_acknowledged_is_noted() -> None:
 
 
 # What might come: whole replies and pieces of them, reports, the requests, and noise.
-PIECES = st.one_of(
-    st.sampled_from(
-        [
-            firmware.battery_reply(7500),
-            firmware.positions_reply([(1, 500), (2, 500)]),
-            firmware.positions_reply([(9, 500)]),
-            firmware.positions_question([1, 2]),
-            REPORT,
-            UNKNOWN,
-            b"UU",
-        ]
-    ),
-    st.binary(max_size=8),
-)
+REPLIES = [VOLTAGE, *map(firmware.positions_reply, ([(1, 500), (2, 500)], [(9, 500)]))]
+WHOLE = st.sampled_from([*REPLIES, firmware.positions_question([1, 2]), REPORT, UNKNOWN, b"UU"])
+PIECES = WHOLE | st.binary(max_size=8)
 
 
 @given(st.lists(st.tuples(st.floats(0, 1.5), PIECES), max_size=6))

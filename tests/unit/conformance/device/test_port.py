@@ -120,32 +120,20 @@ def raises(error: Exception) -> Any:
 
 
 # What pyserial raises for a port, what is said, and what to do.
+NO_ENTRY = serial.SerialException(errno.ENOENT, "could not open port: No such file")
+DENIED = serial.SerialException(errno.EACCES, "could not open port: Permission denied")
+LOCKED = serial.SerialException(errno.EAGAIN, "Could not exclusively lock port")
+NO_TTY = serial.SerialException("Could not configure port: (25, 'Inappropriate ioctl for device')")
+NO_RATE = ValueError("Not a valid baudrate: 1")
+BUSY = "/dev/it is in use"
+REFUSED = BUSY if sys.platform == "win32" else "/dev/it: permission is denied"
+OTHERS = ("these exist: ", "no serial port is plugged in")
 ERRORS = [
-    (
-        serial.SerialException(errno.ENOENT, "could not open port: No such file"),
-        "there is no port /dev/it",
-        ("these exist: ", "no serial port is plugged in"),
-    ),
-    (
-        serial.SerialException(errno.EACCES, "could not open port: Permission denied"),
-        "/dev/it is in use" if sys.platform == "win32" else "/dev/it: permission is denied",
-        ("close the other program", "add yourself to the group that owns it"),
-    ),
-    (
-        serial.SerialException(errno.EAGAIN, "Could not exclusively lock port"),
-        "/dev/it is in use",
-        ("close the other program that has it",),
-    ),
-    (
-        serial.SerialException("Could not configure port: (25, 'Inappropriate ioctl for device')"),
-        "/dev/it is no serial port",
-        ("these exist: ", "no serial port is plugged in"),
-    ),
-    (
-        ValueError("Not a valid baudrate: 1"),
-        "/dev/it is no serial port: Not a valid baudrate: 1",
-        ("these exist: ", "no serial port is plugged in"),
-    ),
+    (NO_ENTRY, "there is no port /dev/it", OTHERS),
+    (DENIED, REFUSED, ("close the other program", "add yourself to the group that owns it")),
+    (LOCKED, BUSY, ("close the other program that has it",)),
+    (NO_TTY, "/dev/it is no serial port", OTHERS),
+    (NO_RATE, "/dev/it is no serial port: Not a valid baudrate: 1", OTHERS),
 ]
 
 
@@ -184,21 +172,18 @@ def test_an_invalid_port_name_is_refused(name: str, problem: str, hint: str) -> 
 
 
 @unix
-def test_a_missing_port_and_a_file_are_reported(tmp_path: Path) -> None:
-    with pytest.raises(Unusable, match="there is no port /dev/nowhere"):
-        open_port("/dev/nowhere", LINK, 9600)
+def test_a_missing_port_a_file_and_a_port_in_use_are_reported(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.touch()
-    with pytest.raises(Unusable, match="is no serial port"):
-        open_port(str(file), LINK, 9600)
-
-
-@unix
-def test_a_port_in_use_is_reported() -> None:
     with VirtualController("pty") as board:
         held = open_port(board.port, LINK, 9600)
-        with pytest.raises(Unusable, match="is in use"):
-            open_port(board.port, LINK, 9600)
+        for port, why in (
+            ("/dev/nowhere", "there is no port /dev/nowhere"),
+            (str(file), "is no serial port"),
+            (board.port, "is in use"),
+        ):
+            with pytest.raises(Unusable, match=why):
+                open_port(port, LINK, 9600)
         held.close()
 
 

@@ -172,9 +172,9 @@ def test_bytes_that_could_be_taken_for_a_command_are_refused(data: str, why: str
     assert objection == why
 
 
-@pytest.mark.parametrize(
-    ("name", "queries"),
-    [
+@in_turn(
+    "name, queries",
+    lambda: [
         ("dynamixel1", ["Read"]),
         ("modbus", ["CoilsRead", "HoldingRead"]),
         ("ubx", ["NavPvtPoll", "CfgPrtPoll", "CfgMsgPoll", "CfgRatePoll", "MonVerPoll"]),
@@ -207,14 +207,14 @@ def with_example(ids: list[int], at: int) -> Model:
     return layout_of(data)
 
 
-@pytest.mark.parametrize(
-    ("ids", "why"),
-    [
-        ([85, 85, 2, 7], "it holds 55 55 02 07, which begins a frame of ActionGroupStop"),
-        # Its last byte and the next header are another header.
-        ([1, 85], "it holds 55 55 55 02, which begins a frame of the reserved id 2"),
-    ],
-)
+LOOKING_LIKE = [
+    ([85, 85, 2, 7], "it holds 55 55 02 07, which begins a frame of ActionGroupStop"),
+    # Its last byte and the next header are another header.
+    ([1, 85], "it holds 55 55 55 02, which begins a frame of the reserved id 2"),
+]
+
+
+@in_turn("ids, why", lambda: LOOKING_LIKE)
 def test_a_query_that_holds_a_command_is_not_sent_and_the_others_are(
     ids: list[int], why: str
 ) -> None:
@@ -235,18 +235,15 @@ def test_malformed_frames_are_made_of_queries_that_hold_no_command() -> None:
 
 
 # What cannot be allowed, what is said of it, and what to do.
+REPLY = "BatteryVoltage cannot be allowed: it goes controller -> host"
 NAMES = [
     ("ServoMov", "there is no message `ServoMov` to be allowed", "did you mean `ServoMove`?"),
     ("x", "there is no message `x`", "choose one of `ServoMove`, `ActionGroupRun`, "),
-    (
-        "BatteryVoltage",
-        "BatteryVoltage cannot be allowed: it goes controller -> host",
-        "choose one of `ServoMove`",
-    ),
+    ("BatteryVoltage", REPLY, "choose one of `ServoMove`"),
 ]
 
 
-@pytest.mark.parametrize(("name", "problem", "hint"), NAMES)
+@in_turn("name, problem, hint", lambda: NAMES)
 def test_a_name_that_cannot_be_allowed_is_reported_with_those_that_can(
     name: str, problem: str, hint: str
 ) -> None:
