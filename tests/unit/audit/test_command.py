@@ -120,11 +120,8 @@ def test_json_says_what_the_text_says(capsys: Capture) -> None:
     assert kinds == sorted(kinds, key=["unknown command", "undocumented value", "noise"].index)
     assert found["noise"] == sum(x["bytes"] for x in found["misfits"] if x["kind"] == "noise")
     # As the sheet of the recording counts them: 130 bytes, 20 of them in two unknown frames.
-    assert (
-        found["noise"]
-        + sum(each["bytes"] for each in found["misfits"] if each["kind"] == "unknown command")
-        == 130
-    )
+    unknown = (each["bytes"] for each in found["misfits"] if each["kind"] == "unknown command")
+    assert found["noise"] + sum(unknown) == 130
     assert main(["audit", "busservo", file]) == 1
     text = capsys.readouterr().out
     for name, each in found["coverage"].items():

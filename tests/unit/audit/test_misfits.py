@@ -56,52 +56,43 @@ CASES: list[tuple[str, list[tuple[str, str, int, int]]]] = [
 ]
 
 
-@pytest.mark.parametrize(("text", "expected"), CASES)
+@in_turn("text, expected", lambda: CASES)
 def test_each_kind_of_misfit(text: str, expected: list[tuple[str, str, int, int]]) -> None:
     found = audited(busservo(), text)
     assert [(each.kind, each.what, each.times, each.size) for each in found.misfits] == expected
     assert found.fits is not bool(expected)
 
 
-UNDOCUMENTED: list[tuple[dict[str, Any], list[tuple[str, str]]]] = [
-    ({"time_ms": 30000, "targets": [(1, 1000), (2, 0)]}, []),
+# Times and targets of a move, and what of it is outside of what is documented.
+UNDOCUMENTED: list[tuple[int, list[tuple[int, int]], list[tuple[str, str]]]] = [
+    (30000, [(1, 1000), (2, 0)], []),
+    (30001, [(1, 1000)], [("time_ms", "30001, outside 0..30000")]),
+    (5, [(1, 1001), (2, 7)], [("targets.position", "1001, outside 0..1000")]),
+    (5, [(1, 1), (2, 2), (3, 3)], [("targets", "3 elements, outside 1..2")]),
+    (5, [], [("targets", "0 elements, outside 1..2")]),
     (
-        {"time_ms": 30001, "targets": [(1, 1000)]},
-        [("ServoMove.time_ms", "30001, outside 0..30000")],
-    ),
-    (
-        {"time_ms": 5, "targets": [(1, 1001), (2, 7)]},
-        [("ServoMove.targets.position", "1001, outside 0..1000")],
-    ),
-    (
-        {"time_ms": 5, "targets": [(1, 1), (2, 2), (3, 3)]},
-        [("ServoMove.targets", "3 elements, outside 1..2")],
-    ),
-    ({"time_ms": 5, "targets": []}, [("ServoMove.targets", "0 elements, outside 1..2")]),
-    (
-        {"time_ms": 40000, "targets": [(1, 2000)]},
-        [
-            ("ServoMove.targets.position", "2000, outside 0..1000"),
-            ("ServoMove.time_ms", "40000, outside 0..30000"),
-        ],
+        40000,
+        [(1, 2000)],
+        [("targets.position", "2000, outside 0..1000"), ("time_ms", "40000, outside 0..30000")],
     ),
 ]
 
 
-@pytest.mark.parametrize(("values", "expected"), UNDOCUMENTED)
+@in_turn("time_ms, pairs, expected", lambda: UNDOCUMENTED)
 def test_a_value_outside_what_is_documented_is_named(
-    values: dict[str, Any], expected: list[tuple[str, str]]
+    time_ms: int, pairs: list[tuple[int, int]], expected: list[tuple[str, str]]
 ) -> None:
     model = narrowed()
-    targets = [{"servo_id": number, "position": at} for number, at in values["targets"]]
-    frame = encode(without_bounds(model).messages["ServoMove"], {**values, "targets": targets})
+    targets = [{"servo_id": number, "position": at} for number, at in pairs]
+    values = {"time_ms": time_ms, "targets": targets}
+    frame = encode(without_bounds(model).messages["ServoMove"], values)
     for content in (
         b"\x00" + frame + bytes.fromhex(VOLTAGE),
         f"{frame.hex(' ')}  # 1 s, host: a\n",
     ):
         found = audited(model, content)
         told = [(each.what, each.why) for each in found.misfits if each.kind != "noise"]
-        assert told == expected
+        assert told == [(f"ServoMove.{field}", why) for field, why in expected]
         assert {each.kind for each in found.misfits} - {"noise"} == (
             {"undocumented value"} if expected else set()
         )
@@ -130,13 +121,9 @@ def test_what_another_edition_refused_is_judged_anew() -> None:
     # The first came from the controller, which sends no such message.
     assert [each.kind for each in found.misfits] == ["unknown command"]
     assert found.coverage.messages["BatteryVoltage"].seen == 1
-
-
-def test_what_was_noise_for_other_reasons_stays_noise() -> None:
-    found = audited(busservo(), f"{VOLTAGE}  # 1 s, noise: too short\n")
-    assert [(each.kind, each.what, each.size) for each in found.misfits] == [
-        ("noise", "too short", 6)
-    ]
+    # What was noise for other reasons stays noise.
+    (misfit,) = audited(busservo(), f"{VOLTAGE}  # 1 s, noise: too short\n").misfits
+    assert (misfit.kind, misfit.what, misfit.size) == ("noise", "too short", 6)
 
 
 def test_noise_that_was_recorded_in_pieces_is_one_frame() -> None:
@@ -197,7 +184,7 @@ APART: list[tuple[list[tuple[float, str, str]], list[tuple[str, str, int, str]]]
 ]
 
 
-@pytest.mark.parametrize(("lines", "expected"), APART)
+@in_turn("lines, expected", lambda: APART)
 def test_noise_that_a_recorder_judged_apart_stays_apart(
     lines: list[tuple[float, str, str]], expected: list[tuple[str, str, int, str]]
 ) -> None:
@@ -210,14 +197,11 @@ def test_noise_that_a_recorder_judged_apart_stays_apart(
     assert sorted(found) == sorted(expected)
 
 
-@pytest.mark.parametrize(("between", "unknown"), [("", 1), ("# a note\n", 1), ("# quiet\n", 0)])
-def test_halves_of_a_frame_are_joined_unless_the_line_went_quiet(
-    between: str, unknown: int
-) -> None:
-    half = "{}  # 1 s, noise: unknown command\n"
-    text = half.format("55 55 02") + between + half.format("99")
-    kinds = [each.kind for each in audited(busservo(), text).misfits]
-    assert kinds.count("unknown command") == unknown
+def test_halves_of_a_frame_are_joined_unless_the_line_went_quiet() -> None:
+    one, other = (f"{half}  # 1 s, noise: unknown command\n" for half in ("55 55 02", "99"))
+    for between, unknown in (("", 1), ("# a note\n", 1), ("# quiet\n", 0)):
+        kinds = [each.kind for each in audited(busservo(), one + between + other).misfits]
+        assert kinds.count("unknown command") == unknown, between
 
 
 def test_a_recording_with_noise_says_what_its_bytes_say() -> None:
@@ -272,12 +256,9 @@ def test_a_monitor_of_what_the_host_sends_finds_noise_too() -> None:
     assert found.misfits[0].what == "command 153 from host"
 
 
-@pytest.mark.parametrize(("tolerated", "fits"), [(0, False), (2, False), (3, True), (100, True)])
-def test_noise_is_tolerated_up_to_a_bound(tolerated: int, fits: bool) -> None:
-    assert audited(busservo(), f"01 02 03 {MOVE}", tolerated).fits is fits
-
-
-def test_an_unknown_command_is_never_tolerated() -> None:
+def test_noise_is_tolerated_up_to_a_bound_and_an_unknown_command_never() -> None:
+    for tolerated, fits in ((0, False), (2, False), (3, True), (100, True)):
+        assert audited(busservo(), f"01 02 03 {MOVE}", tolerated).fits is fits
     assert not audited(busservo(), f"55 55 03 2A 07 {MOVE}", 1000).fits
 
 

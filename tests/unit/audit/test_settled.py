@@ -18,7 +18,11 @@ from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
 SPECS = {**FILES, "busservo": BUSSERVO}
+SEEN = {"title": "Seen on hardware", "kind": "observation"}
 ASK, TELL = "55 55 02 0F", "55 55 04 0F 4C 1D"
+
+
+ASKING, TELLING = f"{ASK}  # 0 s, host: a\n", f"{TELL}  # 1 s, controller: a\n"
 
 
 def with_examples(data: dict[str, Any], name: str, yaml: str) -> None:
@@ -36,9 +40,7 @@ def test_what_is_pasted_into_the_spec_fits_and_counts(name: str) -> None:
     found = audited(model, tally.text)
     data = data_of(SPECS[name])
     for each in found.raised:
-        data["sources"].setdefault(
-            each.source, {"title": "Seen on hardware", "kind": "observation"}
-        )
+        data["sources"].setdefault(each.source, SEEN)
         with_examples(data, each.message.name, each.yaml)
     promised = found.evidence.seen + sum(len(each.facts) for each in found.raised)
     after = compiled_of(data)
@@ -51,10 +53,7 @@ def test_what_is_pasted_into_the_spec_fits_and_counts(name: str) -> None:
 
 def test_a_request_that_nobody_answered_is_no_evidence() -> None:
     model = compiled_file(BUSSERVO).model
-    for text, expected in (
-        (f"{ASK}  # 0 s, host: a\n", []),
-        (f"{ASK}  # 0 s, host: a\n{TELL}  # 1 s, controller: a\n", ["BatteryVoltageRead"]),
-    ):
+    for text, expected in ((ASKING, []), (ASKING + TELLING, ["BatteryVoltageRead"])):
         assert [each.message.name for each in audited(model, text).raised] == expected
 
 
@@ -101,15 +100,11 @@ def test_what_was_seen_of_an_open_question(
 
 
 def test_an_example_is_seen_where_the_board_sent_or_answered_it() -> None:
-    for frame, name, sender in (
-        (TELL, "BatteryVoltage", BY_BOARD),
-        (ASK, "BatteryVoltageRead", BY_HOST),
-    ):
+    for name, sender in (("BatteryVoltage", BY_BOARD), ("BatteryVoltageRead", BY_HOST)):
         model = asking(f"{{message: {name}, example: 1}}")
         shown = bytes(model.messages[name].message.examples[0].hex).hex(" ")
-        ask = f"{ASK}  # 0 s, host: a\n"
-        tell = f"{shown if frame == TELL else TELL}  # 1 s, controller: a\n"
-        (question,) = audited(model, ask + tell).questions
+        tell = f"{shown}  # 1 s, controller: a\n" if sender == BY_BOARD else TELLING
+        (question,) = audited(model, ASKING + tell).questions
         assert f"example 1 was seen as it stands, {sender}" in question.seen[0]
 
 
@@ -126,22 +121,17 @@ def test_an_example_of_the_same_frame_is_confirmed_and_keeps_its_source(
     example = {"title": "Ask", "hex": ASK, "values": {}, **origin}
     data = having(data_of(BUSSERVO), {"messages.BatteryVoltageRead.examples": [example]})
     model = compiled_of(data).model
-    text = f"{ASK}  # 0 s, host: a\n{TELL}  # 1 s, controller: a\n"
-    yaml = next(
-        each.yaml
-        for each in audited(model, text).raised
-        if each.message.name == "BatteryVoltageRead"
-    )
-    assert yaml.splitlines()[0].strip() == (
-        "# Example 1 is confirmed: leave it and its source as they are."
-    )
+    text = ASKING + TELLING
+    raised = {each.message.name: each.yaml for each in audited(model, text).raised}
+    yaml = raised["BatteryVoltageRead"]
+    confirmed = "# Example 1 is confirmed: leave it and its source as they are."
+    assert yaml.splitlines()[0].strip() == confirmed
     with_examples(data, "BatteryVoltageRead", yaml)
     after = compiled_of(data)
     assert [each.message for each in after.findings] == []
     assert data["messages"]["BatteryVoltageRead"]["examples"][0] == example
-    assert "BatteryVoltageRead" not in [
-        each.message.name for each in audited(after.model, text).raised
-    ]
+    raised_after = [each.message.name for each in audited(after.model, text).raised]
+    assert "BatteryVoltageRead" not in raised_after
 
 
 # ------------------------------------------------------------------ the count of facts
@@ -219,6 +209,6 @@ def test_a_number_is_written_as_a_spec_has_it_or_is_no_example(
     assert bool(found.raised) is written
     for each in found.raised:
         data = data_of(FILES["mavlink1"])
-        data["sources"][each.source] = {"title": "Seen on hardware", "kind": "observation"}
+        data["sources"][each.source] = SEEN
         with_examples(data, each.message.name, each.yaml)
         assert [each.message for each in compiled_of(data).findings] == []

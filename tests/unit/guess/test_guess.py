@@ -156,21 +156,24 @@ def test_where_frames_begin_is_undecided_when_the_recording_does_not() -> None:
     assert not found.conclusion("constants").is_decided
 
 
+def text_of(frames: list[bytes]) -> bytes:
+    """Return a recording with a frame a line."""
+    return "\n".join(frame.hex(" ") for frame in frames).encode()
+
+
 def test_lines_of_text_show_frames_where_nothing_else_does() -> None:
     chance = Random(5)  # noqa: S311
     # Each ends with the same byte, which others have, too.
     ends = chance.randbytes(1)
     frames = [chance.randbytes(chance.randint(2, 8)) + ends for _ in range(40)]
     frames[1:3] = [ends * 2 + frame for frame in frames[1:3]]
-    found = guess(read_capture("\n".join(each.hex(" ") for each in frames).encode()))
+    found = guess(read_capture(text_of(frames)))
     assert found is not None
     assert list(found.reading.framing.frames) == frames
-
-
-def test_lines_of_text_that_have_nothing_in_common_are_no_frames() -> None:
+    # Those that have nothing in common are none.
     chance = Random(5)  # noqa: S311
     frames = [chance.randbytes(chance.randint(3, 9)) for _ in range(40)]
-    assert guess(read_capture("\n".join(each.hex(" ") for each in frames).encode())) is None
+    assert guess(read_capture(text_of(frames))) is None
 
 
 def test_a_recording_is_read_without_its_comments() -> None:
@@ -225,8 +228,7 @@ def test_the_command_prints_a_spec_to_go_on_with(tmp_path: Path, capsys: Capsys)
 
 
 def test_the_command_reads_standard_input(capsys: Capsys, monkeypatch: pytest.MonkeyPatch) -> None:
-    frames = traffic(model_of("busservo"), Random(7))  # noqa: S311
-    text = "\n".join(frame.hex(" ") for frame in [*frames][:60]).encode()
+    text = text_of(traffic(model_of("busservo"), Random(7))[:60])  # noqa: S311
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
     assert main(["guess", "-"]) == 0
     assert "guessed from standard input. It explains all of" in capsys.readouterr().out

@@ -15,12 +15,8 @@ _MOST = 12
 def traffic(model: Model, chance: Random, frames: int = 200) -> list[bytes]:
     """Return frames of all messages, in any order."""
     messages = [*model.messages.values()]
-    return [frame(chance.choice(messages), chance) for _ in range(frames)]
-
-
-def frame(message: MessageLayout, chance: Random) -> bytes:
-    """Return a frame of one message."""
-    return encode(message, values_for(message, chance))
+    chosen = (chance.choice(messages) for _ in range(frames))
+    return [encode(message, values_for(message, chance)) for message in chosen]
 
 
 def values_for(message: MessageLayout, chance: Random) -> dict[str, Any]:
@@ -28,10 +24,8 @@ def values_for(message: MessageLayout, chance: Random) -> dict[str, Any]:
     fewest, most = message.counts[0], message.counts[-1]
     count = chance.randint(fewest, max(fewest, min(most, fewest + _MOST)))
     values: dict[str, Any] = {}
-    if message.optional:
-        there = {slot.name for slot in message.there(count)}
-    else:
-        there = {slot.name for slot in message.arguments}
+    slots = message.there(count) if message.optional else message.arguments
+    there = {slot.name for slot in slots}
     for slot in message.arguments:
         if slot.name not in there and slot in message.optional:
             values[slot.name] = None
@@ -42,10 +36,8 @@ def values_for(message: MessageLayout, chance: Random) -> dict[str, Any]:
             elif slot.element is None:
                 values[slot.name] = [_value(slot.fields[0], chance) for _ in range(size)]
             else:
-                values[slot.name] = [
-                    {field.name: _value(field, chance) for field in slot.fields}
-                    for _ in range(size)
-                ]
+                items = ({f.name: _value(f, chance) for f in slot.fields} for _ in range(size))
+                values[slot.name] = [*items]
         elif isinstance(slot, Packed):
             values[slot.name] = [chance.randint(slot.low, slot.high) for _ in range(slot.count)]
         else:
