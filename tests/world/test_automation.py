@@ -4,7 +4,7 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
@@ -115,77 +115,72 @@ def test_a_pull_request_is_compared_with_its_base_branch(runner: Runner) -> None
     assert output == f"report={runner.report}\n"
 
 
-@needs_bash
-def test_what_breaks_fails_only_where_it_is_asked_to(runner: Runner) -> None:
-    change(runner.checkout)
-    code, printed = runner.compare(
-        BASE="HEAD", SPEC="spec/greenhouse.yaml", FAIL_ON="never", GITHUB_BASE_REF=""
-    )
-    assert code == 0, printed
-    assert "VentsOpen" in runner.summary.read_text(encoding="utf-8")
+def renamed(checkout: Path) -> None:
+    change(checkout)
+    git(checkout, "mv", "spec/greenhouse.yaml", "spec/kiln.yaml")
+
+
+def gone(checkout: Path) -> None:
+    git(checkout, "rm", "-q", "spec/greenhouse.yaml")
+
+
+def joined_by_another(checkout: Path) -> None:
+    shutil.copy(ROOT / "tests" / "specs" / "lamp.yaml", checkout / "spec" / "lamp.yaml")
+
+
+def begun_anew(checkout: Path) -> None:
+    """Have a base branch without a spec."""
+    (checkout / "spec").rename(checkout / "specs")
+    git(checkout, "rm", "-rq", "--cached", "spec")
+    git(checkout, "commit", "-qm", "Begin anew")
+    git(checkout, "push", "-q", "origin", "HEAD:refs/heads/empty")
+    (checkout / "specs").rename(checkout / "spec")
+
+
+def unchanged(_checkout: Path) -> None:
+    """Do nothing."""
+
+
+MAIN, PUSH = {"GITHUB_BASE_REF": "main"}, {"GITHUB_BASE_REF": ""}
+HEAD = {"BASE": "HEAD", "SPEC": "spec/greenhouse.yaml", **PUSH}
+NO_SPEC = "::error title=framegen diff::The checkout has no spec '{}'"
+NOTHING = "::notice title=framegen diff::There is nothing to compare"
+IN_KILN = "::error file=spec/kiln.yaml,line="
+IS_GONE = "::error file=spec/greenhouse.yaml,title=greenhouse::spec/greenhouse.yaml is"
+UNREAD = "::notice title=framegen diff::Nothing was compared"
+# What becomes of a checkout, what is asked, the exit code, what is printed, what the report says.
+COMPARED: dict[str, tuple[Callable[[Path], None], dict[str, str], int, str, str]] = {
+    "it fails only where it is to": (change, {**HEAD, "FAIL_ON": "never"}, 0, "", "VentsOpen"),
+    "what cannot be compared": (unchanged, {"BASE": "no-such-tag"}, 2, "no-such-tag", ""),
+    **{
+        f"no {spec} for {base}": (unchanged, {"SPEC": spec, **base}, 2, NO_SPEC.format(spec), "")
+        for spec in ("spec/nope.yaml", "nope", "spec")
+        for base in (MAIN, PUSH)
+    },
+    "named as for the command": (change, {"SPEC": "greenhouse", **MAIN}, 1, "", "VentsOpen"),
+    "renamed": (renamed, MAIN, 1, IN_KILN, "VentsOpen"),
+    "renamed and named": (renamed, {"SPEC": "kiln", **MAIN}, 1, IN_KILN, "VentsOpen"),
+    "gone": (gone, MAIN, 1, IS_GONE, "everything of greenhouse breaks"),
+    "a new one among others": (joined_by_another, {"SPEC": "lamp", **MAIN}, 0, NOTHING, ""),
+    "the first": (begun_anew, {"GITHUB_BASE_REF": "empty"}, 0, NOTHING, ""),
+    "a push without a release": (unchanged, PUSH, 0, UNREAD, ""),
+}
 
 
 @needs_bash
-def test_what_cannot_be_compared_is_an_error_without_a_report(runner: Runner) -> None:
-    code, printed = runner.compare(BASE="no-such-tag")
-    assert code == 2
-    assert "no-such-tag" in printed
-    assert not runner.summary.exists()
-
-
-@needs_bash
-@pytest.mark.parametrize("base", ["", "main"], ids=["push", "pull request"])
-def test_a_spec_that_is_not_in_the_checkout_is_an_error(runner: Runner, base: str) -> None:
-    for spec in ("spec/nope.yaml", "nope", "spec"):
-        code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF=base)
-        assert code == 2
-        assert f"::error title=framegen diff::The checkout has no spec '{spec}'" in printed
-    assert not runner.report.exists()
-
-
-@needs_bash
-def test_a_spec_is_named_as_on_the_command_line(runner: Runner) -> None:
-    change(runner.checkout)
-    code, printed = runner.compare(SPEC="greenhouse", GITHUB_BASE_REF="main")
-    assert code == 1, printed
-    assert "VentsOpen" in runner.report.read_text(encoding="utf-8")
-
-
-@needs_bash
-@pytest.mark.parametrize("spec", ["", "kiln"])
-def test_a_renamed_spec_is_compared_with_what_it_was(runner: Runner, spec: str) -> None:
-    change(runner.checkout)
-    git(runner.checkout, "mv", "spec/greenhouse.yaml", "spec/kiln.yaml")
-    code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="main")
-    assert code == 1, printed
-    assert "::error file=spec/kiln.yaml,line=" in printed
-
-
-@needs_bash
-def test_a_spec_that_is_gone_is_told(runner: Runner) -> None:
-    git(runner.checkout, "rm", "-q", "spec/greenhouse.yaml")
-    code, printed = runner.compare(GITHUB_BASE_REF="main")
-    assert code == 1, printed
-    assert "::error file=spec/greenhouse.yaml,title=greenhouse::spec/greenhouse.yaml is" in printed
-    assert "everything of greenhouse breaks" in runner.summary.read_text(encoding="utf-8")
-
-
-@needs_bash
-def test_a_new_spec_among_others_has_nothing_to_be_compared_with(runner: Runner) -> None:
-    lamp = ROOT / "tests" / "specs" / "lamp.yaml"
-    shutil.copy(lamp, runner.checkout / "spec" / "lamp.yaml")
-    code, printed = runner.compare(SPEC="lamp", GITHUB_BASE_REF="main")
-    assert (code, printed.count("\n")) == (0, 1), printed
-    assert "::notice title=framegen diff::There is nothing to compare" in printed
-
-
-@needs_bash
-def test_a_push_without_a_release_says_that_nothing_was_compared(runner: Runner) -> None:
-    code, printed = runner.compare(GITHUB_BASE_REF="")
-    assert code == 0, printed
-    assert "::notice title=framegen diff::Nothing was compared" in printed
-    assert not runner.report.exists()
-    assert not runner.summary.exists()
+@pytest.mark.parametrize("name", COMPARED)
+def test_a_checkout_is_compared(runner: Runner, name: str) -> None:
+    done, asked, status, words, told = COMPARED[name]
+    done(runner.checkout)
+    code, printed = runner.compare(**asked)
+    assert code == status, printed
+    assert words in printed
+    if told:
+        assert told in runner.report.read_text(encoding="utf-8")
+    else:
+        assert not runner.report.exists()
+        assert not runner.summary.exists()
+    assert words != NOTHING or printed.count("\n") == 1
 
 
 @needs_bash
@@ -202,19 +197,6 @@ def test_a_push_is_compared_with_what_was_released(runner: Runner, spec: str) ->
     change(runner.checkout)
     code, printed = runner.compare(SPEC=spec, GITHUB_BASE_REF="")
     assert (code, "::notice" in printed) == (1, False), printed
-
-
-@needs_bash
-def test_the_first_spec_is_compared_with_nothing(runner: Runner) -> None:
-    (runner.checkout / "spec").rename(runner.checkout / "specs")
-    git(runner.checkout, "rm", "-rq", "--cached", "spec")
-    git(runner.checkout, "commit", "-qm", "Begin anew")
-    git(runner.checkout, "push", "-q", "origin", "HEAD:refs/heads/empty")
-    (runner.checkout / "specs").rename(runner.checkout / "spec")
-    code, printed = runner.compare(GITHUB_BASE_REF="empty")
-    assert code == 0
-    assert "::notice title=framegen diff::There is nothing to compare" in printed
-    assert not runner.report.exists()
 
 
 COMMENTS = [
@@ -250,9 +232,11 @@ def test_where_nothing_changed_there_is_no_comment(
 
 
 @needs_bash
-def test_a_long_report_is_cut_and_says_so(runner: Runner) -> None:
-    runner.report.write_text("x" * 70_000, encoding="utf-8")
+def test_a_long_report_is_cut_and_without_one_there_is_no_comment(runner: Runner) -> None:
     runner.has_gh(comment="")
+    assert runner.comment() == (0, "")
+    assert not runner.asked.exists()
+    runner.report.write_text("x" * 70_000, encoding="utf-8")
     assert runner.comment() == (0, "")
     body = (runner.temporary / "framegen-comment.md").read_text(encoding="utf-8")
     assert 60_000 < len(body) < 65_536
@@ -266,13 +250,6 @@ def test_a_run_that_may_not_comment_says_where_the_report_is(runner: Runner) -> 
     code, printed = runner.comment()
     assert code == 0
     assert printed.startswith("::notice title=framegen diff::The report is in the summary")
-
-
-@needs_bash
-def test_without_a_report_there_is_no_comment(runner: Runner) -> None:
-    runner.has_gh(comment="")
-    assert runner.comment() == (0, "")
-    assert not runner.asked.exists()
 
 
 @needs_bash

@@ -1,18 +1,12 @@
-"""A dataset that several processes write: at once, and one behind another that was killed."""
+"""A dataset that a process writes behind another that was killed; test_dask.py has two at once."""
 
-import multiprocessing
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
-
-from busservo.tables import archive, scan
 
 from tests.programs import ran
 from tests.unit.runtime.tables.test_dataset import (
-    SIZE,
     archived,
     captures,
-    files_in,
     rows_in,
     rows_of,
 )
@@ -35,19 +29,6 @@ Path.replace = replaced
 for piece in scan(sys.argv[1], size=1000):
     archive(piece, sys.argv[2])
 """
-
-
-def test_two_processes_make_the_same_files_as_one(captures: Path, tmp_path: Path) -> None:
-    archived(captures, tmp_path / "by one")
-    pieces = scan(captures, size=SIZE)
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(2, mp_context=spawn) as pool:
-        reports = list(pool.map(archive, pieces, [tmp_path / "by two"] * len(pieces)))
-    assert [report.piece for report in reports] == pieces
-    by_one, by_two = tmp_path / "by one", tmp_path / "by two"
-    assert files_in(by_two) == files_in(by_one)
-    for name in files_in(by_one):
-        assert (by_two / name).read_bytes() == (by_one / name).read_bytes()
 
 
 def test_a_process_that_was_killed_is_replaced_by_another(captures: Path, tmp_path: Path) -> None:

@@ -95,44 +95,23 @@ async def ask_all_async(
         await talk.ask_async(controller, requested)
 
 
-def reports_of(controller: Controller, board: Board) -> list[bytes]:
-    """Return the reports, once all have come."""
-    received: list[bytes] = []
-    await_that(lambda: controller.counters.reports >= len(board.reported))
-    received.extend(each.encode() for each in controller.reports(timeout=0.05))
-    return received
-
-
-def test_one_thread_gets_right_answers() -> None:
+@pytest.mark.parametrize(("threads", "count"), [(1, 20), (8, 4)])
+def test_threads_get_right_answers(threads: int, count: int) -> None:
     def talk_at(port: type[Port]) -> None:
         with (
-            port(scripts(1)) as end,
+            port(scripts(threads)) as end,
             open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
         ):
-            talk = Conversation(end.board, time.monotonic)
-            ask_all(talk, controller, 1, 20)
-            await_that(lambda: settle(end.board, controller))
-            check(end.board, controller, [talk])
-            assert controller.read_battery_voltage() == end.board.questions
-            assert reports_of(controller, end.board) == end.board.reported
-
-    at_once(talk_at, [(port,) for port in PORTS])
-
-
-def test_eight_threads_get_right_answers() -> None:
-    def talk_at(port: type[Port]) -> None:
-        with (
-            port(scripts(2)) as end,
-            open_controller(end.name, reply_timeout=REPLY_TIMEOUT, settle=0) as controller,
-        ):
-            talks = [Conversation(end.board, time.monotonic) for _ in range(8)]
-            with ThreadPoolExecutor(8) as pool:
-                each = enumerate(talks)
-                list(pool.map(lambda item: ask_all(item[1], controller, item[0], 4), each))
+            talks = [Conversation(end.board, time.monotonic) for _ in range(threads)]
+            with ThreadPoolExecutor(threads) as pool:
+                each = enumerate(talks, 1)
+                list(pool.map(lambda item: ask_all(item[1], controller, item[0], count), each))
             await_that(lambda: settle(end.board, controller))
             check(end.board, controller, talks)
             assert controller.read_battery_voltage() == end.board.questions
-            assert reports_of(controller, end.board) == end.board.reported
+            await_that(lambda: controller.counters.reports >= len(end.board.reported))
+            received = [each.encode() for each in controller.reports(timeout=0.05)]
+            assert received == end.board.reported
 
     at_once(talk_at, [(port,) for port in PORTS])
 

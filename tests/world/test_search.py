@@ -298,7 +298,14 @@ def test_nothing_of_a_hostile_spec_runs(context: BrowserContext, tmp_path: Path)
     visit = Visit(context, tmp_path)
     visit.tab.on("dialog", lambda dialog: visit.troubles.append(dialog.message))
     tab = visit.open("search.html")
-    for query in ["script", "onmouseover", "evil", "servo", "55 55 08 03 01 E8 03 01 20 03", "<img>"]:
+    for query in [
+        "script",
+        "onmouseover",
+        "evil",
+        "servo",
+        "55 55 08 03 01 E8 03 01 20 03",
+        "<img>",
+    ]:
         box(tab).fill(query)
         assert titles(tab) or query == "<img>"
         assert tab.locator("main img, main script, main style").count() == 0
