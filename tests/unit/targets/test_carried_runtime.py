@@ -4,7 +4,6 @@ Each runs in a Python of its own, which has no `framewire`: started with `-S`, i
 that is installed.
 """
 
-import subprocess
 import sys
 import sysconfig
 from dataclasses import replace
@@ -15,20 +14,16 @@ from framegen.render import render, render_target
 from framegen.targets import python
 
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, vectors_of, write_files
+from tests.programs import ran
 from tests.protocols.specs import FILES
-from tests.timeouts import GENEROUS
 from tests.unit.conformance.harness import cases_of, differences, run
 
 SHARED = ROOT / "runtime" / "framewire"
 LXSERVO = ROOT / "spec" / "lxservo.yaml"
 # One that asks and answers, one bus, one with floating-point numbers, text and lists, and one that
 # has all kinds of frames.
-SPECS = {
-    "busservo": BUSSERVO,
-    "lxservo": LXSERVO,
-    "greenhouse": DEMO,
-    "everything": FILES["everything"],
-}
+SPECS = {"busservo": BUSSERVO, "lxservo": LXSERVO, "greenhouse": DEMO}
+SPECS["everything"] = FILES["everything"]
 
 # What a package is called by here: as it is, or as one that others have put into theirs.
 NAMES = ["lxservo", "vendored.of_others.lxservo"]
@@ -144,10 +139,7 @@ def alone(script: str, *words: object) -> list[str]:
 
 
 def assert_runs(script: str, *words: object) -> None:
-    done = subprocess.run(
-        alone(script, *words), capture_output=True, encoding="utf-8", timeout=GENEROUS, check=False
-    )
-    assert (done.returncode, done.stderr) == (0, "")
+    assert ran(*alone(script, *words)).stderr == ""
 
 
 @pytest.fixture(scope="module")
@@ -168,27 +160,16 @@ def test_it_says_what_the_vectors_say(name: str, folder: Path) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_its_client_converses(name: str, folder: Path) -> None:
-    assert_runs(CONVERSATION.replace("NAME", name), folder)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_its_errors_are_named_as_they_are_imported_and_can_be_pickled(
+def test_its_client_converses_and_its_errors_are_named_as_they_are_imported(
     name: str, folder: Path
 ) -> None:
-    assert_runs(ERRORS.replace("NAME", name), folder)
+    assert_runs((CONVERSATION + ERRORS).replace("NAME", name), folder)
 
 
 def test_a_library_that_shares_the_runtime_does_not_run_alone(tmp_path: Path) -> None:
     """Else the tests above would hold of any."""
     write_files(render_target(python.TARGET, compiled_file(LXSERVO)), tmp_path)
-    done = subprocess.run(
-        alone(ERRORS.replace("NAME", "lxservo"), tmp_path / "generated"),
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 1
+    done = ran(*alone(ERRORS.replace("NAME", "lxservo"), tmp_path / "generated"), status=1)
     assert "ModuleNotFoundError: No module named 'framewire'" in done.stderr
 
 

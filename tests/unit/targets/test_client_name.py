@@ -29,6 +29,7 @@ from tests.factories import (
     library_files,
 )
 from tests.handed import handed_by
+from tests.in_turn import in_turn
 from tests.lines.timed_line import DeviceLine, client_on
 from tests.mutations.places import having, renamed
 from tests.names_at_work import at_work
@@ -138,23 +139,18 @@ def test_the_command_shows_how_a_message_is_sent(capsys: pytest.CaptureFixture[s
 # ------------------------------------------------------------------ what is taken
 
 
-@pytest.mark.parametrize(
-    ("client", "bent"),
-    [
-        (None, {"Controller": "ControllerMessage", "Arm": "Arm"}),
-        ("Arm", {"Controller": "Controller"}),
-    ],
-)
+BENT = [("", "Controller", "ControllerMessage"), ("", "Arm", "Arm"), ("Arm", *["Controller"] * 2)]
+
+
+@in_turn("client, name, bent", lambda: BENT)
 def test_a_message_is_bent_where_it_is_called_like_the_client(
-    client: str | None, bent: dict[str, str]
+    client: str, name: str, bent: str
 ) -> None:
-    for name, there in bent.items():
-        data = renamed(data_of(DEMO), "TextShow", name)
-        spec = compiled_of(having(data, {"protocol.client": client} if client else {}))
-        assert spec.findings == []
-        with library(library_files(spec)) as made:
-            assert getattr(made, there) in made.MESSAGES
-            assert handed_by(made.__name__).client.__name__ == (client or "Controller")
+    data = renamed(data_of(DEMO), "TextShow", name)
+    spec = compiled_of(having(data, {"protocol.client": client} if client else {}))
+    with library(library_files(spec)) as made:
+        assert getattr(made, bent) in made.MESSAGES
+        assert handed_by(made.__name__).client.__name__ == (client or "Controller")
 
 
 def test_several_words_become_several() -> None:

@@ -1,27 +1,26 @@
 """The library of one protocol mentions no other: no word, no verb, no version."""
 
 import ast
-import contextlib
 import importlib
 import io
 import re
+import shutil
 import sys
 import tokenize
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import pytest
 from framegen.language.command_verbs import OF_POSES
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
 
+from tests.commands import called
 from tests.factories import BUSSERVO, DEMO, ROOT, Data, compiled_file, data_of, imported, library_of
 from tests.mutations.places import texts
 from tests.programs import ran
-
-Call: TypeAlias = "Callable[..., tuple[int, str]]"
 
 # One that asks and answers, one with poses, a sensor that only reports, a lamp that only obeys.
 FILES = [DEMO, *(DEMO.with_name(f"{name}.yaml") for name in ("blinds", "weather", "lamp"))]
@@ -131,16 +130,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
         yield made / "generated"
 
 
-@pytest.fixture
-def call(folder: Path, capsys: pytest.CaptureFixture[str]) -> Call:
-    """Return what calls the command of a library in this process, for its status and output."""
-
-    def call(name: str, *words: str) -> tuple[int, str]:
-        assert folder.joinpath(name).is_dir()
-        status = importlib.import_module(f"{name}.__main__").main([*words])
-        return status, capsys.readouterr().out
-
-    return call
+def call(name: str, *words: str) -> tuple[int, str]:
+    """Call the command of a library in this process, for its status and output."""
+    return called(importlib.import_module(f"{name}.__main__").main, *words)[:2]
 
 
 def command(folder: Path, *words: str) -> tuple[int, str, str]:
@@ -159,16 +151,22 @@ HEARING = ["answer", "decode", "docs", "doctor", "encode", "explain", "monitor",
 OF_BLINDS = ["blinds-release", "read-heights", "roll"]
 
 
-@pytest.mark.parametrize(
-    ("name", "verbs"),
-    [
-        ("greenhouse", ["bench-line", *HEARING, "replay", "send", "station-read", "vents-open"]),
-        ("blinds", ["bench-line", *HEARING, "replay", "send", *OF_POSES, *OF_BLINDS]),
-        ("weather", HEARING),
-        ("stage_lamp", [*HEARING, "replay", "send", "colour-show", "darken"]),
-    ],
-)
-def test_only_what_can_work_is_offered(call: Call, name: str, verbs: list[str]) -> None:
+LOOKING = ["port", "hid", "permission", "busy", "opening", "silence"]
+REQUESTING = ["rate", "echo", "reply", "round-trip"]
+SENDING = [*HEARING, "replay", "send"]
+# The verbs of a library, and the checks of its doctor.
+OFFERED = {
+    "greenhouse": (["bench-line", *SENDING, "station-read", "vents-open"], REQUESTING),
+    "blinds": (["bench-line", *SENDING, *OF_POSES, *OF_BLINDS], ["present"]),
+    "weather": (HEARING, []),
+    "stage_lamp": ([*SENDING, "colour-show", "darken"], []),
+}
+
+
+@pytest.mark.parametrize("name", OFFERED)
+@pytest.mark.usefixtures("folder")
+def test_only_what_can_work_is_offered(name: str) -> None:
+    verbs, _ = OFFERED[name]
     status, shown = call(name, "--help")
     assert (status, sorted(verbs_in(shown))) == (0, sorted(verbs))
     for verb in verbs:
@@ -177,22 +175,10 @@ def test_only_what_can_work_is_offered(call: Call, name: str, verbs: list[str]) 
         assert f"\nexamples:\n  {name} {verb}" in shown
 
 
-LOOKING = ["port", "hid", "permission", "busy", "opening", "silence"]
-REQUESTING = ["rate", "echo", "reply", "round-trip"]
-
-
-@pytest.mark.parametrize(
-    ("name", "checks"),
-    [
-        ("greenhouse", [*LOOKING, *REQUESTING, "look-alike"]),
-        ("blinds", [*LOOKING, "present", "look-alike"]),
-        ("weather", [*LOOKING, "look-alike"]),
-        ("stage_lamp", [*LOOKING, "look-alike"]),
-    ],
-)
-def test_the_doctor_makes_only_checks_that_can_find_something(
-    call: Call, name: str, checks: list[str]
-) -> None:
+@pytest.mark.parametrize("name", OFFERED)
+@pytest.mark.usefixtures("folder")
+def test_the_doctor_makes_only_checks_that_can_find_something(name: str) -> None:
+    checks = [*LOOKING, *OFFERED[name][1], "look-alike"]
     _, shown = call(name, "doctor", "--help")
     listed = shown.partition("Makes these checks, one after the other:\n")[2].partition(".\n")[0]
     assert listed.split(", ") == checks
@@ -200,7 +186,8 @@ def test_the_doctor_makes_only_checks_that_can_find_something(
     assert [line.split()[1] for line in shown.splitlines() if line[0] != " "] == checks
 
 
-def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not(call: Call) -> None:
+@pytest.mark.usefixtures("folder")
+def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not() -> None:
     assert "replay" not in call("weather", "monitor", "--help")[1]
     assert "reply" not in call("stage_lamp", "--help")[1]
     assert "print the reply" in call("greenhouse", "--help")[1]
@@ -212,7 +199,7 @@ MISSING = (
 )
 
 
-def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Path) -> None:
+def test_there_is_a_simulator_where_one_is_installed(folder: Path) -> None:
     assert command(folder, "greenhouse", "simulate") == (2, "", MISSING)
     assert "simulate" in verbs_in(command(folder, "busservo", "--help")[1])
     package = folder / "greenhouse_simulator"
@@ -224,9 +211,7 @@ def test_there_is_a_simulator_where_one_is_installed(folder: Path, tmp_path: Pat
         said = command(folder, "greenhouse", "simulate", "--fast")
         assert said == (0, "greenhouse simulate ['--fast']\n", "")
     finally:
-        for file in package.rglob("*.py"):
-            file.unlink()
-        package.rename(tmp_path / "gone")
+        shutil.rmtree(package)
 
 
 # ------------------------------------------------------------------ versions
@@ -251,45 +236,29 @@ def version_of(folder: Path, *installed: Path) -> str:
     return ran(sys.executable, "-S", "-c", program).stdout.strip()
 
 
-@contextlib.contextmanager
-def installed_beside(folder: Path, version: str) -> Iterator[None]:
-    install(folder, version)
-    try:
-        yield
-    finally:
-        info = folder / f"greenhouse-{version}.dist-info"
-        (info / "METADATA").unlink()
-        info.rmdir()
+ELSEWHERE = '{"url": "file:///elsewhere", "dir_info": {"editable": true}}'
 
 
 def test_the_version_is_that_of_what_is_installed(folder: Path, tmp_path: Path) -> None:
     assert version_of(folder) == "1.1.0"
-    with installed_beside(folder, "7.8.9"):
+    install(folder, "7.8.9")
+    try:
         assert version_of(folder) == "7.8.9"
-    install(
-        tmp_path / "edited",
-        "7.8.10",
-        f'{{"url": "{folder.parent.as_uri()}", "dir_info": {{"editable": true}}}}',
-    )
+    finally:
+        shutil.rmtree(folder / "greenhouse-7.8.9.dist-info")
+    here = ELSEWHERE.replace("file:///elsewhere", folder.parent.as_uri())
+    install(tmp_path / "edited", "7.8.10", here)
     assert version_of(folder, tmp_path / "edited") == "7.8.10"
 
 
 @pytest.mark.parametrize(
-    "origin",
-    [
-        "",
-        '{"url": "file:///elsewhere", "dir_info": {"editable": true}}',
-        '{"url": "https://example.org", "archive_info": {}}',
-    ],
+    "origin", ["", ELSEWHERE, '{"url": "https://example.org", "archive_info": {}}']
 )
 def test_a_copy_beside_what_is_installed_has_the_version_of_its_spec(
     folder: Path, tmp_path: Path, origin: str
 ) -> None:
     install(tmp_path, "7.8.9", origin)
     assert version_of(folder, tmp_path) == "1.1.0"
-
-
-def test_the_command_prints_both_versions(folder: Path) -> None:
     assert command(folder, "greenhouse", "--version") == (0, "greenhouse 1.1.0, spec 1.1.0\n", "")
 
 

@@ -38,11 +38,6 @@ def parsed(template: Path) -> nodes.Template:
     return _environment().parse(template.read_text(encoding="utf-8"))
 
 
-def test_there_are_templates_and_a_runtime() -> None:
-    assert len(TEMPLATES) >= 4
-    assert len(COMMON) >= 10
-
-
 @in_turn("template", lambda: TEMPLATES)
 def test_a_template_has_loops_and_conditions_and_nothing_else(template: Path) -> None:
     """No set, no macro, no include, no arithmetic but for a sum, no comparison, no call."""
@@ -70,11 +65,9 @@ def test_text_of_the_spec_goes_through_a_filter(template: Path) -> None:
 def test_a_template_fails_on_a_name_that_it_is_not_given(template: Path) -> None:
     assert _environment().undefined is StrictUndefined
     name = template.relative_to(TARGET / "templates").as_posix()
-    uses = any(parsed(template).find_all(nodes.Name))
-    if not uses:
-        return
-    with pytest.raises(UndefinedError):
-        _environment().get_template(name).render()
+    if any(parsed(template).find_all(nodes.Name)):
+        with pytest.raises(UndefinedError):
+            _environment().get_template(name).render()
 
 
 @in_turn("template", lambda: TEMPLATES)
@@ -153,6 +146,8 @@ def test_words_of_a_protocol_are_found_wherever_code_knows_them(tmp_path: Path) 
 
 
 def test_what_is_emitted_for_every_protocol_names_none() -> None:
+    assert len(TEMPLATES) >= 4
+    assert len(COMMON) >= 10
     texts = {named(path): path.read_text(encoding="utf-8") for path in [*TEMPLATES, *COMMON]}
     words = re.compile(r"(?i)busservo|hiwonder|greenhouse|lx-?16")
     assert [path for path, text in texts.items() if words.search(text)] == []
@@ -193,19 +188,14 @@ def test_a_template_is_compiled_once_and_again_when_it_has_changed(
             assert len([*kept.iterdir()]) == 1
 
 
-def test_templates_are_kept_nowhere_where_python_keeps_nothing(
+def test_templates_that_are_not_or_cannot_be_kept_are_rendered_all_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "page.jinja").write_text("text", encoding="utf-8")
+    # Where Python keeps nothing.
     monkeypatch.setattr("sys.dont_write_bytecode", True)
     assert environment(tmp_path, "plain").get_template("page.jinja").render() == "text"
     assert not (tmp_path / "__pycache__").exists()
-
-
-def test_templates_that_cannot_be_kept_are_rendered_all_the_same(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "page.jinja").write_text("text", encoding="utf-8")
     (tmp_path / "__pycache__").write_text("in the way", encoding="utf-8")
     monkeypatch.setattr("sys.dont_write_bytecode", False)
     assert environment(tmp_path, "plain").get_template("page.jinja").render() == "text"

@@ -65,18 +65,13 @@ def test_its_files_are_written_with_a_banner_where_there_are_comments(project: P
     assert (project / FOLDER / "count.dat").read_text(encoding="utf-8") == "5\n"
 
 
-def test_its_files_are_compared(project: Path, capsys: Capture) -> None:
+def test_its_files_are_compared_and_written_alone(project: Path, capsys: Capture) -> None:
     assert main(["generate", "--check"]) == 0
     change(project, "VentJammed", "VentStuck")
     assert main(["generate", "--check", "--target", "toy"]) == 1
     printed = capsys.readouterr()
     assert f"stale: {MESSAGES}\n" in printed.err
     assert "\n-VentJammed 18\n+VentStuck 18\n" in printed.out
-
-
-def test_its_files_are_written_alone(project: Path, capsys: Capture) -> None:
-    change(project, "VentJammed", "VentStuck")
-    capsys.readouterr()
     assert main(["generate", "--target", "toy"]) == 0
     assert [line for line in capsys.readouterr().out.splitlines() if "manifest" not in line] == [
         f"wrote {MESSAGES}"
@@ -116,17 +111,11 @@ def test_a_name_reserved_by_it_is_reported(project: Path, capsys: Capture) -> No
     assert f"all of {FOLDER}/" in capsys.readouterr().out
 
 
-def test_its_snippet_is_there_for_every_target(project: Path) -> None:
+def test_its_snippet_is_there_for_every_target_and_nothing_else_changes(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     compiled = compile_spec(read_source(project / "spec" / "demo.yaml"))
-    message = compiled.model.messages["StationRead"]
-    show = snippets()["toy"]
-    (snippet,) = show(compiled.model, message, message.message.examples[0])
-    assert (snippet.language, snippet.code) == ("toy", "say StationRead\n")
     assert {"python", "toy"} <= set(snippets())
-
-
-def test_it_changes_no_other_output(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    compiled = compile_spec(read_source(project / "spec" / "demo.yaml"))
     with_it = render(compiled).files
     monkeypatch.setattr(table, "TARGETS", table.TARGETS[:-1])
     without = render(compiled).files
