@@ -34,20 +34,17 @@ for path, text in files.items():
 
 
 def digests(
-    python: str = sys.executable,
-    *,
-    cwd: Path = ROOT,
-    specs: list[Path],
-    environment: dict[str, str] | None = None,
+    *specs: Path, python: str = sys.executable, cwd: Path = ROOT, **environment: str
 ) -> str:
     """Return what that program prints in a fresh interpreter, in that folder and environment."""
-    variables = {"PYTHONPATH": str(ROOT / "codegen"), **(environment or {})}
-    return ran(python, "-c", DIGESTS, *specs, cwd=cwd, environment=variables).stdout
+    variables = {"PYTHONPATH": str(ROOT / "codegen"), **environment}
+    files = specs or SPECS.values()
+    return ran(python, "-c", DIGESTS, *files, cwd=cwd, environment=variables).stdout
 
 
 @cache
 def expected() -> str:
-    return digests(specs=list(SPECS.values()), environment={"PYTHONHASHSEED": "0"})
+    return digests(PYTHONHASHSEED="0")
 
 
 def test_every_file_has_a_digest() -> None:
@@ -59,42 +56,28 @@ def test_every_file_has_a_digest() -> None:
     assert "site/index.html" in paths
 
 
-@pytest.mark.parametrize(
-    "environment",
-    [
-        {
-            "PYTHONHASHSEED": "1",
-            "LC_ALL": "C",
-            "PYTHONUTF8": "0",
-            "PYTHONCOERCECLOCALE": "0",
-            "TZ": "Pacific/Kiritimati",
-            "SOURCE_DATE_EPOCH": "0",
-            "PYTHONOPTIMIZE": "1",
-        },
-        {
-            "PYTHONHASHSEED": "4294967295",
-            "LC_ALL": "tr_TR.UTF-8",
-            "LANG": "tr_TR.UTF-8",
-            "TZ": "America/Caracas",
-            "USER": "somebody",
-            "HOME": "/",
-            "HOSTNAME": "elsewhere",
-            "PYTHONDONTWRITEBYTECODE": "1",
-            "COLUMNS": "20",
-            "NO_COLOR": "1",
-            "TERM": "dumb",
-        },
-    ],
-    ids=" ".join,
-)
-def test_the_environment_makes_no_difference(environment: dict[str, str]) -> None:
-    assert digests(specs=list(SPECS.values()), environment=environment) == expected()
+ENVIRONMENTS = [
+    """
+    PYTHONHASHSEED=1 LC_ALL=C PYTHONUTF8=0 PYTHONCOERCECLOCALE=0 TZ=Pacific/Kiritimati
+    SOURCE_DATE_EPOCH=0 PYTHONOPTIMIZE=1
+    """,
+    """
+    PYTHONHASHSEED=4294967295 LC_ALL=tr_TR.UTF-8 LANG=tr_TR.UTF-8 TZ=America/Caracas USER=somebody
+    HOME=/ HOSTNAME=elsewhere PYTHONDONTWRITEBYTECODE=1 COLUMNS=20 NO_COLOR=1 TERM=dumb
+    """,
+]
+
+
+@pytest.mark.parametrize("environment", ENVIRONMENTS)
+def test_the_environment_makes_no_difference(environment: str) -> None:
+    variables = dict(each.split("=") for each in environment.split())
+    assert digests(**variables) == expected()
 
 
 def test_where_it_runs_makes_no_difference(tmp_path: Path) -> None:
-    assert digests(cwd=tmp_path, specs=list(SPECS.values())) == expected()
+    assert digests(cwd=tmp_path) == expected()
     relative = [Path(os.path.relpath(spec, ROOT / "tests")) for spec in SPECS.values()]
-    assert digests(cwd=ROOT / "tests", specs=relative) == expected()
+    assert digests(*relative, cwd=ROOT / "tests") == expected()
 
 
 def test_where_the_project_lies_makes_no_difference(tmp_path: Path) -> None:
@@ -102,15 +85,7 @@ def test_where_the_project_lies_makes_no_difference(tmp_path: Path) -> None:
     for spec, copy in zip(SPECS.values(), copies, strict=True):
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(spec, copy)
-    assert digests(specs=copies) == expected()
-
-
-def other_pythons() -> list[str]:
-    """Return every Python from 3.10 on that is installed, except the running one."""
-    names = [f"python3.{minor}" for minor in range(10, 15)]
-    found = [path for name in names if (path := shutil.which(name)) is not None]
-    running = Path(sys.executable).resolve()
-    return [path for path in found if Path(path).resolve() != running]
+    assert digests(*copies) == expected()
 
 
 def test_every_python_at_hand_gives_the_same_bytes() -> None:
@@ -119,12 +94,11 @@ def test_every_python_at_hand_gives_the_same_bytes() -> None:
     What is committed was written by one of them: `framegen generate --check` under each Python of
     the test matrix, here and in CI, compares them all with each other.
     """
-    assert digests(specs=list(SPECS.values())) == expected()
-    for python in other_pythons():
-        imports = "import jinja2, markdown_it, pydantic, pygments, yaml"
-        needs = ran(python, "-c", imports, status=None)
-        if needs.returncode == 0:
-            assert digests(python, specs=list(SPECS.values())) == expected()
+    assert digests() == expected()
+    imports = "import jinja2, markdown_it, pydantic, pygments, yaml"
+    for python in filter(None, (shutil.which(f"python3.{minor}") for minor in range(10, 15))):
+        if ran(python, "-c", imports, status=None).returncode == 0:
+            assert digests(python=python) == expected()
 
 
 def test_the_committed_output_comes_out_of_this_python() -> None:

@@ -1,12 +1,15 @@
-"""A run that is killed, or that the disk fails, at every step: the next one finishes."""
+"""Runs of the writer that are killed, that the disk fails at every step, or that are at once."""
 
 import os
 import shutil
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from framegen.writing import changes
+from framegen.writing.workshop import NAME
 
 from tests.documents import ROOT
 from tests.programs import ran
@@ -20,9 +23,10 @@ from tests.unit.writing.test_killed import (
     prepared,
     wholly,
 )
-from tests.unit.writing.trees import snapshot, without_workshop
+from tests.unit.writing.test_places import root
+from tests.unit.writing.trees import AFTER, BEFORE, RENAMED, schema, snapshot, without_workshop
 
-__all__ = ["no_power_fails"]
+__all__ = ["no_power_fails", "root"]
 
 SCENES = {
     "a fresh folder": ("", "first", False),
@@ -65,3 +69,34 @@ def test_a_disk_that_fails_at_any_step_loses_nothing(
 ) -> None:
     tree, edition, force = scene
     assert_nothing_is_lost(tree, tmp_path / "copy", edition, force=force, fail=fail)
+
+
+RUN = """
+import sys
+from pathlib import Path
+from framegen.writing import write
+from tests.unit.writing.killed import EDITIONS
+
+for _ in range(10):
+    for name in sys.argv[2:]:
+        write(Path(sys.argv[1]), EDITIONS[name], all_of="spec", timeout=600)
+"""
+
+
+def test_runs_at_once_take_turns(root: Path) -> None:
+    """Whatever each of them wants: the last one has it, and nobody blames anybody."""
+    orders = [("first", "next", "renamed"), ("next", "renamed", "first"), ("renamed", "renamed")]
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", RUN, str(root), *order],
+            cwd=ROOT,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+        )
+        for order in orders
+    ]
+    assert [process.communicate()[1] for process in running] == ["", "", ""]
+    assert [process.returncode for process in running] == [0, 0, 0]
+    assert not (root / NAME).exists()
+    states = [[AFTER, schema()], [BEFORE, schema()], [RENAMED, schema()]]
+    assert [changes(root, state) for state in states].count([]) == 1

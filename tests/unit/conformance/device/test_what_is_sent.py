@@ -8,14 +8,13 @@ from pathlib import Path
 import pytest
 from busservo import Direction, Message, StreamDecoder
 from framegen.conformance.device.permission import permit
-from framegen.language.spec import Spec
-from framegen.model.model import Model, derive
+from framegen.model.model import Model
 from framegen.reading.yamltree import Unusable
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.contract.independent.firmware import Reader, well_formed
-from tests.factories import BUSSERVO, Data, compiled_file, data_of, layout_of
+from tests.factories import BUSSERVO, compiled_file, data_of, layout_of
 from tests.in_turn import in_turn
 from tests.lines.devices import Answer, by_the_reference
 from tests.lines.timed_line import TimedLine
@@ -256,32 +255,6 @@ def test_a_name_that_cannot_be_allowed_is_reported_with_those_that_can(
 
 
 SPECS = Path(__file__).parents[3] / "specs"
-
-
-# Frames of another kind, whether or not a spec can have them yet.
-ENVELOPES: dict[str, Data] = {
-    "a part behind the fields": {"end": {"is": "constant", "bytes": "0D 0A"}},
-    "a header that overlaps itself": {"header": {"is": "constant", "bytes": "55 03 55"}},
-    "an id of two bytes before a length of two": {
-        "command": {"is": "id", "type": "u16"},
-        "length": {"is": "length", "type": "u16", "counts": ["parameters"]},
-        "parameters": {"is": "body"},
-    },
-}
-
-
-@pytest.mark.parametrize("name", ENVELOPES)
-def test_a_device_of_another_frame_passes(name: str) -> None:
-    data = data_of(BUSSERVO)
-    parts = ENVELOPES[name]
-    header = {"header": data["frame"]["header"]}
-    data["frame"] = {**(header if "parameters" in parts else data["frame"]), **parts}
-    model = derive(Spec.model_validate(data))
-    done = run(model, TimedLine(by_the_reference(model)), "--malformed")
-    assert (done.code, done.faults) == (0, [])
-    steps = [step for step in done.report["steps"] if step["malformed"]]
-    assert len(steps) >= 5
-    assert all(step["not_sent"] is None for step in done.report["steps"])
 
 
 @pytest.mark.parametrize("file", [SPECS / "lamp.yaml", FILES["ibus"]], ids=lambda file: file.stem)
