@@ -1,15 +1,42 @@
-"""Noisy lines, for comparisons with a page."""
+"""Noisy lines, and the events of reference and vectors, for comparisons with a page."""
 
 from __future__ import annotations
 
 import random
-from typing import TYPE_CHECKING
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
 
 from framegen.model.codec import encode
+from framegen.model.stream import ReferenceDecoder
 from hypothesis import settings
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from framegen.language.values import Direction
     from framegen.model.model import Model
+
+# What a line said: the kind of the event, its bytes in hex, and the message or the reason.
+Event = list[Any]
+
+
+def reference_events(model: Model, data: bytes, way: Direction | None) -> list[Event]:
+    """Return the reference's events for `data` with silence after it; both ways without `way`."""
+    line = ReferenceDecoder(model, model.directions if way is None else [way])
+    return [
+        [event.kind, event.data.hex(), event.message.name if event.message else event.reason]
+        for event in line.decode(data)
+    ]
+
+
+def joined(events: Iterable[Event]) -> list[Event]:
+    """Return the events, with adjacent noise of one reason joined."""
+    found: list[Event] = []
+    for (kind, said), same in groupby(events, lambda event: (event[0], event[2])):
+        pieces = [event[1] for event in same]
+        reported = ["".join(pieces)] if kind == "noise" else pieces
+        found += [[kind, piece, said] for piece in reported]
+    return found
 
 
 def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
