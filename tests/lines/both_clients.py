@@ -9,22 +9,30 @@ from __future__ import annotations
 import asyncio
 import inspect
 import time
+from functools import wraps
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import pytest
-from busservo import AsyncController, AsyncMotion, Controller, Motion
+from busservo import (
+    AsyncController,
+    AsyncMotion,
+    Controller,
+    Motion,
+    open_async_controller,
+    open_controller,
+)
 
-from tests.lines.virtual_line import client, run
+from tests.lines.live_line import LiveLine
+from tests.lines.receiving import unanswered
+from tests.lines.virtual_line import VirtualLine, client, run
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable, Coroutine, Iterable
 
-    from tests.lines.live_line import LiveLine
-    from tests.lines.virtual_line import VirtualLine
-
     Work = Callable[[Any], Coroutine[Any, Any, None]]
     Talk = Callable[..., None]
+    Told = Callable[..., Coroutine[Any, Any, None]]
 
 _Result = TypeVar("_Result")
 
@@ -76,6 +84,14 @@ async def moment(client: Any) -> None:
         await asyncio.sleep(0.001)
 
 
+async def until(client: Any, true: Callable[[], object]) -> None:
+    """Let moments pass until a condition holds; fail if it takes too long."""
+    end = time.monotonic() + GENEROUS
+    while not true():
+        assert time.monotonic() < end, "it has not come true"
+        await moment(client)
+
+
 def by_threads(line: VirtualLine, work: Work, **given: Any) -> None:
     with Controller(line, background=False, clock=line.clock, **given) as made:
         done_at_once(work(Awaited(made)))
@@ -102,6 +118,55 @@ def by_live_tasks(line: LiveLine, work: Work, **given: Any) -> None:
     asyncio.run(talk())
 
 
-# In virtual time, and in real time, where threads read the line.
-both = pytest.mark.parametrize("talk", [by_threads, by_tasks])
-both_live = pytest.mark.parametrize("talk", [by_live_threads, by_live_tasks])
+def by_threads_at(port: str, work: Work, **given: Any) -> None:
+    with open_controller(port, **given) as made:
+        done_at_once(work(Awaited(made)))
+
+
+def by_tasks_at(port: str, work: Work, **given: Any) -> None:
+    async def talk() -> None:
+        async with open_async_controller(port, **given) as made:
+            await work(made)
+
+    asyncio.run(talk())
+
+
+# In virtual time; in real time, where threads read the line; and at a port.
+TALKS: list[Talk] = [by_threads, by_tasks]
+LIVE_TALKS: list[Talk] = [by_live_threads, by_live_tasks]
+PORT_TALKS: list[Talk] = [by_threads_at, by_tasks_at]
+
+
+def both(answer: Any = unanswered, **given: Any) -> Callable[[Told], Callable[..., None]]:
+    """Drive a test with each client, in virtual time: a coroutine of its `controller` and `line`.
+
+    The line answers so, and the client is made with what is given.
+    """
+    return _driven(TALKS, lambda: VirtualLine(answer), given)
+
+
+def both_live(
+    line: Callable[[], LiveLine] = LiveLine, **given: Any
+) -> Callable[[Told], Callable[..., None]]:
+    """Drive a test likewise in real time, on a line that is made so."""
+    return _driven(LIVE_TALKS, line, given)
+
+
+def _driven(
+    talks: list[Talk], make: Callable[[], Any], given: dict[str, Any]
+) -> Callable[[Told], Callable[..., None]]:
+    def decorated(test: Told) -> Callable[..., None]:
+        named = inspect.signature(test).parameters
+
+        @wraps(test)
+        def driven(talk: Talk, **fixtures: Any) -> None:
+            made = make()
+            own = {"line": made} if "line" in named else {}
+            talk(made, lambda controller: test(controller=controller, **own, **fixtures), **given)
+
+        kept = [each for name, each in named.items() if name not in ("controller", "line")]
+        ours = inspect.Parameter("talk", inspect.Parameter.POSITIONAL_OR_KEYWORD)
+        driven.__signature__ = inspect.Signature([ours, *kept])  # type: ignore[attr-defined]
+        return pytest.mark.parametrize("talk", talks)(driven)
+
+    return decorated

@@ -23,7 +23,7 @@ from busservo import (
 )
 from busservo_simulator.board_fault_injector import REPLIES
 
-from tests.lines.both_clients import Awaited, done_at_once, moment
+from tests.lines.both_clients import Awaited, done_at_once, moment, until
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
@@ -130,10 +130,7 @@ def reports_received(controller: Controller, ledger: Ledger) -> list[Message]:
 
 async def reports_received_async(controller: Any, ledger: Ledger) -> list[Message]:
     """Return the same, for asyncio."""
-    end = time.monotonic() + GENEROUS
-    while not ledger.over(controller):
-        assert time.monotonic() < end
-        await moment(controller)
+    await until(controller, lambda: ledger.over(controller))
     received: list[Message] = []
     async for report in controller.reports(timeout=GENEROUS if ledger.reported else 0.1):
         received.append(report)
@@ -185,18 +182,20 @@ async def converse_async(
         except DisconnectedError:
             assert now() - began <= bound
             ledger.board.plug_in()
-            await _again(controller)
+            await again(controller)
             ledger.reconnected += 1
             continue
         assert now() - began <= bound
 
 
-async def _again(controller: Any) -> None:
+async def again(controller: Any) -> None:
+    """Reconnect, as often as it takes."""
     end = time.monotonic() + BOUND
     while True:
         try:
             await controller.reconnect()
         except TransportError:
             assert time.monotonic() < end
+            await moment(controller)
         else:
             return

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from typing import TYPE_CHECKING
+from functools import wraps
+from typing import TYPE_CHECKING, Any
 
 from busservo import ClosedError, DisconnectedError, Message
 
-from tests.lines.receiving import Receiving, answered, example_of
+from tests.lines.receiving import Receiving, answered
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Coroutine
 
-__all__ = ["Gate", "LiveLine", "answered", "example_of", "losing"]
+__all__ = ["LiveLine", "answered", "in_a_loop", "losing"]
 
 
 class LiveLine(Receiving):
@@ -85,28 +86,6 @@ class LiveLine(Receiving):
         return LiveLine(self._answer)
 
 
-class Gate:
-    """A hook that waits until the test lets it go on, and calls `meanwhile` before it waits."""
-
-    def __init__(self, meanwhile: Callable[[], object] = int) -> None:
-        self.meanwhile = meanwhile
-        self.begun, self.go_on = threading.Event(), threading.Event()
-
-    def __call__(self) -> None:
-        self.meanwhile()
-        self.begun.set()
-        assert self.go_on.wait(GENEROUS)
-
-    def wait(self) -> None:
-        """Wait until somebody is at the gate."""
-        assert self.begun.wait(GENEROUS)
-
-    async def reached(self) -> None:
-        """Wait likewise, in a task."""
-        while not self.begun.is_set():
-            await asyncio.sleep(0.001)
-
-
 def losing(what: str = "the line was lost") -> Callable[[], None]:
     """Return a hook that raises what a line raises that was lost."""
 
@@ -114,3 +93,16 @@ def losing(what: str = "the line was lost") -> Callable[[], None]:
         raise DisconnectedError(LiveLine.name, what, "plug it in again")
 
     return lose
+
+
+def in_a_loop(test: Callable[..., Coroutine[Any, Any, None]]) -> Callable[..., None]:
+    """Run a test that is a coroutine, in real time; none may wait for ever."""
+
+    @wraps(test)
+    def ran(**fixtures: Any) -> None:
+        async def bounded() -> None:
+            await asyncio.wait_for(test(**fixtures), 2 * GENEROUS)
+
+        asyncio.run(bounded())
+
+    return ran

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import wraps
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from busservo import AsyncController, ClosedError, DisconnectedError, Message
@@ -78,3 +79,13 @@ def client(line: VirtualLine, **settings: Any) -> AsyncController:
 def run(work: Coroutine[Any, Any, _Result], line: TimedLine | None = None) -> _Result:
     """Run a coroutine on the time of a line, or of those that it makes itself."""
     return run_virtual(work, VirtualClock() if line is None else line.timer)
+
+
+def in_virtual_time(test: Callable[..., Coroutine[Any, Any, None]]) -> Callable[..., None]:
+    """Run a test that is a coroutine in virtual time; lines that are made there are on it."""
+
+    @wraps(test)
+    def ran(**fixtures: Any) -> None:
+        run(test(**fixtures))
+
+    return ran

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import asyncio
 import math
 from collections import deque
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import busservo
 import pytest
@@ -15,10 +14,8 @@ from busservo import (
     ActionGroupRun,
     ActionGroupStarted,
     ActionGroupStop,
-    AsyncController,
     BatteryVoltage,
     BatteryVoltageRead,
-    Controller,
     Direction,
     DisconnectedError,
     Message,
@@ -26,36 +23,30 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo._library import LIBRARY
-from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
+from tests.lines.both_clients import both, both_live, until
 from tests.lines.live_line import LiveLine
-from tests.lines.timed_line import client_on
-from tests.lines.virtual_line import VirtualLine
-from tests.timeouts import GENEROUS
+from tests.lines.questions import REPLY_TIMEOUT, ask, say, session
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from framewire.client.request import Request
+    from framewire.client.session import Session
 
-REPLY_TIMEOUT = 0.25
 FRAME = 7 / 960  # of a run, and of its report
 # When a run that is sent at 0 is taken to have been ignored.
 OVER = 2 * FRAME + REPLY_TIMEOUT
-
-
-def session() -> Session:
-    return Session(LIBRARY, baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+STARTED = ActionGroupStarted(8, 1)
 
 
 def seen_one() -> Session:
     """Return a session of a line that has carried an acknowledging report, long ago."""
     line = session()
-    line.receive(ActionGroupStarted(99, 1).encode(), -10.0)
+    say(line, -10.0, ActionGroupStarted(99, 1))
     return line
 
 
@@ -71,7 +62,7 @@ def ran(line: Session, group: int = 8, now: float = 0.0) -> Run:
 @in_turn(
     "report, started",
     lambda: [
-        (ActionGroupStarted(8, 1), True),
+        (STARTED, True),
         (ActionGroupStarted(8, 2), None),
         (ActionGroupStarted(7, 1), None),
         (ActionGroupCompleted(8, 1), None),
@@ -83,7 +74,7 @@ def test_a_run_is_acknowledged_by_the_report_with_its_values(
 ) -> None:
     line = seen_one()
     run = ran(line)
-    line.receive(report.encode(), 0.1)
+    say(line, 0.1, report)
     assert run.started is started
     # What has come meanwhile took its time, too.
     line.tick(OVER + len(report.encode()) / 960 - 0.001)
@@ -96,7 +87,7 @@ def test_a_line_that_never_reported_a_start_expects_none() -> None:
     line = session()
     first = ran(line)
     line.tick(OVER)
-    line.receive(ActionGroupStarted(8, 1).encode(), 5.0)
+    say(line, 5.0, STARTED)
     second = ran(line, now=10.0)
     assert line.tick_at == pytest.approx(10 + OVER)
     line.tick(10 + OVER + 1e-6)
@@ -107,18 +98,15 @@ def test_a_line_that_never_reported_a_start_expects_none() -> None:
 def test_each_of_two_equal_runs_wants_a_report_of_its_own() -> None:
     line = seen_one()
     first, second = ran(line), ran(line, now=0.01)
-    line.receive(ActionGroupStarted(8, 1).encode(), 0.1)
+    say(line, 0.1, STARTED)
     assert (first.started, second.started) == (True, None)
-    line.receive(ActionGroupStarted(8, 1).encode(), 0.1)
+    say(line, 0.1, STARTED)
     assert second.started is True
 
 
 def test_a_long_reply_before_the_report_does_not_make_it_late() -> None:
     line = seen_one()
-    question = line.submit(ServoPositionsRead(range(84)))
-    sent_at = 0.0
-    line.outgoing(sent_at)
-    line.written(question, sent_at)
+    question = ask(line, 0.0, ServoPositionsRead(range(84)))
     run = ran(line, now=0.1)
     reply = ServoPositions([(servo, 500) for servo in range(84)]).encode()
     # It comes piece by piece, and the report behind it.
@@ -128,14 +116,14 @@ def test_a_long_reply_before_the_report_does_not_make_it_late() -> None:
         line.tick(now)
     assert question.reply is not None
     assert run.started is None
-    line.receive(ActionGroupStarted(8, 1).encode(), 0.36 + (len(reply) + 7) / 960)
+    say(line, 0.36 + (len(reply) + 7) / 960, STARTED)
     assert run.started is True
 
 
 def test_half_a_report_is_waited_for() -> None:
     line = seen_one()
     run = ran(line)
-    report = ActionGroupStarted(8, 1).encode()
+    report = STARTED.encode()
     line.receive(report[:3], OVER - 0.002)
     line.tick(OVER + 0.02)
     assert run.started is None
@@ -165,11 +153,8 @@ def test_a_run_not_yet_written_has_no_deadline() -> None:
         line.outgoing(now)
     line.acknowledgements.written(0.2, second.sent)
     line.tick(1.0)
-    assert [getattr(each.sent, "started", ...) for each in (first, second, third)] == [
-        False,
-        False,
-        None,
-    ]
+    started = [getattr(each.sent, "started", ...) for each in (first, second, third)]
+    assert started == [False, False, None]
     assert line.acknowledgements.unwritten
 
 
@@ -185,10 +170,10 @@ def test_a_new_line_knows_nothing_of_runs_on_the_old_one() -> None:
 
 
 def test_more_runs_than_are_followed_do_no_harm() -> None:
-    line = Session(LIBRARY, baud=math.inf, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+    line = session(baud=math.inf)
     runs = [ran(line, group) for group in range(100)]
     for group in range(100):
-        line.receive(ActionGroupStarted(group, 1).encode(), 0.1)
+        say(line, 0.1, ActionGroupStarted(group, 1))
     assert {run.started for run in runs} == {None, True}
     assert runs[-1].started is True
 
@@ -263,7 +248,7 @@ def test_acknowledgements_match_what_the_board_has_done(
 # -------------------------------------------------------------------- both clients
 
 
-def of_group_8(message: Message) -> Iterable[tuple[float, bytes | Message]]:
+def of_group_8(message: Message) -> Iterable[tuple[float, Message]]:
     """Yield the messages of a board that has group 8 and no other."""
     if isinstance(message, ActionGroupRun) and message.group == 8:
         yield 0.02, ActionGroupStarted(message.group, message.times)
@@ -271,46 +256,35 @@ def of_group_8(message: Message) -> Iterable[tuple[float, bytes | Message]]:
         yield 0.02, BatteryVoltage(7500)
 
 
-def test_a_run_that_the_board_ignores_is_seen_by_the_client_for_threads() -> None:
-    line = VirtualLine(of_group_8)
-    with client_on(line, Controller, settle=None) as controller:
-        ignored = controller.run_action_group(7, times=1)
-        while line.now < 1:
-            controller.read_battery_voltage()
-        # Nobody knows yet that this board says so.
-        assert ignored.started is None
-        taken = controller.run_action_group(8, times=1)
-        assert repr(taken) == (
-            "Run(ActionGroupRun(group=8, times=1), "
-            f"delay={taken.delay:.4f}, duration=0.0073, started=None)"
-        )
-        controller.read_battery_voltage()
-        assert (ignored.started, taken.started) == (None, True)
-        ignored = controller.run_action_group(7, times=1)
-        while line.now < 2:
-            controller.read_battery_voltage()
-        assert ignored.started is False
-        assert controller.stop_action_group().message == ActionGroupStop()
-        sent = controller.send(ActionGroupRun(8, 1))
-        assert isinstance(sent, Run)
+@both(of_group_8)
+async def test_a_run_that_the_board_ignores_is_seen(controller: Any, line: Any) -> None:
+    ignored = await controller.run_action_group(7, times=1)
+    while line.now < 1:
+        await controller.read_battery_voltage()
+    # Nobody knows yet that this board says so.
+    assert ignored.started is None
+    taken = await controller.run_action_group(8, times=1)
+    assert repr(taken) == (
+        "Run(ActionGroupRun(group=8, times=1), "
+        f"delay={taken.delay:.4f}, duration=0.0073, started=None)"
+    )
+    await controller.read_battery_voltage()
+    assert (ignored.started, taken.started) == (None, True)
+    ignored = await controller.run_action_group(7, times=1)
+    # Nobody asks anything: the client listens, and time passes, all the same.
+    assert [each async for each in controller.reports(timeout=1)] == [STARTED]
+    assert ignored.started is False
+    assert (await controller.stop_action_group()).message == ActionGroupStop()
+    assert isinstance(await controller.send(ActionGroupRun(8, 1)), Run)
 
 
-def test_a_run_that_the_board_ignores_is_seen_by_the_client_for_asyncio() -> None:
-    def board(message: Message) -> list[Message]:
-        return [each for _, each in of_group_8(message) if isinstance(each, Message)]
+def on_group_8() -> LiveLine:
+    return LiveLine(lambda message: [each for _, each in of_group_8(message)])
 
-    async def until_known(run: Run) -> bool | None:
-        async def known() -> None:
-            while run.started is None:
-                await asyncio.sleep(0.001)
 
-        await asyncio.wait_for(known(), GENEROUS)
-        return run.started
-
-    async def work() -> None:
-        async with AsyncController(LiveLine(board), reply_timeout=0.05) as controller:
-            # Nobody asks anything: the client listens, and time passes, all the same.
-            assert await until_known(await controller.run_action_group(8, times=1))
-            assert not await until_known(await controller.run_action_group(7, times=1))
-
-    asyncio.run(work())
+@both_live(on_group_8, reply_timeout=0.05)
+async def test_a_run_that_the_board_ignores_is_seen_where_nobody_asks(controller: Any) -> None:
+    for group in (8, 7):
+        run = await controller.run_action_group(group, times=1)
+        await until(controller, lambda run=run: run.started is not None)
+        assert run.started is (group == 8)

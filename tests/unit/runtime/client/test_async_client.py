@@ -7,7 +7,6 @@ import gc
 import math
 import time
 import warnings
-from typing import TYPE_CHECKING, TypeVar
 
 import pytest
 from busservo import (
@@ -19,233 +18,163 @@ from busservo import (
     BatteryVoltageRead,
     ClosedError,
     DisconnectedError,
-    Message,
     NoReplyError,
     ServoMove,
-    TransportError,
 )
 from framewire.client.base_client import POLL_INTERVAL
 
-from tests.lines.live_line import LiveLine, answered
+from tests.lines.live_line import LiveLine, answered, in_a_loop
 from tests.lines.receiving import unanswered
-from tests.lines.virtual_line import VirtualLine, client, run
+from tests.lines.virtual_line import VirtualLine, client, in_virtual_time, run
 from tests.timeouts import GENEROUS, LIVE
 
-if TYPE_CHECKING:
-    from collections.abc import Coroutine
-
-_T = TypeVar("_T")
+STOPPED = ActionGroupStopped()
 
 
-def run_live(work: Coroutine[object, object, _T]) -> _T:
-    """Run a coroutine; no test may wait for ever."""
-
-    async def bounded() -> _T:
-        return await asyncio.wait_for(work, 2 * GENEROUS)
-
-    return asyncio.run(bounded())
-
-
-def test_a_hundred_tasks_share_a_controller() -> None:
+@in_a_loop
+async def test_a_hundred_tasks_share_a_controller() -> None:
     line = LiveLine()
+    async with AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
 
-    async def work() -> None:
-        async with AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
+        async def ask(number: int) -> None:
+            for _ in range(2):
+                servos = [number + 1, number + 2]
+                found = await controller.read_servo_positions(servos)
+                assert found == tuple((s, 10 * s) for s in servos)
+                line.say(ActionGroupCompleted(number, 1))
 
-            async def ask(number: int) -> None:
-                for _ in range(2):
-                    servos = [number + 1, number + 2]
-                    found = await controller.read_servo_positions(servos)
-                    assert found == tuple((s, 10 * s) for s in servos)
-                    line.say(ActionGroupCompleted(number, 1))
-
-            await asyncio.gather(*(ask(number) for number in range(100)))
-            while controller.counters.reports < 200:
-                await asyncio.sleep(0.001)
-            received = [report async for report in controller.reports(timeout=0.02)]
-            assert len(received) == 200
-            assert controller.counters.unsolicited == 0
-
-    run_live(work())
-
-
-def test_a_cancelled_question_leaves_the_line_usable() -> None:
-    requests: list[Message] = []
-
-    def late(message: Message) -> list[Message]:
-        requests.append(message)
-        return [] if len(requests) == 1 else answered(message)
-
-    line = VirtualLine(late)
-
-    async def work() -> None:
-        async with client(line, **LIVE) as controller:
-            task = asyncio.ensure_future(controller.read_battery_voltage())
-            while not requests:
-                await asyncio.sleep(0)
-            task.cancel()
-            with pytest.raises(asyncio.CancelledError):
-                await task
-            pending = asyncio.ensure_future(controller.read_battery_voltage())
-            await asyncio.sleep(0)
-            pending.cancel()
-            assert await controller.read_servo_positions([1]) == ((1, 10),)
-            for report in answered(requests[0]):
-                line.say(report)  # the late reply of the first
-            assert await controller.read_battery_voltage() == 7500
-            assert controller.counters.unsolicited == 1
-
-    run(work(), line)
-
-
-def test_unplugged_while_questions_are_under_way() -> None:
-    line = VirtualLine()
-
-    async def work() -> None:
-        async with client(line, **LIVE) as controller:
-            asking = [controller.read_battery_voltage() for _ in range(5)]
-            waiting = controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
-            tasks = [asyncio.ensure_future(each) for each in (*asking, waiting)]
-            await asyncio.sleep(0.02)
-            line.unplug()
-            for task in tasks:
-                with pytest.raises(DisconnectedError):
-                    await task
-            await controller.reconnect()
-            assert not controller.closed
-            await controller.stop_action_group()
-
-    run(work(), line)
-
-
-def test_close_ends_the_waits_of_other_tasks() -> None:
-    async def work() -> None:
-        controller = client(VirtualLine(), **LIVE)
-        asking = asyncio.ensure_future(controller.read_battery_voltage())
-        await asyncio.sleep(0.02)
-        await asyncio.gather(controller.close(), controller.close())
-        with pytest.raises(ClosedError):
-            await asking
-
-    run(work())
-
-
-def test_a_transport_that_breaks_its_word_ends_in_an_error() -> None:
-    def broken() -> None:
-        raise KeyError(1)
-
-    async def work() -> None:
-        async with AsyncController(LiveLine(read=broken), **LIVE) as controller:
-            with pytest.raises(TransportError, match="mend the transport"):
-                await controller.read_battery_voltage()
-
-    run_live(work())
-
-
-def test_reports_end_when_the_client_is_closed() -> None:
-    line = VirtualLine()
-
-    async def work() -> None:
-        controller = client(line)
-        line.say(ActionGroupStopped())
-
-        async def listen() -> list[Message]:
-            return [report async for report in controller.reports()]
-
-        listening = asyncio.ensure_future(listen())
-        while not controller.counters.reports:
+        await asyncio.gather(*(ask(number) for number in range(100)))
+        while controller.counters.reports < 200:
             await asyncio.sleep(0.001)
-        await controller.close()
-        assert await listening == [ActionGroupStopped()]
-
-    run(work(), line)
-
-
-def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
-    async def work() -> None:
-        async with AsyncController(LiveLine(), **LIVE) as controller:
-
-            def elsewhere() -> None:
-                with pytest.raises(RuntimeError, match="belongs to another event loop"):
-                    asyncio.run(controller.stop_action_group())
-
-            await asyncio.get_running_loop().run_in_executor(None, elsewhere)
-            assert await controller.read_battery_voltage() == 7500
-
-    run_live(work())
+        received = [report async for report in controller.reports(timeout=0.02)]
+        assert len(received) == 200
+        assert controller.counters.unsolicited == 0
 
 
-def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
-    line = LiveLine(unanswered)
+@in_virtual_time
+async def test_a_cancelled_question_leaves_the_line_usable() -> None:
+    line = VirtualLine(lambda message: answered(message) if len(line.received) > 1 else [])
+    async with client(line, **LIVE) as controller:
+        task = asyncio.ensure_future(controller.read_battery_voltage())
+        while not line.received:
+            await asyncio.sleep(0)
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+        pending = asyncio.ensure_future(controller.read_battery_voltage())
+        await asyncio.sleep(0)
+        pending.cancel()
+        assert await controller.read_servo_positions([1]) == ((1, 10),)
+        line.say(BatteryVoltage(7400))  # the late reply of the first
+        assert await controller.read_battery_voltage() == 7500
+        assert controller.counters.unsolicited == 1
 
-    async def work() -> None:
-        async with AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
-            task = asyncio.ensure_future(controller.read_battery_voltage())
-            while not line.received:
-                await asyncio.sleep(0)
-            # The loop stands still meanwhile, so that both are there when it goes on: the reply,
-            # and then the end of whoever waited for it.
-            line.say(BatteryVoltage(7500))
-            before = line.reads
-            while line.reads < before + 2:
-                time.sleep(0.001)
-            task.cancel()
-            with pytest.raises(asyncio.CancelledError):
+
+@in_virtual_time
+async def test_unplugged_while_questions_are_under_way() -> None:
+    line = VirtualLine()
+    async with client(line, **LIVE) as controller:
+        asking = [controller.read_battery_voltage() for _ in range(5)]
+        waiting = controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+        tasks = [asyncio.ensure_future(each) for each in (*asking, waiting)]
+        await asyncio.sleep(0.02)
+        line.unplug()
+        for task in tasks:
+            with pytest.raises(DisconnectedError):
                 await task
-            assert controller.counters.replies == 1
-            await controller.stop_action_group()
+        await controller.reconnect()
+        assert not controller.closed
+        await controller.stop_action_group()
 
-    run_live(work())
+
+@in_virtual_time
+async def test_close_ends_the_waits_of_other_tasks_and_the_reports() -> None:
+    line = VirtualLine()
+    controller = client(line, **LIVE)
+    line.say(STOPPED)
+
+    async def listen() -> list[object]:
+        return [report async for report in controller.reports()]
+
+    listening = asyncio.ensure_future(listen())
+    asking = asyncio.ensure_future(controller.read_battery_voltage())
+    await asyncio.sleep(0.02)
+    await asyncio.gather(controller.close(), controller.close())
+    with pytest.raises(ClosedError):
+        await asking
+    assert await listening == [STOPPED]
+
+
+@in_a_loop
+async def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
+    async with AsyncController(LiveLine(), **LIVE) as controller:
+
+        def elsewhere() -> None:
+            with pytest.raises(RuntimeError, match="belongs to another event loop"):
+                asyncio.run(controller.stop_action_group())
+
+        await asyncio.get_running_loop().run_in_executor(None, elsewhere)
+        assert await controller.read_battery_voltage() == 7500
+
+
+@in_a_loop
+async def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
+    line = LiveLine(unanswered)
+    async with AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
+        task = asyncio.ensure_future(controller.read_battery_voltage())
+        while not line.received:
+            await asyncio.sleep(0)
+        # The loop stands still meanwhile, so that both are there when it goes on: the reply,
+        # and then the end of whoever waited for it.
+        line.say(BatteryVoltage(7500))
+        before = line.reads
+        while line.reads < before + 2:
+            time.sleep(0.001)
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+        assert controller.counters.replies == 1
+        await controller.stop_action_group()
     assert line.received == [BatteryVoltageRead(), ActionGroupStop()]
 
 
-def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment() -> None:
+@in_virtual_time
+async def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment() -> None:
     line = VirtualLine()
-
-    async def work() -> None:
-        async with client(line, **LIVE) as controller:
-            line.say(ActionGroupCompleted(8, 1), delay=3600.25)
-            report = await controller.wait_for(ActionGroupCompleted, timeout=4000)
-            assert report == ActionGroupCompleted(8, 1)
-            assert line.now == 3600.25
-            motion = await controller.move_servos([(1, 500)], 60_000)
-            assert await motion.wait()
-            assert line.now == pytest.approx(3660.25, abs=1e-4)
-
-    run(work(), line)
+    async with client(line, **LIVE) as controller:
+        line.say(STOPPED, delay=3600.25)
+        assert await controller.wait_for(ActionGroupStopped, timeout=4000) == STOPPED
+        assert line.now == 3600.25
+        motion = await controller.move_servos([(1, 500)], 60_000)
+        assert await motion.wait()
+        assert line.now == pytest.approx(3660.25, abs=1e-4)
 
 
-def test_a_transport_without_notification_is_polled() -> None:
+@in_virtual_time
+async def test_a_transport_without_notification_is_polled() -> None:
     line = VirtualLine()
     line.on_readable = None  # type: ignore[assignment, method-assign]
-
-    async def work() -> None:
-        async with client(line, reply_timeout=1) as controller:
-            line.say(ActionGroupStopped(), delay=0.5)
-            await controller.wait_for(ActionGroupStopped, timeout=1)
-            assert 0.5 <= line.now <= 0.5 + POLL_INTERVAL + 1e-4
-            with pytest.raises(NoReplyError) as late:
-                await controller.read_battery_voltage()
-            assert late.value.waited == pytest.approx(1 + 10 / 960, abs=1e-4)
-
-    run(work(), line)
+    async with client(line, reply_timeout=1) as controller:
+        line.say(STOPPED, delay=0.5)
+        await controller.wait_for(ActionGroupStopped, timeout=1)
+        assert 0.5 <= line.now <= 0.5 + POLL_INTERVAL + 1e-4
+        with pytest.raises(NoReplyError) as late:
+            await controller.read_battery_voltage()
+        assert late.value.waited == pytest.approx(1 + 10 / 960, abs=1e-4)
 
 
-def test_a_client_without_threads_that_is_forgotten_gives_its_line_back() -> None:
+@in_virtual_time
+async def test_a_client_without_threads_that_is_forgotten_gives_its_line_back() -> None:
     line = VirtualLine(answered)
-
-    async def work() -> None:
-        controller = client(line, **LIVE)
-        assert await controller.read_battery_voltage() == 7500
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            del controller
-            gc.collect()
-        assert "virtual line was never closed" in str(caught[0].message)
-        line.say(ActionGroupStopped())
-        await asyncio.sleep(1)
-
-    run(work(), line)
+    controller = client(line, **LIVE)
+    assert await controller.read_battery_voltage() == 7500
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        del controller
+        gc.collect()
+    assert "virtual line was never closed" in str(caught[0].message)
+    line.say(STOPPED)
+    await asyncio.sleep(1)
     assert line.closed
 
 
@@ -263,7 +192,7 @@ def test_what_a_loop_left_open_is_closed_in_another() -> None:
         await controller.close()
 
     controller = run(use(), line)
-    line.say(ActionGroupStopped())
+    line.say(STOPPED)
     run(close(controller), line)
     assert line.closed
     assert line.received == moves

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import json
 import socket
-import threading
-from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from typing import TYPE_CHECKING
 
 import lxservo
 import pytest
-from framewire.client import session
-from framewire.command.checks import heard
 from lxservo.__main__ import main
+
+from tests import timeouts
+from tests.in_turn import in_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,39 +34,29 @@ class Servos(lxservo.Device):
         return lxservo.ServoId(message.servo_id, own_id=message.servo_id)
 
 
-@contextmanager
-def served(device: Any) -> Iterator[str]:
-    """Return the address of a line to a device, for one client at a time."""
-    server = socket.create_server(("127.0.0.1", 0))
-
-    def serve() -> None:
-        with suppress(OSError):
-            while True:
-                line, _ = server.accept()
-                with line:
-                    while data := line.recv(4096):
-                        line.sendall(device.receive(data))
-
-    thread = threading.Thread(target=serve, daemon=True)
-    thread.start()
-    yield f"socket://127.0.0.1:{server.getsockname()[1]}"
-    with suppress(OSError):
-        server.shutdown(socket.SHUT_RDWR)
-    server.close()
-    thread.join(5)
-
-
 @pytest.fixture(scope="module")
 def port() -> Iterator[str]:
-    with served(Servos(1, 3)) as address:
-        yield address
+    """Return the address of a line to them, for one client at a time."""
+    device = Servos(1, 3)
+    with socket.create_server(("127.0.0.1", 0)) as server, ThreadPoolExecutor() as pool:
+
+        def serve() -> None:
+            with suppress(OSError):
+                while True:
+                    line, _ = server.accept()
+                    with line:
+                        while data := line.recv(4096):
+                            line.sendall(device.receive(data))
+
+        pool.submit(serve)
+        yield f"socket://127.0.0.1:{server.getsockname()[1]}"
+        server.shutdown(socket.SHUT_RDWR)
 
 
 @pytest.fixture(autouse=True)
-def undoubted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Shorten the waits for more bytes: nobody else sends requests, and each reply comes once."""
-    monkeypatch.setattr(session, "_LATENCY", 0.001)
-    monkeypatch.setattr(heard, "PAUSE", 0.001)
+def undoubted() -> Iterator[None]:
+    with timeouts.undoubted():
+        yield
 
 
 def sent(port: str, *words: str) -> list[str]:
@@ -92,18 +83,14 @@ def test_who_does_not_answer_is_told(port: str, capsys: pytest.CaptureFixture[st
     assert "no Position came within" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--servo-id", "254"], "--servo-id: no device answers at 254"),
-        (["--servo-id", "255"], "--servo-id: 255 is outside 0..254"),
-    ],
+@in_turn(
+    "servo, problem", lambda: [(254, "no device answers at 254"), (255, "255 is outside 0..254")]
 )
 def test_the_doctor_asks_nobody_who_cannot_answer(
-    port: str, words: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+    port: str, servo: int, problem: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["doctor", "--port", port, *words]) == 2
-    assert expected in capsys.readouterr().err
+    assert main(["doctor", "--port", port, "--servo-id", str(servo)]) == 2
+    assert f"--servo-id: {problem}" in capsys.readouterr().err
 
 
 def test_the_doctor_asks_the_device_that_is_named(

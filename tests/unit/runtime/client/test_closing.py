@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
@@ -27,8 +27,9 @@ from busservo_simulator import VirtualController
 from framewire.client.awaited import Awaited as Opening
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import both_live
-from tests.lines.live_line import Gate, LiveLine, answered, losing
+from tests.lines.both_clients import LIVE_TALKS, both_live
+from tests.lines.gates import Gate, whoever_closes_second_waits
+from tests.lines.live_line import LiveLine, answered, in_a_loop, losing
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
@@ -44,10 +45,11 @@ if TYPE_CHECKING:
     from tests.lines.both_clients import Talk
 
 REFUSING = losing("it takes no bytes")
+STOPPED = ActionGroupStopped()
 
 
-def own_threads() -> list[str]:
-    return [each.name for each in threading.enumerate() if each.name.startswith("busservo on")]
+def own_threads() -> int:
+    return sum(each.name.startswith("busservo on") for each in threading.enumerate())
 
 
 @pytest.fixture(autouse=True)
@@ -69,27 +71,19 @@ async def close(controller: AsyncController) -> None:
     await controller.close()
 
 
+async def cancelled(task: asyncio.Task[Any]) -> None:
+    task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await task
+
+
 # -------------------------------------------------------------------- closed by several
 
 
 def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
     draining = Gate()
     line = LiveLine(drain=draining)
-    with ThreadPoolExecutor() as pool:
-        controller = Controller(line)
-        first = pool.submit(controller.close)
-        draining.wait()
-
-        def close_too() -> bool:
-            controller.close()
-            return line.closed
-
-        others = [pool.submit(close_too) for _ in range(3)]
-        done, _ = wait(others, timeout=0.05)
-        assert not done, "the line is not closed yet"
-        draining.go_on.set()
-        assert [each.result(GENEROUS) for each in others] == [True] * 3
-        first.result(GENEROUS)
+    whoever_closes_second_waits(Controller(line), draining, line)
 
 
 def test_closing_while_closing_does_not_wait_for_itself() -> None:
@@ -135,10 +129,9 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
     with ThreadPoolExecutor() as pool:
         controller = Controller(line)
         controller.on_report(close_too)
-        line.say(ActionGroupStopped())
+        line.say(STOPPED)
         assert notified.wait(GENEROUS)
         closing = pool.submit(controller.close)
-        draining.wait()
         assert closed.wait(GENEROUS), "it waits for nobody who may be waiting for it"
         draining.go_on.set()
         closing.result(GENEROUS)
@@ -147,9 +140,8 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
 def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
     opening: Any = open_async_controller("/dev/nothing")
     for name in ("on_report", "read_battery_voltage", "counters"):
-        with pytest.raises(
-            AttributeError, match=f"not open yet, and has no '{name}': .*async with"
-        ):
+        problem = f"not open yet, and has no '{name}': .*async with"
+        with pytest.raises(AttributeError, match=problem):
             getattr(opening, name)
     assert not hasattr(opening, "reports")
     with pytest.raises(TypeError, match=r"not open yet: .*`async with`, or await it$"), opening:
@@ -163,27 +155,22 @@ def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: 
     line, trace = LiveLine(), tmp_path / "line.log"
     controller = Controller(line, **LIVE, trace=trace)
     assert controller.read_battery_voltage() == 7500
-    assert len(own_threads()) == 1
+    assert own_threads() == 1
     # The thread that drops the last reference gets the warning, which need not be this one.
     warned: list[str] = []
-    controller.__class__ = type("Watched", (Controller,), {"__del__": _watched(warned)})
-    del controller
-    await_that(lambda: line.closed)
-    await_that(lambda: not own_threads())
-    assert warned == ["live line was never closed: use the client in a `with`, or call close()"]
-    assert trace.read_text().count("\n") == 3
 
-
-def _watched(warned: list[str]) -> Callable[[Controller], None]:
     def forget(controller: Controller) -> None:
         def warn(text: str, kind: type[Warning], source: object) -> None:
-            assert kind is ResourceWarning
-            assert source is controller
+            assert (kind, source) == (ResourceWarning, controller)
             warned.append(text)
 
         Controller.__del__(controller, warn)
 
-    return forget
+    controller.__class__ = type("Watched", (Controller,), {"__del__": forget})
+    del controller
+    await_that(lambda: line.closed and not own_threads())
+    assert warned == ["live line was never closed: use the client in a `with`, or call close()"]
+    assert trace.read_text().count("\n") == 3
 
 
 class Forgotten(AsyncController):
@@ -203,12 +190,11 @@ def test_a_client_for_asyncio_that_is_forgotten_says_so_and_gives_everything_bac
         controller = Forgotten(line, **LIVE)
         controller.warned = warned
         assert await controller.read_battery_voltage() == 7500
-        assert len(own_threads()) == 2
+        assert own_threads() == 2
 
     asyncio.run(work())
     gc.collect()
-    await_that(lambda: line.closed)
-    await_that(lambda: not own_threads())
+    await_that(lambda: line.closed and not own_threads())
     assert len(warned) == 2
 
 
@@ -251,8 +237,8 @@ class Touchy(LiveLine):
             raise ValueError("file descriptor cannot be a negative integer (-1)") from None
 
 
-@both_live
-@pytest.mark.parametrize("line", [LiveLine, ReadsOn, Touchy])
+@pytest.mark.parametrize("talk", LIVE_TALKS)
+@in_turn("line", lambda: [LiveLine, ReadsOn, Touchy])
 def test_no_thread_reads_on_where_a_client_is_closed(
     talk: Talk, line: type[LiveLine], caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -286,47 +272,38 @@ def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
     gc.collect()
 
 
-# -------------------------------------------------------------------- a write that fails
+# -------------------------------------------------------------------- a line that fails
 
 
-@both_live
-def test_what_the_port_does_not_take_fails_at_once(talk: Talk) -> None:
-    async def command(controller: Any) -> None:
-        with pytest.raises(DisconnectedError, match="takes no bytes"):
-            await controller.stop_action_group()
-
-    async def question(controller: Any) -> None:
+@pytest.mark.parametrize("talk", LIVE_TALKS)
+@in_turn("call", lambda: ["stop_action_group", "read_battery_voltage"])
+def test_what_the_port_does_not_take_fails_at_once(talk: Talk, call: str) -> None:
+    async def work(controller: Any) -> None:
         began = time.monotonic()
         with pytest.raises(DisconnectedError, match="takes no bytes"):
-            await controller.read_battery_voltage()
+            await getattr(controller, call)()
         assert time.monotonic() - began < GENEROUS / 2
 
-    talk(LiveLine(write=REFUSING), command)
-    talk(LiveLine(write=REFUSING), question, **LIVE)
+    talk(LiveLine(write=REFUSING), work, **LIVE)
 
 
-def test_a_command_counts_as_sent_only_when_the_port_has_taken_it() -> None:
+@in_a_loop
+async def test_a_command_counts_as_sent_only_when_the_port_has_taken_it() -> None:
     line = LiveLine(write=lambda: time.sleep(0.05))
-
-    async def work() -> None:
-        async with AsyncController(line) as controller:
-            await controller.stop_action_group()
-            assert line.received
-
-    asyncio.run(work())
+    async with AsyncController(line) as controller:
+        await controller.stop_action_group()
+        assert line.received
 
 
-@both_live
-def test_a_transport_with_a_bug_ends_in_an_error_that_says_so(talk: Talk) -> None:
-    def broken() -> None:
-        raise KeyError(0.5)
+def broken() -> None:
+    raise KeyError(0.5)
 
-    async def work(controller: Any) -> None:
-        for _ in range(3):
-            with pytest.raises(TransportError, match=r"failed .*KeyError.*; mend the transport"):
-                await controller.read_battery_voltage()
 
-    talk(LiveLine(read=broken), work, **LIVE)
+@both_live(lambda: LiveLine(read=broken), **LIVE)
+async def test_a_transport_with_a_bug_ends_in_an_error_that_says_so(controller: Any) -> None:
+    for _ in range(3):
+        with pytest.raises(TransportError, match=r"failed .*KeyError.*; mend the transport"):
+            await controller.read_battery_voltage()
 
 
 # -------------------------------------------------------------------- closed
@@ -339,7 +316,7 @@ def press_ctrl_c() -> None:
 def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
     line = VirtualLine(read=press_ctrl_c)
     controller = client_on(line, Controller, settle=None)
-    controller.move_servos([(servo, 500) for servo in range(60)], 100)
+    controller.unload_servos(range(200))
     with pytest.raises(KeyboardInterrupt):
         controller.close()
     assert line.closed
@@ -353,7 +330,7 @@ def test_close_that_is_cancelled_is_done_all_the_same() -> None:
     async def work() -> None:
         # The frame is on its way for longer than any machine pauses.
         controller = AsyncController(line, baud=60)
-        await controller.move_servos([(servo, 500) for servo in range(80)], 100)
+        await controller.unload_servos(range(240))
         with pytest.raises(asyncio.TimeoutError):
             await asyncio.wait_for(controller.close(), 0.02)
 
@@ -366,7 +343,7 @@ def test_closing_from_within_a_callback_ends_all_the_same() -> None:
     line = LiveLine()
     controller = Controller(line)
     controller.on_report(lambda _: controller.close())
-    line.say(ActionGroupStopped())
+    line.say(STOPPED)
     await_that(lambda: line.closed)
 
 
@@ -386,33 +363,31 @@ def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
         assert controller.counters.unsolicited == 1
 
 
+class Interrupting:
+    """The lock of a client; Ctrl-C comes as soon as it has been released to read."""
+
+    def __init__(self, lock: Any) -> None:
+        self._lock = lock
+        self.acquire = lock.acquire
+
+    def __enter__(self) -> object:
+        return self._lock.__enter__()
+
+    def __exit__(self, *error: object) -> None:
+        self._lock.__exit__(*error)
+
+    def release(self) -> None:
+        self._lock.release()
+        raise KeyboardInterrupt
+
+
 def test_ctrl_c_as_the_line_is_given_to_others_leaves_it_usable() -> None:
-    class Interrupting:
-        """The lock of a client; Ctrl-C comes as soon as it has been released to read."""
-
-        def __init__(self, lock: Any) -> None:
-            self._lock = lock
-            self.acquire = lock.acquire
-
-        def __enter__(self) -> object:
-            return self._lock.__enter__()
-
-        def __exit__(self, *error: object) -> None:
-            self._lock.__exit__(*error)
-
-        def release(self) -> None:
-            self._lock.release()
-            raise KeyboardInterrupt
-
-    line = VirtualLine(late)
-    with client_on(line, Controller) as controller:
+    with client_on(VirtualLine(late), Controller) as controller:
         whole = controller._lock
         controller._lock = Interrupting(whole)
-        try:
-            with pytest.raises(KeyboardInterrupt):
-                controller.read_battery_voltage()
-        finally:
-            controller._lock = whole
+        with pytest.raises(KeyboardInterrupt):
+            controller.read_battery_voltage()
+        controller._lock = whole
         with ThreadPoolExecutor() as pool:
             # Also from another thread, which it would keep waiting.
             assert pool.submit(controller.read_battery_voltage).result(GENEROUS) == 7500
@@ -429,7 +404,7 @@ def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> 
 
     closing = False
     controller = Controller(line, background=False, clock=clock)
-    controller.move_servos([(servo, 500) for servo in range(60)], 100)
+    controller.unload_servos(range(200))
     controller.send_latest(ServoUnload([7]))
     assert len(line.received) == 1
     closing = True
@@ -437,8 +412,8 @@ def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> 
     assert line.received[-1] == ServoUnload([7])
 
 
-@in_turn("via", lambda: ["memory", "tcp"])
-def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> None:
+@in_turn("via", lambda: ["memory", "tcp", *(["pty"] if sys.platform != "win32" else [])])
+def test_nothing_of_the_last_frame_is_cut_off(via: Any) -> None:
     with VirtualController(via, baud=9600) as board:
         transport = board.transport if via == "memory" else open_transport(board.port)
         began = time.monotonic()
@@ -452,27 +427,22 @@ def test_nothing_of_the_last_frame_is_cut_off(via: Literal["memory", "tcp"]) -> 
 # -------------------------------------------------------------------- opened again
 
 
-@both_live
-def test_a_line_that_does_not_come_back_says_why_until_it_does(talk: Talk) -> None:
-    attempts = iter([False, False, True])
+def absent() -> None:
+    raise PortNotFoundError(LiveLine.name, "there is no such port", "plug it in")
 
-    def reopen() -> None:
-        if not next(attempts):
-            raise PortNotFoundError(LiveLine.name, "there is no such port", "plug it in")
 
-    line = LiveLine(reopen=reopen)
-
-    async def work(controller: Any) -> None:
-        line.unplug()
-        for _ in range(2):
+@both_live(lambda: LiveLine(reopen=absent), **LIVE)
+async def test_a_line_that_does_not_come_back_says_why_until_it_does(
+    controller: Any, line: LiveLine
+) -> None:
+    line.unplug()
+    for _ in range(2):
+        for call in (controller.reconnect, controller.read_battery_voltage):
             with pytest.raises(PortNotFoundError, match="plug it in"):
-                await controller.reconnect()
-            with pytest.raises(PortNotFoundError, match="plug it in"):
-                await controller.read_battery_voltage()
-        await controller.reconnect()
-        assert await controller.read_battery_voltage() == 7500
-
-    talk(line, work, **LIVE)
+                await call()
+    line.before.clear()
+    await controller.reconnect()
+    assert await controller.read_battery_voltage() == 7500
 
 
 class Counted(LiveLine):
@@ -503,28 +473,25 @@ def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
         list(pool.map(lambda _: controller.reconnect(), range(8)))
         assert controller.read_battery_voltage() == 7500
         assert Counted.open == 1
-        await_that(lambda: len(own_threads()) == 1)
+        await_that(lambda: own_threads() == 1)
 
 
-def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
+@in_a_loop
+async def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
     line = Counted(lambda: time.sleep(0.05))
-
-    async def work() -> None:
-        async with AsyncController(line, **LIVE) as controller:
-            line.unplug()
-            await asyncio.gather(*(controller.reconnect() for _ in range(20)))
-            assert await controller.read_battery_voltage() == 7500
-            assert Counted.open == 1
-            await_that(lambda: len(own_threads()) == 2)
-
-    asyncio.run(work())
+    async with AsyncController(line, **LIVE) as controller:
+        line.unplug()
+        await asyncio.gather(*(controller.reconnect() for _ in range(20)))
+        assert await controller.read_battery_voltage() == 7500
+        assert Counted.open == 1
+        await_that(lambda: own_threads() == 2)
 
 
+# By then; but closing waits only for a while for a port that does not open.
 @pytest.mark.parametrize("patient", [True, False])
 def test_what_is_closed_while_it_is_opened_again_is_given_back(
     patient: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By then; but closing waits only for a while for a port that does not open."""
     if not patient:
         close_in_a_hurry(monkeypatch)
     opening = Gate()
@@ -544,49 +511,41 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back(
 
 
 @pytest.mark.parametrize("patient", [True, False])
-def test_what_is_closed_while_it_is_opened_again_is_given_back_with_asyncio(
+@in_a_loop
+async def test_what_is_closed_while_it_is_opened_again_is_given_back_with_asyncio(
     patient: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if not patient:
         close_in_a_hurry(monkeypatch)
     opening = Gate()
+    controller = AsyncController(Counted(opening))
+    await controller.stop_action_group()
+    again = asyncio.ensure_future(controller.reconnect())
+    await opening.reached()
+    closing = asyncio.ensure_future(controller.close())
+    done, _ = await asyncio.wait([closing], timeout=0.05 if patient else GENEROUS)
+    assert not again.done()
+    opening.go_on.set()
+    assert bool(done) is not patient, "the port may be open"
+    await closing
+    assert not patient or Counted.open == 0
+    for reconnecting in (again, controller.reconnect()):
+        with pytest.raises(ClosedError):
+            await reconnecting
 
-    async def work() -> None:
-        controller = AsyncController(Counted(opening))
-        await controller.stop_action_group()
+
+@in_a_loop
+async def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
+    opening = Gate()
+    async with AsyncController(Counted(opening), **LIVE) as controller:
         again = asyncio.ensure_future(controller.reconnect())
         await opening.reached()
-        closing = asyncio.ensure_future(controller.close())
-        done, _ = await asyncio.wait([closing], timeout=0.05 if patient else GENEROUS)
-        assert not again.done()
+        await cancelled(again)
         opening.go_on.set()
-        assert bool(done) is not patient, "the port may be open"
-        await closing
-        assert not patient or Counted.open == 0
-        for reconnecting in (again, controller.reconnect()):
-            with pytest.raises(ClosedError):
-                await reconnecting
-
-    asyncio.run(work())
-
-
-def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
-    opening = Gate()
-
-    async def work() -> None:
-        async with AsyncController(Counted(opening), **LIVE) as controller:
-            again = asyncio.ensure_future(controller.reconnect())
-            await opening.reached()
-            again.cancel()
-            with pytest.raises(asyncio.CancelledError):
-                await again
-            opening.go_on.set()
-            while Counted.made < 2 or Counted.open:
-                await asyncio.sleep(0.001)
-            await controller.reconnect()
-            assert await controller.read_battery_voltage() == 7500
-
-    asyncio.run(work())
+        while Counted.made < 2 or Counted.open:
+            await asyncio.sleep(0.001)
+        await controller.reconnect()
+        assert await controller.read_battery_voltage() == 7500
 
 
 def test_reconnecting_from_within_a_callback() -> None:
@@ -599,36 +558,32 @@ def test_reconnecting_from_within_a_callback() -> None:
             done.set()
 
         controller.on_report(again)
-        line.say(ActionGroupStopped())
+        line.say(STOPPED)
         assert done.wait(GENEROUS)
         assert controller.read_battery_voltage() == 7500
-        await_that(lambda: len(own_threads()) == 1)
+        await_that(lambda: own_threads() == 1)
 
 
-def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
+@in_a_loop
+async def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
     opening = Gate()
 
     def reopen() -> None:
         opening()
-        raise PortNotFoundError(LiveLine.name, "there is no such port", "plug it in")
+        absent()
 
-    async def work() -> None:
-        errors: list[object] = []
-        asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
-        async with AsyncController(LiveLine(reopen=reopen)) as controller:
-            again = asyncio.ensure_future(controller.reconnect())
-            await opening.reached()
-            again.cancel()
-            with pytest.raises(asyncio.CancelledError):
-                await again
-            opening.go_on.set()
-            await asyncio.sleep(0.01)
-        assert errors == []
-
-    asyncio.run(work())
+    errors: list[object] = []
+    asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
+    async with AsyncController(LiveLine(reopen=reopen)) as controller:
+        again = asyncio.ensure_future(controller.reconnect())
+        await opening.reached()
+        await cancelled(again)
+        opening.go_on.set()
+        await asyncio.sleep(0.01)
+    assert errors == []
 
 
-@both_live
+@pytest.mark.parametrize("talk", LIVE_TALKS)
 def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
     talk: Talk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -641,10 +596,10 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
         losing()()
 
     async def work(controller: Any) -> None:
-        before = len(own_threads())
+        before = own_threads()
         await controller.reconnect()
         stuck.go_on.set()
-        await_that(lambda: len(own_threads()) == before)
+        await_that(lambda: own_threads() == before)
         assert await controller.read_battery_voltage() == 7500
 
     talk(LiveLine(read=read), work, **LIVE)
@@ -653,91 +608,79 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 # -------------------------------------------------------------------- a driver that gives trouble
 
 
-@both_live
-def test_what_cannot_be_drained_is_closed_all_the_same(
-    talk: Talk, caplog: pytest.LogCaptureFixture
+def fail() -> None:
+    raise OSError("it is gone")
+
+
+@both_live(lambda: LiveLine(drain=fail, close=fail))
+async def test_what_cannot_be_drained_is_closed_all_the_same(
+    controller: Any, line: LiveLine, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def fail() -> None:
-        raise OSError("it is gone")
-
-    async def work(controller: Any) -> None:
-        await controller.stop_action_group()
-
     caplog.set_level("DEBUG", "busservo")
-    line = LiveLine(drain=fail, close=fail)
-    talk(line, work)
+    await controller.stop_action_group()
+    await controller.close()
     assert line.closed
     assert len(line.received) == 1
     assert caplog.text.count("live line could not be drained") == 1
     assert caplog.text.count("live line could not be closed") == 1
 
 
-def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing() -> None:
+@in_a_loop
+async def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing() -> None:
     line = LiveLine()
-
-    async def work() -> None:
-        # On the wire, both take more than twice as long as anybody waits here.
-        controller = AsyncController(line, baud=40)
-        controller.send_latest(ServoUnload(range(250)))
-        controller.send_latest(ServoUnload(range(240)))
-        await_that(lambda: len(line.received) == 1)
-        closing = asyncio.ensure_future(controller.close())
-        await asyncio.sleep(0)
-        line.unplug()
-        await asyncio.wait_for(closing, GENEROUS)
-        assert repr(controller) == "<AsyncController on live line, closed>"
-
-    asyncio.run(work())
+    # On the wire, both take more than twice as long as anybody waits here.
+    controller = AsyncController(line, baud=40)
+    controller.send_latest(ServoUnload(range(250)))
+    controller.send_latest(ServoUnload(range(240)))
+    await_that(lambda: len(line.received) == 1)
+    closing = asyncio.ensure_future(controller.close())
+    await asyncio.sleep(0)
+    line.unplug()
+    await asyncio.wait_for(closing, GENEROUS)
+    assert repr(controller) == "<AsyncController on live line, closed>"
     assert line.received == [ServoUnload(range(250))]
 
 
-def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent() -> None:
+@in_a_loop
+async def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent() -> None:
     line = LiveLine()
     now = time.monotonic()
-
-    async def work() -> None:
-        nonlocal now
-        async with AsyncController(line, clock=lambda: now) as controller:
-            assert repr(controller) == "<AsyncController on live line, open>"
-            await controller.unload_servos(range(100))
-            pending = asyncio.ensure_future(controller.stop_action_group())
-            await asyncio.sleep(0)
-            # The loop stands still until it is the turn of the second command. When it goes on, the
-            # line is lost, as it learns only after that command has been handed over.
-            time.sleep(0.12)
-            now += 0.12
-            await asyncio.sleep(0)
-            line.unplug()
-            await_that(lambda: len(own_threads()) == 1)
-            with pytest.raises(DisconnectedError):
-                await pending
-            assert repr(controller) == "<AsyncController on live line, failed>"
-            assert controller.counters.sent == 2
-
-    asyncio.run(work())
+    async with AsyncController(line, clock=lambda: now) as controller:
+        assert repr(controller) == "<AsyncController on live line, open>"
+        await controller.unload_servos(range(100))
+        pending = asyncio.ensure_future(controller.stop_action_group())
+        await asyncio.sleep(0)
+        # The loop stands still until it is the turn of the second command. When it goes on, the
+        # line is lost, as it learns only after that command has been handed over.
+        time.sleep(0.12)
+        now += 0.12
+        await asyncio.sleep(0)
+        line.unplug()
+        await_that(lambda: own_threads() == 1)
+        with pytest.raises(DisconnectedError):
+            await pending
+        assert repr(controller) == "<AsyncController on live line, failed>"
+        assert controller.counters.sent == 2
     assert line.received == [ServoUnload(range(100))]
 
 
-def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
+@in_a_loop
+async def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
     line = LiveLine(write=REFUSING)
-
-    async def work() -> None:
-        async with AsyncController(line) as controller:
-            received: list[object] = []
-            controller.on_report(received.append)
-            controller.send_latest(ServoUnload([1]))
-            # The loop stands still: first it will learn that the write has failed, then of this.
-            await_that(lambda: len(own_threads()) == 1)
-            line.say(ActionGroupStopped())
-            before = line.reads
-            await_that(lambda: line.reads >= before + 2)
-            with pytest.raises(DisconnectedError, match="takes no bytes"):
-                await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
-            await asyncio.sleep(0)
-            assert received == []
-            assert controller.counters.reports == 0
-
-    asyncio.run(work())
+    async with AsyncController(line) as controller:
+        received: list[object] = []
+        controller.on_report(received.append)
+        controller.send_latest(ServoUnload([1]))
+        # The loop stands still: first it will learn that the write has failed, then of this.
+        await_that(lambda: own_threads() == 1)
+        line.say(STOPPED)
+        before = line.reads
+        await_that(lambda: line.reads >= before + 2)
+        with pytest.raises(DisconnectedError, match="takes no bytes"):
+            await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+        await asyncio.sleep(0)
+        assert received == []
+        assert controller.counters.reports == 0
 
 
 # -------------------------------------------------------------------- a loop that is no more
@@ -752,9 +695,9 @@ def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
         return controller
 
     controller = asyncio.run(work())
-    assert len(own_threads()) == 2
-    line.say(ActionGroupStopped())
-    await_that(lambda: len(own_threads()) == 1)
+    assert own_threads() == 2
+    line.say(STOPPED)
+    await_that(lambda: own_threads() == 1)
     assert controller.counters.reports == 0
     del controller
     gc.collect()
@@ -770,9 +713,7 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
         controller = Forgotten(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         await writing.reached()
-        asking.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await asking
+        await cancelled(asking)
         del asking, controller
         gc.collect()
 
@@ -841,7 +782,8 @@ def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() ->
 # -------------------------------------------------------------------- a port that opens too late
 
 
-def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
+@in_a_loop
+async def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
     line, gate = LiveLine(), Gate()
 
     def open_late() -> Any:
@@ -851,14 +793,9 @@ def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
     async def open_it() -> None:
         await Opening(open_late, AsyncController)
 
-    async def work() -> None:
-        opening = asyncio.ensure_future(open_it())
-        await gate.reached()
-        opening.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await opening
-        gate.go_on.set()
-        while not line.closed:
-            await asyncio.sleep(0.001)
-
-    asyncio.run(asyncio.wait_for(work(), GENEROUS))
+    opening = asyncio.ensure_future(open_it())
+    await gate.reached()
+    await cancelled(opening)
+    gate.go_on.set()
+    while not line.closed:
+        await asyncio.sleep(0.001)

@@ -9,10 +9,11 @@ from __future__ import annotations
 import asyncio
 import math
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import AsyncController, Controller
+from busservo import AsyncController, Controller, NoReplyError
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
@@ -20,11 +21,9 @@ from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
-from tests.lines.conversation import (
-    Ledger,
-    converse,
-    converse_async,
-)
+from tests.lines.conversation import Ledger, converse, converse_async
+from tests.lines.timed_line import client_on
+from tests.lines.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -43,19 +42,13 @@ chance = st.sampled_from([0.0, 0.0, 0.1, 0.3, 0.7])
 schedules = st.builds(
     Faults,
     seed=st.integers(0, 2**32),
-    noise=chance,
-    splits=chance,
-    coalesced=chance,
-    delays=chance,
-    dropped=chance,
-    fewer=chance,
-    absent=chance,
-    unsolicited=chance,
     longest_delay=st.sampled_from([0.01, LATE / 2, LATE]),
+    **dict.fromkeys(
+        ["noise", "splits", "coalesced", "delays", "dropped", "fewer", "absent", "unsolicited"],
+        chance,
+    ),
     splits_to_board=chance,
 )
-
-
 LINE: dict[str, Any] = {"baud": math.inf, "reply_timeout": REPLY_TIMEOUT, "settle": None}
 
 
@@ -71,10 +64,7 @@ def test_answers_and_reports_are_right_under_any_schedule_of_faults(
     faults: Faults, seed: int, retries: int
 ) -> None:
     board, ledger, clock = virtual(faults)
-    with (
-        board,
-        client_at(board, Controller, **LINE, retries=retries) as controller,
-    ):
+    with board, client_at(board, Controller, **LINE, retries=retries) as controller:
         converse(controller, ledger, seed, 15, clock.now, bound=MOST + retries * REPLY_TIMEOUT)
         assert list(controller.reports(timeout=1)) == ledger.reported
         assert controller.counters.lost_reports == 0
@@ -83,10 +73,7 @@ def test_answers_and_reports_are_right_under_any_schedule_of_faults(
 @given(schedules, st.integers(0, 2**32), st.floats(0.01, 0.3))
 def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, cut: float) -> None:
     board, ledger, clock = virtual(replace(faults, hang_up=cut, splits_to_board=0))
-    with (
-        board,
-        client_at(board, Controller, **LINE) as controller,
-    ):
+    with board, client_at(board, Controller, **LINE) as controller:
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
         # A cut may be due yet, behind a frame that is late.
         board.faults = replace(faults, hang_up=0)
@@ -131,45 +118,50 @@ def test_answers_and_reports_are_right_under_any_schedule_of_faults_with_asyncio
 @given(st.integers(0, 2**32), st.sampled_from([0.02, 0.1]))
 def test_requests_that_arrive_damaged_give_no_wrong_value(seed: int, flips: float) -> None:
     board, ledger, clock = virtual(Faults(seed=seed, bit_flips_to_board=flips, noise_to_board=0.5))
-    with (
-        board,
-        client_at(board, Controller, **LINE) as controller,
-    ):
+    with board, client_at(board, Controller, **LINE) as controller:
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
+
+
+@given(
+    st.lists(st.sampled_from([b"\x55", b"\x55\x55", b"\x55\x55\x15"]), max_size=40), st.booleans()
+)
+def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
+    spurious: list[bytes], flood: bool
+) -> None:
+    line = VirtualLine()
+    for at, data in enumerate(spurious):
+        line.say(data * (40 if flood else 1), 0.02 * at)
+    with client_on(line, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
+        with pytest.raises(NoReplyError) as caught:
+            controller.read_battery_voltage()
+        assert caught.value.waited <= 1
+        assert line.now <= 1
 
 
 # -------------------------------------------------------------------- many at once
 
 
-# No frame comes to the client in pieces: a busy machine would hold up the second one for so long
-# that the frame is lost, as on a line that is quiet within a frame. In virtual time, they do.
-FAULTS = {
-    "mixed": Faults(
-        noise=0.3,
-        coalesced=0.2,
-        delays=0.3,
-        dropped=0.05,
-        fewer=0.1,
-        absent=0.1,
-        unsolicited=0.5,
-        longest_delay=0.05,
-        splits_to_board=0.3,
-    ),
-    "cut": Faults(noise=0.2, unsolicited=0.3, hang_up=0.08),
-}
+MIXED = Faults(
+    noise=0.3,
+    coalesced=0.2,
+    delays=0.3,
+    dropped=0.05,
+    fewer=0.1,
+    absent=0.1,
+    unsolicited=0.5,
+    longest_delay=0.05,
+    splits_to_board=0.3,
+)
 
 
 @in_turn("seed", lambda: range(4))
 def test_a_hundred_tasks_share_a_line_with_faults(seed: int) -> None:
-    board, ledger, clock = virtual(replace(FAULTS["mixed"], seed=seed))
+    board, ledger, clock = virtual(replace(MIXED, seed=seed))
 
     async def work() -> None:
         async with client_at(board, AsyncController, baud=math.inf, settle=None) as controller:
-            talks = (
-                converse_async(controller, ledger, each, 1, clock.now, math.inf)
-                for each in range(100)
-            )
-            await asyncio.gather(*talks)
+            talk = partial(converse_async, controller, ledger, now=clock.now, bound=math.inf)
+            await asyncio.gather(*(talk(seed=each, count=1) for each in range(100)))
             received = [report async for report in controller.reports(timeout=1)]
             assert received == ledger.reported
 

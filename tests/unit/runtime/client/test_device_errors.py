@@ -1,40 +1,59 @@
-"""What a device refuses, or fails to carry out, is an error that carries what it said."""
+"""What a device refuses or fails to carry out is an error; a reply is as long as was asked for."""
 
 from __future__ import annotations
 
-import asyncio
 import importlib
+import math
 import pickle
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.model.codec import encode
 
-from tests.factories import data_of, files_of, imported, library, library_of
-from tests.lines.timed_line import ScriptedLine, client_on
+from tests.bad_specs import BASES
+from tests.contract.independent.memory import MemoryPort
+from tests.factories import (
+    compiled_file,
+    data_of,
+    files_of,
+    imported,
+    library,
+    library_of,
+    vectors_of,
+)
+from tests.in_turn import in_turn
+from tests.lines.timed_line import Pieces, ScriptedLine, TimedLine, client_of, client_on
+from tests.lines.virtual_line import in_virtual_time
 from tests.mutations.places import having
-from tests.protocols.specs import FILES, messages_of
+from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 NAMES = ("dynamixel1", "modbus")
+MEMORY = BASES / "memory.yaml"
 
 
 @pytest.fixture(scope="module", autouse=True)
 def libraries() -> Iterator[None]:
-    """Return the libraries, imported under their own names."""
-    with imported(*(library_of(FILES[name]) for name in NAMES)):
+    """Import the libraries under their own names."""
+    with imported(*(library_of(FILES[name]) for name in NAMES), library_of(MEMORY)):
         yield
 
 
 def lib(name: str) -> Any:
+    importlib.import_module(f"{name}.device")
     return importlib.import_module(name)
 
 
 def frame(name: str, message: str, **values: Any) -> bytes:
     """Return a frame by the reference, which the library has no part in."""
-    return encode(messages_of(name)[message], values)
+    layouts = compiled_file(MEMORY if name == "memory" else FILES[name]).model.messages
+    return encode(layouts[message], values)
+
+
+def status(servo_id: int, error: int, data: Sequence[int] = ()) -> bytes:
+    return frame("dynamixel1", "Status", servo_id=servo_id, error=error, data=[*data])
 
 
 def client(name: str, answer: bytes, **settings: Any) -> Any:
@@ -79,13 +98,29 @@ def test_what_is_not_refused_is_answered() -> None:
         assert bus.device(17).read_holding(107, 3) == (1, 2, 3)
 
 
+def test_a_handler_may_refuse() -> None:
+    modbus = lib("modbus")
+
+    class Registers(modbus.Device):  # type: ignore[misc, name-defined]
+        def on_holding_read(self, message: Any) -> Any:
+            if message.start:
+                return modbus.HoldingReadRefused(message.unit, reason=2)
+            return modbus.Holding(message.unit, registers=[7] * message.quantity)
+
+    with client_of(Registers(17)) as bus:
+        assert bus.read_holding(17, start=0, quantity=2) == (7, 7)
+        with pytest.raises(modbus.RefusedError) as caught:
+            bus.read_holding(17, start=1, quantity=2)
+        assert caught.value.named == ("illegal_address",)
+
+
 # ------------------------------------------------------------------ failures
 
 
 def test_a_failure_names_the_bits_that_are_set() -> None:
     dynamixel = lib("dynamixel1")
-    status = frame("dynamixel1", "Status", servo_id=1, error=0x24, data=[])
-    with client("dynamixel1", status) as bus:
+    reply = status(1, 0x24)
+    with client("dynamixel1", reply) as bus:
         with pytest.raises(dynamixel.FailureError) as caught:
             bus.write(1, start=30, data=[0, 2])
         assert caught.value.named == ("overheating", "overload")
@@ -101,30 +136,23 @@ def test_a_failure_names_the_bits_that_are_set() -> None:
 
 
 def test_a_reply_without_a_failure_is_returned() -> None:
-    status = frame("dynamixel1", "Status", servo_id=1, error=0, data=[0x20])
-    with client("dynamixel1", status) as bus:
+    reply = status(1, 0, [0x20])
+    with client("dynamixel1", reply) as bus:
         assert bus.read(1, start=43, size=1) == (0x20,)
 
 
-def test_failures_are_raised_with_asyncio_as_well() -> None:
+@in_virtual_time
+async def test_failures_are_raised_with_asyncio_as_well() -> None:
     dynamixel = lib("dynamixel1")
-    status = frame("dynamixel1", "Status", servo_id=1, error=1, data=[])
-    line = ScriptedLine(lambda _: status)
-
-    async def ask() -> None:
-        async with dynamixel.AsyncController(line, settle=0) as bus:
-            with pytest.raises(dynamixel.FailureError, match="input_voltage"):
-                await bus.ping(servo_id=1)
-
-    asyncio.run(ask())
+    line = ScriptedLine(lambda _: status(1, 1))
+    async with client_on(line, dynamixel.AsyncController) as bus:
+        with pytest.raises(dynamixel.FailureError, match="input_voltage"):
+            await bus.ping(servo_id=1)
 
 
 def test_who_answers_all_is_gathered_whatever_has_failed() -> None:
     dynamixel = lib("dynamixel1")
-    answers = b"".join(
-        frame("dynamixel1", "Status", servo_id=each, error=each, data=[]) for each in (1, 2)
-    )
-    with client("dynamixel1", answers) as bus:
+    with client("dynamixel1", status(1, 1) + status(2, 2)) as bus:
         assert bus.broadcast().ping(within=0.1) == [
             dynamixel.Status(1, error=1, data=[]),
             dynamixel.Status(2, error=2, data=[]),
@@ -138,22 +166,15 @@ def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
     """The ping of servo 1 is, to the byte, a status of servo 1 whose supply is out of bounds."""
     dynamixel = lib("dynamixel1")
     ping = frame("dynamixel1", "Ping", servo_id=1)
-    assert ping == frame("dynamixel1", "Status", servo_id=1, error=1, data=[])
-    status = frame("dynamixel1", "Status", servo_id=1, error=0, data=[])
-    with client("dynamixel1", ping + status, local_echo=True) as bus:
+    assert ping == status(1, 1)
+    reply = status(1, 0)
+    with client("dynamixel1", ping + reply, local_echo=True) as bus:
         assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
         assert bus.counters.echoes == 1
-    with (
-        client("dynamixel1", ping + ping, local_echo=True) as bus,
-        pytest.raises(dynamixel.FailureError),
-    ):
-        bus.ping(1)
-    with (
-        client("dynamixel1", ping, local_echo=True) as bus,
-        pytest.raises(dynamixel.NoReplyError),
-    ):
-        bus.ping(1)
-    with client("dynamixel1", ping + status) as bus:  # nobody spoke of an echo, and it is dropped
+    for came, error in ((ping + ping, dynamixel.FailureError), (ping, dynamixel.NoReplyError)):
+        with client("dynamixel1", came, local_echo=True) as bus, pytest.raises(error):
+            bus.ping(1)
+    with client("dynamixel1", ping + reply) as bus:  # nobody spoke of an echo, and it is dropped
         assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
         assert bus.counters.unsolicited == 1
 
@@ -162,10 +183,118 @@ def test_a_status_with_another_good_value_fails_with_all_others() -> None:
     """A sensor whose status is 1 after a success raised on every success."""
     one = {"protocol.name": "well", "messages.Status.failure": "error unless 1"}
     spec = having(data_of(FILES["dynamixel1"]), one)
-    answers = [frame("dynamixel1", "Status", servo_id=1, error=each, data=[]) for each in (0, 2, 1)]
+    answers = [status(1, each) for each in (0, 2, 1)]
     line = ScriptedLine(lambda _: answers.pop(0))
     with library(files_of(spec)) as well, client_on(line, well.Controller) as bus:
-        for status in (0, 2):
-            with pytest.raises(well.FailureError, match=f"error is {status}"):
+        for error in (0, 2):
+            with pytest.raises(well.FailureError, match=f"error is {error}"):
                 bus.ping(1)
         assert bus.ping(1).error == 1
+
+
+# ------------------------------------------------------------------ as many items as were asked for
+
+
+def memory_client(*answers: Pieces) -> Any:
+    """Return a client; each of its frames is answered by bytes, each so many seconds later."""
+    script = [*answers]
+    line = TimedLine(lambda _: script.pop(0) if script else [], in_order=False)
+    return client_on(line, lib("memory").Controller, reply_timeout=0.25)
+
+
+def test_the_late_answer_to_a_question_for_more_is_not_that_to_one_for_fewer() -> None:
+    """A question for 1 byte, after one for 2 that had timed out, returned the 2 of the first."""
+    error = lib("memory").NoReplyError
+    with memory_client([(0.6, frame("memory", "Bytes", stored=[1, 2]))], []) as host:
+        with pytest.raises(error):
+            host.read_bytes(16, count=2)
+        with pytest.raises(error, match="1 reply came that cannot be the answer"):
+            host.read_bytes(16, count=1)
+
+
+def test_the_right_size_is_taken_among_others() -> None:
+    two, one = (frame("memory", "Bytes", stored=stored) for stored in ([1, 2], [7]))
+    with memory_client([(0.02, two), (0.03, one), (0.04, two)]) as host:
+        assert host.read_bytes(16, count=1) == (7,)
+        assert host.counters.unsolicited == 1
+
+
+@in_turn(
+    "status, found, error",
+    lambda: [
+        (1, [75, 76], None),
+        (1, [75], "NoReplyError"),
+        (1, [75, 76, 77], "NoReplyError"),
+        (0, [], "FailureError"),
+        (2, [1, 2], "FailureError"),
+    ],
+)
+def test_a_list_is_as_long_as_the_one_that_was_sent_unless_it_says_why_not(
+    status: int, found: list[int], error: str | None
+) -> None:
+    with memory_client([(0.03, frame("memory", "Some", status=status, found=found))]) as host:
+        if error is None:
+            assert host.read_some([1, 5]) == (75, 76)
+            return
+        with pytest.raises(getattr(lib("memory"), error)):
+            host.read_some([1, 5])
+
+
+def eeprom(held: int) -> Any:
+    memory = lib("memory")
+
+    class Eeprom(memory.device.Device):  # type: ignore[name-defined, misc]
+        def on_bytes_read(self, _message: Any) -> Any:
+            return memory.Bytes([9] * held)
+
+        def on_some_read(self, _message: Any) -> Any:
+            return memory.Some(status=0, found=[])
+
+    return Eeprom()
+
+
+def test_a_device_sends_no_answer_of_another_size_unless_it_refuses() -> None:
+    question = frame("memory", "BytesRead", start=16, count=2)
+    assert eeprom(2).receive(question) == frame("memory", "Bytes", stored=[9, 9])
+    for held in (0, 1, 3):
+        device = eeprom(held)
+        asked = f"count of BytesRead asks for 2 items, and the reply holds {held}"
+        with pytest.raises(lib("memory").EncodeError, match=asked):
+            device.receive(question)
+        assert device.take() == []
+    answer = eeprom(0).receive(frame("memory", "SomeRead", addresses=[1, 2]))
+    assert answer == frame("memory", "Some", status=0, found=[])
+
+
+def test_the_model_knows_the_size_as_well() -> None:
+    """Conformance, the audit and the comparison of editions ask it."""
+    some = compiled_file(MEMORY).model.exchanges_by_request["SomeRead"]
+    asked = {"addresses": [1, 2]}
+    assert not some.miscounts(asked, {"status": 1, "found": [1, 2]})
+    assert some.miscounts(asked, {"status": 1, "found": [1]})
+    assert not some.miscounts(asked, {"status": 0, "found": [1]})
+
+
+@in_turn("name", lambda: ["memory", "modbus"])
+def test_the_vectors_say_which_replies_answer(name: str) -> None:
+    compiled, made = compiled_file(MEMORY if name == "memory" else FILES[name]), lib(name)
+    roles, vectors = compiled.model.roles, vectors_of(compiled)["replies"]
+    exchanges = importlib.import_module(f"{name}._exchanges").EXCHANGES
+    for vector in vectors:
+        request, reply = (
+            made.decode(bytes.fromhex(vector[key]), made.Direction(way.key))
+            for key, way in (("request", roles.sent), ("reply", roles.received))
+        )
+        fits = exchanges[type(request)].counted.fits(request, reply)
+        assert fits is vector["answers"], vector["title"]
+    assert {vector["answers"] for vector in vectors} == {True, False}
+
+
+def test_a_memory_written_by_hand_answers_as_the_vectors_say() -> None:
+    for vector in vectors_of(compiled_file(MEMORY))["replies"]:
+        if vector["title"].startswith("BytesRead"):
+            port = MemoryPort(late={})
+            port.write(bytes.fromhex(vector["request"]))
+            answer = port.read(math.inf)
+            same_size = len(answer) == len(bytes.fromhex(vector["reply"]))
+            assert same_size is vector["answers"], vector["title"]

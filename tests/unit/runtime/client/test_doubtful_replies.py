@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 import pickle
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from busservo import (
-    AsyncController,
     BatteryVoltage,
     BatteryVoltageRead,
-    Controller,
     DoubtfulReplyError,
     Message,
     NoReplyError,
@@ -19,32 +16,26 @@ from busservo import (
     ServoPositionsRead,
 )
 from busservo._exchanges import EXCHANGES
-from busservo._library import LIBRARY
-from busservo_simulator import Faults, VirtualClock, VirtualController
-from busservo_simulator.virtual_loop import run_virtual
 from framewire.client.exchange import Exchange
-from framewire.client.session import Session
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.lines.at_board import client_at
-from tests.lines.questions import ask
-from tests.lines.timed_line import client_on
+from tests.lines.both_clients import TALKS, by_threads
+from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session
 from tests.lines.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from typing import Any
 
     import pytest
     from framewire.client.request import Request
+    from framewire.client.session import Session
 
+    from tests.lines.both_clients import Talk
     from tests.lines.virtual_line import Answer
 
-REPLY_TIMEOUT = 0.25
-# Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.
-TRIP = 10 / 960
-TOO_SOON, IN_TIME = 0.94 * TRIP, 0.96 * TRIP
 # As soon as the late reply to a question that has timed out is overdue, the next is sent.
 OVERDUE = 2 * (TRIP + REPLY_TIMEOUT)
 
@@ -68,53 +59,52 @@ class Reply(NamedTuple):
         return other.asked + 0.95 * other.size / 960 <= self.came < other.came
 
 
-def rising(line: VirtualLine, late: dict[int, float], said: list[Reply]) -> Answer:
-    """Return a board whose servo only rises; some replies, by their number, come late."""
+def rising(line: VirtualLine, place: int, late_by: float, said: list[Reply]) -> Answer:
+    """Return a board whose servo only rises; the reply at one place comes late."""
 
     def answer(message: Message) -> Iterator[tuple[float, bytes]]:
-        if isinstance(message, ServoPositionsRead):
-            position = int(line.now * 1000)
-            reply = ServoPositions([(servo, position) for servo in message.servo_ids])
-            size = len(message.encode()) + len(reply.encode())
-            delay = size / 960 + late.get(len(said), 0.0)
-            said.append(Reply(line.now, size, line.now + delay, position))
-            yield delay, reply.encode()
+        assert isinstance(message, ServoPositionsRead)
+        position = int(line.now * 1000)
+        reply = ServoPositions([(servo, position) for servo in message.servo_ids]).encode()
+        size = len(message.encode()) + len(reply)
+        delay = size / 960 + late_by * (len(said) == place)
+        said.append(Reply(line.now, size, line.now + delay, position))
+        yield delay, reply
 
     return answer
 
 
-# A line on which a late reply is overtaken by the one to the next question.
-OvertakingLine = partial(VirtualLine, in_order=False)
-
-
 # The late reply comes 50 us before the one that is due: nothing tells which it is.
-@example(0.892578125, 0, [1, 2], 0)
+@example(by_threads, 0.892578125, 0, [1, 2], 0)
 # It comes a little sooner than that can: it is dropped.
-@example(0.8916, 0, [1, 2], 0)
+@example(by_threads, 0.8916, 0, [1, 2], 0)
 @given(
+    st.sampled_from(TALKS),
     st.floats(0.5, 0.9),
     st.integers(0, 12),
     st.lists(st.integers(1, 9), min_size=1, max_size=6, unique=True),
     st.integers(0, 2),
 )
 def test_a_servo_that_only_rises_is_never_read_going_down(
-    late_by: float, place: int, servos: list[int], retries: int
+    talk: Talk, late_by: float, place: int, servos: list[int], retries: int
 ) -> None:
-    line = OvertakingLine()
+    # A late reply is overtaken by the one to the next question.
+    line = VirtualLine(in_order=False)
     said: list[Reply] = []
-    line.answer = rising(line, {place: late_by}, said)
-    client = client_on(
-        line, Controller, baud=9600, reply_timeout=REPLY_TIMEOUT, retries=retries, settle=None
-    )
+    line.answer = rising(line, place, late_by, said)
     read = []
-    for _ in range(place + 8):
-        began = line.now
-        try:
-            read.append(client.read_servo_positions(servos)[0].position)
-        except NoReplyError:
-            continue
-        finally:
-            assert line.now - began < 6 * REPLY_TIMEOUT
+
+    async def work(client: Any) -> None:
+        for _ in range(place + 8):
+            began = line.now
+            try:
+                read.append((await client.read_servo_positions(servos))[0].position)
+            except NoReplyError:
+                continue
+            finally:
+                assert line.now - began < 6 * REPLY_TIMEOUT
+
+    talk(line, work, baud=9600, reply_timeout=REPLY_TIMEOUT, retries=retries)
     assert len(read) >= place + 7  # only the late one may have failed
     if any(said[place].may_be_taken_for(each) for each in said[place + 1 :]):
         # That one read may be stale; those behind it are right.
@@ -122,29 +112,6 @@ def test_a_servo_that_only_rises_is_never_read_going_down(
         assert len(stale) <= 1
         read = [each for each in read if each not in stale]
     assert read == sorted(read)
-    client.close()
-
-
-def test_the_same_holds_for_asyncio() -> None:
-    clock = VirtualClock()
-
-    async def work(board: VirtualController) -> list[int]:
-        read: list[int] = []
-        async with client_at(
-            board, AsyncController, reply_timeout=REPLY_TIMEOUT, settle=None
-        ) as controller:
-            await controller.move_servos([(1, 1000)], time_ms=5000)
-            for number in range(12):
-                board.faults = Faults(late=float(number == 3), late_by=0.6)
-                try:
-                    read.append((await controller.read_servo_positions([1]))[0].position)
-                except NoReplyError:
-                    assert number == 3
-        return read
-
-    with VirtualController(clock=clock, baud=9600) as board:
-        read = run_virtual(work(board), clock)
-    assert (len(read), read) == (11, sorted(read))
 
 
 # ---------------------------------------------------------------- what is in doubt, and what not
@@ -182,13 +149,9 @@ DOUBTS = {
 }
 
 
-def say(line: Session, now: float, *voltages: int) -> None:
-    line.receive(b"".join(BatteryVoltage(each).encode() for each in voltages), now)
-
-
 def prepared(healthy: int, *, lost: bool = False, baud: float = 9600) -> Session:
     """Return a line on which questions were answered in time, and the last was lost perhaps."""
-    line = Session(LIBRARY, baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16)
+    line = session(baud=baud)
     for number in range(healthy):
         ask(line, number - 20.0)
         say(line, number - 20.0 + TRIP, 7500)
@@ -199,17 +162,13 @@ def prepared(healthy: int, *, lost: bool = False, baud: float = 9600) -> Session
     return line
 
 
-def replied(line: Session, now: float, replies: list[tuple[float, int]]) -> None:
-    for at in dict.fromkeys(at for at, _ in replies):
-        say(line, now + at, *(voltage for when, voltage in replies if when == at))
-
-
 @in_turn("name", lambda: DOUBTS)
 def test_a_question_in_doubt_is_asked_again(name: str) -> None:
     doubt = DOUBTS[name]
     line = prepared(doubt.healthy, lost=doubt.lost, baud=doubt.baud)
-    request = ask(line, 0.0)
-    replied(line, 0.0, doubt.replies)
+    request = ask(line)
+    for at in dict.fromkeys(at for at, _ in doubt.replies):
+        say(line, at, *(voltage for when, voltage in doubt.replies if when == at))
     if doubt.answer is not None:
         assert request.reply == BatteryVoltage(doubt.answer)
         return
@@ -225,7 +184,7 @@ def test_a_question_in_doubt_is_asked_again(name: str) -> None:
 
 def test_an_only_reply_as_late_as_the_lost_one_is_not_believed() -> None:
     line = prepared(8, lost=True)
-    request = ask(line, 0.0)
+    request = ask(line)
     say(line, 0.08, OTHER)
     line.tick(TRIP + REPLY_TIMEOUT)
     assert line.outgoing(TRIP + REPLY_TIMEOUT) == [BatteryVoltageRead().encode()]
@@ -239,7 +198,7 @@ def test_an_only_reply_as_late_as_the_lost_one_is_not_believed() -> None:
 
 
 def always_in_doubt(line: Session) -> Request:
-    request, now = ask(line, 0.0), 0.0
+    request, now = ask(line), 0.0
     while not request.done:
         say(line, now + 0.1, OTHER, OWN)
         now += 0.1

@@ -1,4 +1,4 @@
-"""A frame with a gap is no frame: what a gap ends, and what it does not."""
+"""A frame with a gap is no frame, and a silence tells that no longer one comes."""
 
 from __future__ import annotations
 
@@ -15,62 +15,60 @@ from busservo import (
 )
 from framewire.codec.gap import GAP
 
+from tests.factories import data_of, files_of, imported, library_of
 from tests.in_turn import in_turn
-from tests.lines.questions import ask
+from tests.lines.questions import ask, asked, expires, say, session
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
-from tests.unit.runtime.client.test_possible_replies import session
+from tests.mutations.places import having
+from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
-TORN = BatteryVoltage(0x1D4C).encode()[:4]
+FRAME = BatteryVoltage(7500).encode()
+TORN = FRAME[:4]
 REPORT = ActionGroupCompleted(8, 1)
 
 
 @in_turn("gap", lambda: [0.0, 0.001, 0.005, 0.03, 0.049, 0.06, 0.1, 0.2])
 def test_a_hole_and_a_report_after_any_time_are_an_error_and_that_report(gap: float) -> None:
-    line = VirtualLine(lambda message: [(0.015, TORN), (gap, REPORT)] if _asks(message) else [])
+    line = VirtualLine(
+        lambda it: [(0.015, TORN), (gap, REPORT)] if it == BatteryVoltageRead() else []
+    )
     with client_on(line, Controller) as controller:
         with pytest.raises(NoReplyError, match="4 bytes came that are no frame"):
             controller.read_battery_voltage()
         assert list(controller.reports(timeout=1)) == [REPORT]
 
 
-def _asks(message: object) -> bool:
-    return isinstance(message, BatteryVoltageRead)
-
-
-def test_a_gap_counts_only_where_the_port_was_found_empty() -> None:
-    """A process that is stopped in the middle of a reply finds the rest of it afterwards."""
-    line = session()
-    request = ask(line, 0.0)
-    frame = BatteryVoltage(7500).encode()
-    line.receive(frame[:4], 0.01)
-    line.tick(0.005)
-    # A second later: the next read finds bytes at once, so nobody knows when they came.
-    line.receive(frame[4:], 1.01)
-    line.tick(1.005)
-    assert request.reply == BatteryVoltage(7500)
-
-
-@in_turn("empty_at, ends", lambda: [(0.049, False), (0.051, True)])
+# A port found empty after so long; and the rest, which is there by then.
+@in_turn(
+    "empty_at, rest_at, ends",
+    lambda: [
+        (0.049, 0.09, False),
+        (0.051, 0.09, True),
+        # A process that was stopped for a second finds the rest at once: nobody knows when it came.
+        (-0.005, 1.01, False),
+    ],
+)
 def test_a_port_found_empty_for_longer_than_the_gap_ends_a_frame(
-    empty_at: float, ends: bool
+    empty_at: float, rest_at: float, ends: bool
 ) -> None:
     line = session()
-    request = ask(line, 0.0)
-    frame = BatteryVoltage(7500).encode()
-    line.receive(frame[:4], 0.01)
+    request = ask(line)
+    say(line, 0.01, TORN)
     line.tick(0.01 + empty_at)
-    line.receive(frame[4:], 0.09)
+    say(line, rest_at, FRAME[4:])
+    line.tick(rest_at - 0.005)
     assert (request.reply is None) is ends
-    assert line.counters.noise == (len(frame) if ends else 0)
+    assert line.counters.noise == (len(FRAME) if ends else 0)
 
 
 def test_the_next_tick_is_due_when_a_gap_is_over() -> None:
     line = session()
-    line.receive(TORN, 1.0)
+    say(line, 1.0, TORN)
     assert line.tick_at == pytest.approx(1.0 + GAP)
     line.tick(1.0 + GAP)
     assert line.tick_at is None
@@ -79,8 +77,8 @@ def test_the_next_tick_is_due_when_a_gap_is_over() -> None:
 
 def test_a_reply_that_may_be_torn_waits_until_the_line_is_quiet_and_no_longer() -> None:
     line = session()
-    request = ask(line, 0.0)
-    line.receive(BatteryVoltage(0x5555).encode(), 0.02)
+    request = ask(line)
+    say(line, 0.02, 0x5555)
     assert not request.done
     line.tick(0.02 + GAP)
     assert request.reply == BatteryVoltage(0x5555)
@@ -90,7 +88,7 @@ def test_a_reply_that_may_be_torn_is_as_old_as_its_bytes() -> None:
     """Held until the line is quiet, it is still sooner than the wire allows."""
     line = session()
     request = ask(line, 0.0, ServoPositionsRead([1]))
-    line.receive(bytes.fromhex("55 55 06 15 01 01 55 55"), 0.001)
+    say(line, 0.001, bytes.fromhex("55 55 06 15 01 01 55 55"))
     line.tick(0.001 + GAP)
     assert not request.done
     assert line.counters.impossible == 1
@@ -98,24 +96,20 @@ def test_a_reply_that_may_be_torn_is_as_old_as_its_bytes() -> None:
 
 def test_a_reply_under_way_when_the_time_is_up_may_arrive_in_full() -> None:
     line = session()
-    request = ask(line, 0.0)
-    assert line.tick_at is not None
-    expires = line.tick_at
-    frame = BatteryVoltage(7500).encode()
-    line.receive(frame[:3], expires - 0.001)
-    line.tick(expires)
-    line.receive(frame[3:], expires + 0.003)
+    request, end = ask(line), expires(line)
+    say(line, end - 0.001, FRAME[:3])
+    line.tick(end)
+    say(line, end + 0.003, FRAME[3:])
     assert request.reply == BatteryVoltage(7500)
 
 
 def test_a_line_that_never_falls_silent_does_not_keep_a_question_for_ever() -> None:
-    line = session()
-    request = ask(line, 0.0)
-    now = 0.0
+    line, now = session(), 0.0
+    request = ask(line)
     while not request.done:
         now += 0.04
         assert now < 1.0
-        line.receive(b"\x55\x55", now)
+        say(line, now, b"\x55\x55")
         line.tick(now)
     assert isinstance(request.error, NoReplyError)
 
@@ -123,23 +117,88 @@ def test_a_line_that_never_falls_silent_does_not_keep_a_question_for_ever() -> N
 def test_a_frame_that_breaks_off_is_marked_in_the_trace(tmp_path: Path) -> None:
     line = VirtualLine(lambda _: [(0.0, b"\x55\x55\x04")])
     trace = tmp_path / "line.log"
-    with (
-        client_on(line, Controller, trace=trace) as controller,
-        pytest.raises(NoReplyError),
-    ):
+    with client_on(line, Controller, trace=trace) as controller, pytest.raises(NoReplyError):
         controller.read_battery_voltage()
     assert "# quiet" in trace.read_text(encoding="utf-8")
 
 
 def test_a_reply_behind_a_false_header_is_found_in_time_though_the_line_is_never_quiet() -> None:
     line = session()
-    request = ask(line, 0.0)
+    request = ask(line)
     # What claims to be positions of 84 servos; the voltage is in the middle of it.
-    line.receive(b"\x55\x55\xff\x15\x54" + BatteryVoltage(7500).encode(), 0.02)
+    say(line, 0.02, b"\x55\x55\xff\x15\x54", FRAME)
     for step in range(3, 16):
         line.tick(step / 50)
-        line.receive(b"\x00", step / 50)
+        say(line, step / 50, b"\x00")
     assert not request.done
     line.tick(0.25 + 10 / 960 + GAP)
     assert request.reply == BatteryVoltage(7500)
     assert line.counters.timeouts == 0
+
+
+# ------------------------------------------------------------------ the beginning of a longer one
+
+
+@pytest.fixture(scope="module")
+def libraries() -> Iterator[None]:
+    """Import libraries; in one, the fault of the gauges may come instead of a pressure, too."""
+    refusal = {"protocol.name": "refusing", "messages.PressureRead.refusal": "Fault"}
+    refusing = files_of(having(data_of(FILES["gauges"]), refusal))
+    with imported(refusing, *(library_of(FILES[name]) for name in ("gauges", "roboclaw"))):
+        yield
+
+
+def test_a_report_is_there_once_no_longer_frame_comes(libraries: None) -> None:
+    line, request, kinds = asked("gauges", "PressureRead")
+    fault = kinds.Fault(7)
+    say(line, 0.1, fault)
+    assert line.tick_at == pytest.approx(0.1 + GAP)
+    assert line.counters.reports == 0
+    line.tick(0.1 + GAP)
+    assert line.reports.take() == fault
+    assert not request.done
+
+
+def test_a_reply_that_begins_like_a_report_is_a_reply(libraries: None) -> None:
+    line, request, kinds = asked("gauges", "PressureRead")
+    pressure = kinds.Pressure(0x0728)
+    assert pressure.encode().startswith(kinds.Fault(7).encode())
+    for at, byte in enumerate(pressure.encode()):
+        say(line, 0.1 + at / 1000, bytes([byte]))
+        line.tick(0.1 + at / 1000)
+    assert request.reply == pressure
+    assert (line.counters.reports, line.counters.noise) == (0, 0)
+
+
+# Also so near the end of its time.
+@in_turn("before_the_end", lambda: [0.15, 0.001])
+def test_of_two_answers_the_shorter_waits(libraries: None, before_the_end: float) -> None:
+    line, request, kinds = asked("refusing", "PressureRead")
+    at = request.deadline - before_the_end
+    say(line, at, kinds.Fault(7))
+    line.tick(at + GAP / 2)
+    assert not request.done
+    line.tick(at + GAP)
+    assert request.reply == kinds.Fault(7)
+
+
+def test_an_answer_waits_for_nothing_that_nobody_has_asked_for(libraries: None) -> None:
+    line, request, kinds = asked("roboclaw", "VoltageRead")
+    say(line, 0.1, kinds.Voltage(120))
+    assert line.tick_at == pytest.approx(0.1)
+    line.tick(0.1)
+    assert request.reply == kinds.Voltage(120)
+    # Nothing is left of it: the next is read as it comes.
+    say(line, 0.11, b"\0")
+    assert line.tick_at == pytest.approx(0.11 + GAP)
+
+
+def test_it_waits_where_a_longer_one_may_come_late(libraries: None) -> None:
+    line, late, kinds = asked("roboclaw", "VersionRead")
+    line.cancel(late)
+    request = ask(line, 0.01, kinds.VoltageRead())
+    say(line, 0.1, kinds.Voltage(120))
+    line.tick(0.1)
+    assert not request.done
+    line.tick(0.1 + GAP)
+    assert request.reply == kinds.Voltage(120)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import sys
 import threading
 import types
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
@@ -25,7 +24,6 @@ from busservo import (
     ServoPositions,
     StreamDecoder,
     TransportError,
-    open_async_controller,
     open_controller,
 )
 from busservo._library import CODEC, LINK
@@ -34,12 +32,16 @@ from framewire.line.hid_devices import HidDevice, hid_devices_at_hand, hid_libra
 from framewire.line.hid_port import HidPort, open_hid
 
 from tests.in_turn import in_turn
-from tests.lines.live_line import answered
-from tests.timeouts import GENEROUS, LIVE
+from tests.lines.both_clients import PORT_TALKS
+from tests.lines.gates import closing_ends_a_read
+from tests.lines.receiving import answered
+from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from tests.lines.both_clients import Talk
 
 KNOWN = {"vendor_id": 0x0483, "product_id": 0x5750, "product_string": "LOBOT"}
 OTHER = {"vendor_id": 0x046D, "product_id": 0xC31C, "product_string": "Keyboard"}
@@ -126,42 +128,28 @@ def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[Library]:
     assert all(each.closed for each in made.devices)
 
 
-@pytest.mark.parametrize("port", ["hid://", "HID://0483:5750", "hid:///dev/null"])
-def test_a_session_by_usb_hid(library: Library, port: str) -> None:
-    with open_controller(port, **LIVE) as controller:
-        assert controller.read_battery_voltage() == 7500
-        assert controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
-        sent = controller.move_servos([(1, 800)], time_ms=0)
-        assert sent.delay >= 0
-    (device,) = library.devices
-    assert device.written[0] == bytes.fromhex("00 55 55 02 0F") + bytes(60)
+ROOM = "the frame has {} bytes, and this line carries 64 at once: room for {}"
 
 
-def test_a_session_by_usb_hid_with_asyncio(library: Library) -> None:
-    async def work() -> None:
-        async with open_async_controller("hid://", **LIVE) as controller:
-            assert await controller.read_battery_voltage() == 7500
-            with pytest.raises(EncodeError, match="room for 19 of 20"):
-                await controller.move_servos([(each, 500) for each in range(20)], time_ms=0)
-
-    asyncio.run(work())
-
-
-def test_a_frame_that_no_report_holds_is_refused_and_the_line_lives_on(library: Library) -> None:
-    problem = (
-        "targets: the frame has 67 bytes, and this line carries 64 at once: room for 19 of 20",
-        "servo_ids: the frame has 65 bytes, and this line carries 64 at once: room for 59 of 60",
-    )
-    with open_controller("hid://", **LIVE) as controller:
+@pytest.mark.parametrize("talk", PORT_TALKS)
+@in_turn("port", lambda: ["hid://", "HID://0483:5750", "hid:///dev/null"])
+def test_a_session_by_usb_hid(library: Library, talk: Talk, port: str) -> None:
+    async def work(controller: Any) -> None:
+        assert await controller.read_battery_voltage() == 7500
+        assert await controller.read_servo_positions([1, 2]) == ((1, 10), (2, 20))
         with pytest.raises(EncodeError) as caught:
-            controller.move_servos([(each, 500) for each in range(20)], time_ms=0)
-        assert str(caught.value) == problem[0]
+            await controller.move_servos([(each, 500) for each in range(20)], time_ms=0)
+        assert str(caught.value) == f"targets: {ROOM.format(67, '19 of 20')}"
         with pytest.raises(EncodeError) as caught:
-            controller.unload_servos(range(60))
-        assert str(caught.value) == problem[1]
-        controller.move_servos([(each, 500) for each in range(19)], time_ms=0)
-        assert controller.read_battery_voltage() == 7500
-    assert max(len(each.rstrip(b"\0")) for each in library.devices[0].written) == 1 + 64
+            await controller.unload_servos(range(60))
+        assert str(caught.value) == f"servo_ids: {ROOM.format(65, '59 of 60')}"
+        await controller.move_servos([(each, 500) for each in range(19)], time_ms=0)
+        assert await controller.read_battery_voltage() == 7500
+
+    talk(port, work, **LIVE)
+    written = library.devices[-1].written
+    assert written[0] == bytes.fromhex("00 55 55 02 0F") + bytes(60)
+    assert max(len(each.rstrip(b"\0")) for each in written) == 1 + 64
 
 
 def port_on(device: Device) -> HidPort:
@@ -242,19 +230,7 @@ def test_a_board_that_is_gone_is_lost() -> None:
 
 
 def test_closing_ends_a_read_in_another_thread() -> None:
-    port = port_on(Device())
-    ended = threading.Event()
-
-    def read() -> None:
-        with pytest.raises(ClosedError):
-            port.read(2 * GENEROUS)
-        ended.set()
-
-    thread = threading.Thread(target=read)
-    thread.start()
-    port.close()
-    assert ended.wait(GENEROUS)
-    thread.join()
+    closing_ends_a_read(port_on(Device()))
 
 
 def test_the_same_board_is_opened_again(library: Library) -> None:
@@ -275,6 +251,12 @@ def test_silence_is_no_reply(library: Library) -> None:
         controller.read_battery_voltage()
 
 
+TWO, CHOICE = (
+    [plugged(path=b"1-1"), plugged(path=b"1-2")],
+    r"hid://1-1 \(0483:5750\), hid://1-2 ",
+)
+
+
 @in_turn(
     "found, port, error, expected",
     lambda: [
@@ -282,12 +264,7 @@ def test_silence_is_no_reply(library: Library) -> None:
         ([OTHER | {"path": b"1"}], "hid://", PortNotFoundError, "no USB HID device"),
         ([plugged()], "hid://0483:0001", PortNotFoundError, "these exist: hid:///dev/null"),
         ([plugged()], "hid:///dev/zero", PortNotFoundError, "these exist: hid:///dev/null"),
-        (
-            [plugged(path=b"1-1"), plugged(path=b"1-2")],
-            "hid://0483:5750",
-            PortAddressError,
-            r"2 devices are plugged in; choose: hid://1-1 \(0483:5750\), hid://1-2 ",
-        ),
+        (TWO, "hid://0483:5750", PortAddressError, "2 devices are plugged in; choose: " + CHOICE),
         ([plugged()], "hid:", PortAddressError, "no address of USB HID; write hid://"),
         ([plugged(path=b"busy")], "hid://", TransportError, "0483:5750 cannot be opened .*udev"),
     ],
@@ -299,9 +276,7 @@ def test_a_board_that_cannot_be_opened_is_reported_with_advice(
         open_hid(port, LINK, CODEC, library=Library(*found))
 
 
-def test_permission_comes_with_the_rule_that_gives_it(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_permission_comes_with_the_rule_that_gives_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)
     with pytest.raises(PortPermissionError) as caught:
         open_hid("hid://", LINK, CODEC, library=Library(plugged(path=b"/dev/busy")))
@@ -309,7 +284,7 @@ def test_permission_comes_with_the_rule_that_gives_it(
     assert rule in str(caught.value)
 
 
-@pytest.mark.parametrize("module", [None, types.SimpleNamespace(Device=object)])
+@in_turn("module", lambda: [None, types.SimpleNamespace(Device=object)])
 def test_without_the_extra_it_says_how_to_get_it(
     monkeypatch: pytest.MonkeyPatch, module: object
 ) -> None:

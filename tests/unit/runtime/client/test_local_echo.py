@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
-import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -13,7 +11,6 @@ from busservo import (
     ActionGroupStarted,
     ActionGroupStop,
     ActionGroupStopped,
-    AsyncController,
     BatteryVoltage,
     BatteryVoltageRead,
     Controller,
@@ -26,15 +23,17 @@ from busservo._exchanges import EXCHANGES
 from busservo._library import LIBRARY
 from framewire.client.local_echo import LocalEcho
 from framewire.client.request import Request
-from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
+from tests.lines.both_clients import both_live
 from tests.lines.live_line import LiveLine, answered
+from tests.lines.questions import session
+from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
-from tests.timeouts import GENEROUS
+from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -48,11 +47,16 @@ def wire(message: Message) -> float:
     return len(message.encode()) / 960
 
 
-def echoing(message: Message) -> Incoming:
-    """Yield the echo of a half-duplex adapter, and the replies of a board with a voltage only."""
-    yield wire(message), message.encode()
+def replies(message: Message) -> Incoming:
+    """Yield the replies of a board with a voltage only."""
     if isinstance(message, BatteryVoltageRead):
         yield wire(message) + 0.02, BatteryVoltage(7500)
+
+
+def echoing(message: Message) -> Incoming:
+    """Yield the echo of a half-duplex adapter, and the replies."""
+    yield wire(message), message.encode()
+    yield from replies(message)
 
 
 def one_that_starts(message: Message) -> Incoming:
@@ -66,16 +70,7 @@ def in_pieces(message: Message) -> Incoming:
     yield 0.0, STARTED
     for number, byte in enumerate(message.encode()):
         yield number / 960, bytes([byte])
-    if isinstance(message, BatteryVoltageRead):
-        yield wire(message) + 0.02, BatteryVoltage(7500)
-
-
-def silent(_message: Message) -> Incoming:
-    return ()
-
-
-def without(message: Message) -> Incoming:
-    return [each for each in echoing(message) if each[1] != message.encode()]
+    yield from replies(message)
 
 
 def changed(message: Message) -> Incoming:
@@ -85,8 +80,7 @@ def changed(message: Message) -> Incoming:
 
 
 def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -> Any:
-    line = VirtualLine(answer)
-    return client_on(line, Controller, local_echo=local_echo)
+    return client_on(VirtualLine(answer), Controller, local_echo=local_echo)
 
 
 @in_turn("answer", lambda: [echoing, in_pieces])
@@ -108,7 +102,7 @@ def test_a_report_like_the_command_is_distinguished_from_its_echo() -> None:
 
 
 def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
-    line = Session(LIBRARY, baud=9600, reply_timeout=0.25, report_limit=16, local_echo=True)
+    line = session(local_echo=True)
     first, second = line.submit(ActionGroupStop()), line.submit(ActionGroupRun(8, 1))
     assert len(line.outgoing(0.0)) == 1
     assert len(line.outgoing(0.01)) == 1
@@ -119,7 +113,7 @@ def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
     assert line.idle
 
 
-@in_turn("answer", lambda: [silent, without, changed])
+@in_turn("answer", lambda: [unanswered, replies, changed])
 def test_a_missing_echo_is_an_error(answer: Callable[[Message], Incoming]) -> None:
     with virtual(answer) as controller:
         with pytest.raises(EchoError, match="leave out local_echo") as caught:
@@ -130,23 +124,17 @@ def test_a_missing_echo_is_an_error(answer: Callable[[Message], Incoming]) -> No
 
 
 def test_after_a_missing_echo_the_line_goes_on() -> None:
-    answers = [silent, echoing]
-
-    def answer(message: Message) -> Incoming:
-        return answers[0](message)
-
-    with virtual(answer) as controller:
+    line = VirtualLine(unanswered)
+    with client_on(line, Controller, local_echo=True) as controller:
         with pytest.raises(EchoError):
             controller.stop_action_group()
-        del answers[0]
+        line.answer = echoing
         assert controller.read_battery_voltage() == 7500
         assert list(controller.reports(timeout=1)) == []
 
 
-def test_a_motion_that_nobody_waits_for_says_so_in_the_log(
-    caplog: pytest.LogCaptureFixture,
-) -> None:
-    with virtual(silent) as controller:
+def test_a_motion_that_nobody_waits_for_says_so_in_the_log(caplog: Any) -> None:
+    with virtual(unanswered) as controller:
         controller.send_latest(ServoMove(0, [(1, 500)]))
         assert list(controller.reports(timeout=1)) == []
     assert "has not come back" in caplog.text
@@ -159,40 +147,27 @@ def test_closing_waits_for_the_last_echo() -> None:
     assert controller.counters.echoes == 1
 
 
-@in_turn("answer", lambda: [answered, lambda _: []])
-def test_the_same_in_real_time_for_threads(answer: Callable[[Message], list[Message]]) -> None:
-    line = LiveLine(lambda message: [message, *answer(message)])
-    with Controller(
-        line, local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
-    ) as controller:
-        controller.stop_action_group()
-        if answer is answered:
-            assert controller.read_battery_voltage() == 7500
-        assert list(controller.reports(timeout=0.05)) == []
+def live(answer: Callable[[Message], list[Message]] = answered) -> LiveLine:
+    return LiveLine(lambda message: [message, *answer(message)])
 
 
-def test_the_same_in_real_time_for_asyncio() -> None:
-    async def work() -> None:
-        line = LiveLine(lambda message: [message, *answered(message)])
-        async with AsyncController(
-            line, local_echo=True, baud=math.inf, reply_timeout=GENEROUS, settle=0
-        ) as controller:
-            await controller.stop_action_group()
-            assert await controller.read_battery_voltage() == 7500
-            assert [report async for report in controller.reports(timeout=0.05)] == []
-        async with AsyncController(LiveLine(), local_echo=True, settle=0) as controller:
-            with pytest.raises(EchoError):
-                await controller.stop_action_group()
+@both_live(live, local_echo=True, **LIVE)
+async def test_the_same_in_real_time(controller: Any) -> None:
+    await controller.stop_action_group()
+    assert await controller.read_battery_voltage() == 7500
+    assert [report async for report in controller.reports(timeout=0.05)] == []
 
-    asyncio.run(work())
+
+@both_live(LiveLine, local_echo=True, settle=0)
+async def test_a_missing_echo_is_an_error_in_real_time(controller: Any) -> None:
+    with pytest.raises(EchoError):
+        await controller.stop_action_group()
 
 
 # ---------------------------------------------------------------- unless it is said
 
 
-def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(
-    caplog: pytest.LogCaptureFixture,
-) -> None:
+def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(caplog: Any) -> None:
     with caplog.at_level(logging.WARNING), virtual(echoing, local_echo=False) as controller:
         for _ in range(3):
             assert controller.read_battery_voltage() == 7500
@@ -226,18 +201,11 @@ def request(message: Message) -> Request:
     return Request(message, EXCHANGES[type(message)])
 
 
+SENT = [ActionGroupStop(), ActionGroupRun(8, 1), BatteryVoltageRead(), ServoMove(0, [(85, 85)])]
+
+
 @given(
-    st.lists(
-        st.sampled_from(
-            [
-                ActionGroupStop(),
-                ActionGroupRun(8, 1),
-                BatteryVoltageRead(),
-                ServoMove(0, [(85, 85)]),
-            ]
-        ),
-        max_size=4,
-    ),
+    st.lists(st.sampled_from(SENT), max_size=4),
     st.lists(st.sampled_from([b"", STARTED.encode(), b"\x00", b"\x13"]), min_size=5, max_size=5),
     st.data(),
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo import (
@@ -23,11 +23,8 @@ from tests.lines.at_board import client_at, virtual_board
 from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.timed_line import client_on
-from tests.lines.virtual_line import VirtualLine, client, run
+from tests.lines.virtual_line import VirtualLine, client, in_virtual_time
 from tests.timeouts import GENEROUS, LIVE
-
-if TYPE_CHECKING:
-    from tests.lines.both_clients import Talk
 
 MOVE = 10 / 960  # a move of one servo, on the wire
 SIX = [(servo, 500) for servo in range(1, 7)]
@@ -38,50 +35,37 @@ LONG = 60_000
 # -------------------------------------------------------------------- when it ends
 
 
-@both
 @in_turn("time_ms", lambda: [0, 1, 1000, 65535])
-def test_a_motion_ends_once_its_frame_has_left_and_its_time_is_over(
-    talk: Talk, time_ms: int
+@both()
+async def test_a_motion_ends_once_its_frame_has_left_and_its_time_is_over(
+    controller: Any, line: Any, time_ms: int
 ) -> None:
-    line = VirtualLine()
-
-    async def work(controller: Any) -> None:
-        motion = await controller.move_servos([(1, 800)], time_ms)
-        assert motion.ends_at == pytest.approx(line.now + MOVE + time_ms / 1000)
-        assert motion.remaining == pytest.approx(MOVE + time_ms / 1000)
-        assert motion.lasts == time_ms / 1000
-        assert await motion.wait()
-        assert motion.ends_at <= line.now < motion.ends_at + 0.001
-        assert motion.remaining == 0.0
-        assert await motion.wait(), "it may be waited for again"
-
-    talk(line, work)
+    motion = await controller.move_servos([(1, 800)], time_ms)
+    assert motion.ends_at == pytest.approx(line.now + MOVE + time_ms / 1000)
+    assert motion.remaining == pytest.approx(MOVE + time_ms / 1000)
+    assert motion.lasts == time_ms / 1000
+    assert await motion.wait()
+    assert motion.ends_at <= line.now < motion.ends_at + 0.001
+    assert motion.remaining == 0.0
+    assert await motion.wait(), "it may be waited for again"
 
 
-@both
-def test_what_stands_before_it_on_the_wire_puts_off_its_end(talk: Talk) -> None:
-    line = VirtualLine()
-
-    async def work(controller: Any) -> None:
-        await controller.move_servos([(servo, 500) for servo in range(1, 80)], 0)
-        began = line.now
-        motion = await controller.move_servos([(1, 800)], 100)
-        queued = motion.delay + (line.now - began)
-        assert queued == pytest.approx((7 + 79 * 3) / 960, abs=0.001)
-        assert motion.ends_at == pytest.approx(began + queued + MOVE + 0.1, abs=0.001)
-
-    talk(line, work)
+@both()
+async def test_what_stands_before_it_on_the_wire_puts_off_its_end(
+    controller: Any, line: Any
+) -> None:
+    await controller.move_servos([(servo, 500) for servo in range(1, 80)], 0)
+    began = line.now
+    motion = await controller.move_servos([(1, 800)], 100)
+    queued = motion.delay + (line.now - began)
+    assert queued == pytest.approx((7 + 79 * 3) / 960, abs=0.001)
+    assert motion.ends_at == pytest.approx(began + queued + MOVE + 0.1, abs=0.001)
 
 
-@both
-def test_a_line_that_takes_no_time_takes_none_of_a_motion(talk: Talk) -> None:
-    line = VirtualLine()
-
-    async def work(controller: Any) -> None:
-        motion = await controller.move_servos(SIX, 500)
-        assert motion.ends_at == line.now + 0.5
-
-    talk(line, work, baud=math.inf)
+@both(baud=math.inf)
+async def test_a_line_that_takes_no_time_takes_none_of_a_motion(controller: Any, line: Any) -> None:
+    motion = await controller.move_servos(SIX, 500)
+    assert motion.ends_at == line.now + 0.5
 
 
 def test_whatever_sends_it_a_move_is_a_motion() -> None:
@@ -95,13 +79,11 @@ def test_whatever_sends_it_a_move_is_a_motion() -> None:
         assert sent.wait()
 
 
-def test_whatever_sends_it_a_move_in_a_task_is_a_motion() -> None:
-    async def work() -> None:
-        async with client(VirtualLine()) as controller:
-            assert isinstance(await controller.move_servos(SIX, 0), AsyncMotion)
-            assert isinstance(await controller.send(ServoMove(0, SIX)), AsyncMotion)
-
-    run(work())
+@in_virtual_time
+async def test_whatever_sends_it_a_move_in_a_task_is_a_motion() -> None:
+    async with client(VirtualLine()) as controller:
+        assert isinstance(await controller.move_servos(SIX, 0), AsyncMotion)
+        assert isinstance(await controller.send(ServoMove(0, SIX)), AsyncMotion)
 
 
 def test_with_a_board_in_virtual_time_the_servo_is_there_when_the_motion_is_over() -> None:
@@ -114,40 +96,32 @@ def test_with_a_board_in_virtual_time_the_servo_is_there_when_the_motion_is_over
 # -------------------------------------------------------------------- while it is waited for
 
 
-@both
-def test_reports_are_kept_and_delivered_while_a_motion_is_waited_for(talk: Talk) -> None:
-    line = VirtualLine()
+@both()
+async def test_reports_are_kept_and_delivered_while_a_motion_is_waited_for(
+    controller: Any, line: Any
+) -> None:
+    received: list[float] = []
+    controller.on_report(lambda _: received.append(line.now))
+    motion = await controller.move_servos([(1, 800)], 1000)
+    line.say(ActionGroupStopped(), 0.5)
+    await motion.wait()
+    assert received == [pytest.approx(0.5, abs=0.03)]
+    kept = [report async for report in controller.reports(timeout=0)]
+    assert kept == [ActionGroupStopped()]
 
-    async def work(controller: Any) -> None:
-        received: list[float] = []
-        controller.on_report(lambda _: received.append(line.now))
-        motion = await controller.move_servos([(1, 800)], 1000)
-        line.say(ActionGroupStopped(), 0.5)
+
+@both()
+async def test_a_line_that_is_lost_or_closed_ends_the_wait(controller: Any, line: Any) -> None:
+    over = await controller.move_servos([(1, 800)], 10)
+    await over.wait()
+    motion = await controller.move_servos([(1, 800)], 1000)
+    line.unplug()
+    with pytest.raises(DisconnectedError, match="the line was lost"):
         await motion.wait()
-        assert received == [pytest.approx(0.5, abs=0.03)]
-        kept = [report async for report in controller.reports(timeout=0)]
-        assert kept == [ActionGroupStopped()]
-
-    talk(line, work)
-
-
-@both
-def test_a_line_that_is_lost_or_closed_ends_the_wait(talk: Talk) -> None:
-    line = VirtualLine()
-
-    async def work(controller: Any) -> None:
-        over = await controller.move_servos([(1, 800)], 10)
-        await over.wait()
-        motion = await controller.move_servos([(1, 800)], 1000)
-        line.unplug()
-        with pytest.raises(DisconnectedError, match="the line was lost"):
-            await motion.wait()
-        await controller.close()
-        with pytest.raises(ClosedError):
-            await motion.wait()
-        assert await over.wait(), "it had ended before"
-
-    talk(line, work)
+    await controller.close()
+    with pytest.raises(ClosedError):
+        await motion.wait()
+    assert await over.wait(), "it had ended before"
 
 
 def test_closing_in_another_thread_ends_the_wait() -> None:
@@ -171,97 +145,77 @@ def test_a_motion_is_waited_for_while_others_talk() -> None:
 
 @in_turn("error", lambda: [DisconnectedError, ClosedError])
 @in_turn("latest", lambda: [False, True])
-def test_in_a_task_a_line_that_is_lost_or_closed_meanwhile_ends_the_wait(
+@in_virtual_time
+async def test_in_a_task_a_line_that_is_lost_or_closed_meanwhile_ends_the_wait(
     latest: bool, error: type[Exception]
 ) -> None:
     line = VirtualLine()
-
-    async def work() -> None:
-        async with client(line, baud=1000) as controller:
-            await controller.move_servos([(1, 500)], 20)
-            motion = await controller.move_servos([(1, 800)], LONG, latest=latest)
-            pending = asyncio.ensure_future(motion.wait())
-            await asyncio.sleep(0)
-            if error is ClosedError:
-                await controller.close()
-            else:
-                line.unplug()
-            with pytest.raises(error):
-                await asyncio.wait_for(pending, GENEROUS)
-
-    run(work(), line)
+    async with client(line, baud=1000) as controller:
+        await controller.move_servos([(1, 500)], 20)
+        motion = await controller.move_servos([(1, 800)], LONG, latest=latest)
+        pending = asyncio.ensure_future(motion.wait())
+        await asyncio.sleep(0)
+        if error is ClosedError:
+            await controller.close()
+        else:
+            line.unplug()
+        with pytest.raises(error):
+            await asyncio.wait_for(pending, GENEROUS)
 
 
-def test_a_wait_that_is_cancelled_leaves_the_line_usable() -> None:
-    async def work() -> None:
-        async with client(VirtualLine(answered), **LIVE) as controller:
-            motion = await controller.move_servos([(1, 800)], LONG)
-            with pytest.raises(asyncio.TimeoutError):
-                await asyncio.wait_for(motion.wait(), 0.01)
-            assert await controller.read_battery_voltage() == 7500
-
-    run(work())
+@in_virtual_time
+async def test_a_wait_that_is_cancelled_leaves_the_line_usable() -> None:
+    async with client(VirtualLine(answered), **LIVE) as controller:
+        motion = await controller.move_servos([(1, 800)], LONG)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(motion.wait(), 0.01)
+        assert await controller.read_battery_voltage() == 7500
 
 
 # -------------------------------------------------------------------- of which the latest wins
 
 
-@both
-def test_the_latest_move_takes_the_place_of_what_waits(talk: Talk) -> None:
-    line = VirtualLine()
+@both()
+async def test_the_latest_move_takes_the_place_of_what_waits(controller: Any, line: Any) -> None:
+    first, second, third = [
+        await controller.move_servos([(1, position)], 100, latest=True) for position in (10, 20, 30)
+    ]
+    other = await controller.move_servos([(2, 40)], 100, latest=True)
+    assert line.now == 0, "none of them waits for the line"
+    assert first.ends_at == pytest.approx(MOVE + 0.1)
+    assert (second.ends_at, second.remaining, second.replaced) == (None, None, True)
+    assert (third.ends_at, third.remaining, third.replaced) == (None, None, False)
+    assert third.delay == pytest.approx(MOVE)
+    assert not await second.wait()
+    assert line.now == 0
+    assert await third.wait()
+    assert line.now == pytest.approx(2 * MOVE + 0.1, abs=0.001)
+    assert await other.wait()
+    assert line.received == [ServoMove(100, [each]) for each in [(1, 10), (1, 30), (2, 40)]]
+    assert controller.counters.replaced == 1
 
-    async def work(controller: Any) -> None:
-        first, second, third = [
-            await controller.move_servos([(1, position)], 100, latest=True)
-            for position in (10, 20, 30)
+
+@in_virtual_time
+async def test_in_a_task_all_that_wait_for_moves_learn_which_have_left() -> None:
+    line = VirtualLine()
+    async with client(line, baud=1000) as controller:
+        motions = [
+            await controller.move_servos([(1, position)], 20, latest=True) for position in range(50)
         ]
-        other = await controller.move_servos([(2, 40)], 100, latest=True)
-        assert line.now == 0, "none of them waits for the line"
-        assert first.ends_at == pytest.approx(MOVE + 0.1)
-        assert (second.ends_at, second.remaining, second.replaced) == (None, None, True)
-        assert (third.ends_at, third.remaining, third.replaced) == (None, None, False)
-        assert third.delay == pytest.approx(MOVE)
-        assert not await second.wait()
-        assert line.now == 0
-        assert await third.wait()
-        assert line.now == pytest.approx(2 * MOVE + 0.1, abs=0.001)
-        assert await other.wait()
-        assert line.received == [ServoMove(100, [each]) for each in [(1, 10), (1, 30), (2, 40)]]
-        assert controller.counters.replaced == 1
-
-    talk(line, work)
+        pending = asyncio.gather(*(motion.wait() for motion in motions))
+        ended = await asyncio.wait_for(pending, GENEROUS)
+        assert ended == [not motion.replaced for motion in motions]
+        assert (ended[0], ended[-1], sum(ended)) == (True, True, 2)
+        left = [position for position, each in enumerate(motions) if not each.replaced]
+        assert line.received == [ServoMove(20, [(1, position)]) for position in left]
 
 
-def test_in_a_task_all_that_wait_for_moves_learn_which_have_left() -> None:
-    line = VirtualLine()
-
-    async def work() -> None:
-        async with client(line, baud=1000) as controller:
-            motions = [
-                await controller.move_servos([(1, position)], 20, latest=True)
-                for position in range(50)
-            ]
-            pending = asyncio.gather(*(motion.wait() for motion in motions))
-            ended = await asyncio.wait_for(pending, GENEROUS)
-            assert ended == [not motion.replaced for motion in motions]
-            assert (ended[0], ended[-1], sum(ended)) == (True, True, 2)
-            left = [position for position, each in enumerate(motions) if not each.replaced]
-            assert line.received == [ServoMove(20, [(1, position)]) for position in left]
-
-    run(work(), line)
-
-
-@both
-def test_a_move_that_never_left_ends_with_the_error(talk: Talk) -> None:
-    line = VirtualLine()
-
-    async def work(controller: Any) -> None:
-        await controller.move_servos([(1, 10)], 100, latest=True)
-        motion = await controller.move_servos([(1, 20)], 100, latest=True)
-        line.unplug()
-        for _ in range(2):
-            with pytest.raises(DisconnectedError, match="the line was lost"):
-                await motion.wait()
-        assert not motion.replaced
-
-    talk(line, work)
+@both()
+async def test_a_move_that_never_left_ends_with_the_error(controller: Any, line: Any) -> None:
+    await controller.move_servos([(1, 10)], 100, latest=True)
+    motion = await controller.move_servos([(1, 20)], 100, latest=True)
+    line.unplug()
+    for _ in range(2):
+        with pytest.raises(DisconnectedError, match="the line was lost"):
+            await motion.wait()
+    assert not motion.replaced

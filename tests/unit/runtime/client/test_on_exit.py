@@ -9,8 +9,7 @@ import pickle
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import lxservo
 import pytest
@@ -32,11 +31,11 @@ from framewire.client.line_threads import LineThreads
 
 from tests.factories import DEMO, library, library_of
 from tests.in_turn import in_turn
-from tests.lines.both_clients import both
+from tests.lines.both_clients import TALKS
 from tests.lines.live_line import LiveLine
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_of, client_on
-from tests.lines.virtual_line import VirtualLine, client, run
+from tests.lines.virtual_line import VirtualLine, client, in_virtual_time, run
 from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
@@ -85,40 +84,39 @@ def held(*targets: tuple[int, int], asked: tuple[int, ...] | None = None) -> lis
     return [ServoPositionsRead(asked), ServoMove(100, targets)]
 
 
-@dataclass
-class Case:
-    """A body, what is sent after it, and whom the error names."""
+class Case(NamedTuple):
+    """A body, what is sent after it, whom the error names, and what the client is made with."""
 
     about: str
     body: list[Step]
     sent: Sequence[Message]
     left: dict[int, str] | None = None
-    on_exit: str | None = "hold"
-    answer: Callable[[Message], list[Message]] = where
-    given: dict[str, Any] = field(default_factory=dict)
     cause: type[Exception] | None = None
+    given: dict[str, Any] = {}  # noqa: RUF012 - nobody changes it
+    answer: Callable[[Message], list[Message]] = where
 
 
+UNLOAD = {"on_exit": "unload"}
+BEYOND = "it is outside 1..253"
+LOST = "the line was lost"
 NO_ANSWER = [ServoPositionsRead([1])] * 3
+FIRST_OF_A_STREAM = ServoMove(LONG, [(1, 900)])
 CASES = [
     Case("what was moved is held where it is", [move(1, 2)], held((1, 433), (2, 612))),
     Case("nothing was moved, so nothing is sent", [], []),
-    Case("whoever is not to be held goes on", [move(1)], [], on_exit=None),
-    Case("what was moved is released", [move(1, 2)], [ServoUnload([1, 2])], on_exit="unload"),
+    Case("whoever is not to be held goes on", [move(1)], [], given={"on_exit": None}),
+    Case("what was moved is released", [move(1, 2)], [ServoUnload([1, 2])], given=UNLOAD),
     Case("what is released already stays so", [move(1, 2), release(1)], held((2, 612))),
-    Case("it is released no second time", [move(1), release(1)], [], on_exit="unload"),
+    Case("it is released no second time", [move(1), release(1)], [], given=UNLOAD),
     Case("it is held if moved again", [release(1), move(1)], held((1, 433))),
     Case(
-        "what another program may have moved is held if it is named",
-        [move(1)],
-        held((2, 612), (1, 433)),
-        given={"ids": (2, 1)},
+        "whoever is named is held too", [move(1)], held((2, 612), (1, 433)), given={"ids": (2, 1)}
     ),
     Case("it needs no move", [], held((2, 612)), given={"ids": (2,)}),
     Case(
         "the last of a stream goes before",
         [move(1, latest=True)] * 5,
-        [ServoMove(LONG, [(1, 900)]), *held((1, 433))],
+        [FIRST_OF_A_STREAM, *held((1, 433))],
     ),
     Case(
         "those outside the limits are named, the others held",
@@ -134,57 +132,31 @@ CASES = [
     ),
     Case("one that is off is named", [move(4, 2)], held((2, 612), asked=(4, 2)), {4: "no answer"}),
     Case("all may be off", [move(4)], [ServoPositionsRead([4])], {4: "no answer"}),
-    Case(
-        "nobody can be asked under an address of many",
-        [move(254, 1)],
-        held((1, 433)),
-        {254: "it is outside 1..253"},
-    ),
-    Case("and of these alone, none is", [move(254)], [], {254: "it is outside 1..253"}),
+    Case("nobody answers for all", [move(254, 1)], held((1, 433)), {254: BEYOND}),
+    Case("and of these alone, none is", [move(254)], [], {254: BEYOND}),
     Case(
         "it is asked three times",
         [move(1)],
         NO_ANSWER,
         {1: "no answer"},
+        NoReplyError,
         answer=unanswered,
-        cause=NoReplyError,
     ),
     Case(
         "it does not take for ever",
         [move(1)],
         NO_ANSWER[:1],
         {1: "there was no time"},
-        answer=unanswered,
         given={"reply_timeout": 60.0},
+        answer=unanswered,
     ),
-    Case(
-        "a lost line",
-        [move(1, 2), lose],
-        [],
-        dict.fromkeys((1, 2), "the line was lost"),
-        cause=DisconnectedError,
-    ),
-    Case(
-        "a lost line releases nobody",
-        [move(1), lose],
-        [],
-        {1: "the line was lost"},
-        on_exit="unload",
-        cause=DisconnectedError,
-    ),
+    Case("a lost line", [move(1, 2), lose], [], {1: LOST, 2: LOST}, DisconnectedError),
+    Case("a lost line frees nobody", [move(1), lose], [], {1: LOST}, DisconnectedError, UNLOAD),
 ]
 
 
-@dataclass
-class Outcome:
-    """What was sent after the body, how long leaving took, and the error that came out."""
-
-    sent: list[Message]
-    seconds: float
-    error: BaseException | None
-
-
-def carried_out(case: Case, talk: Talk) -> Outcome:
+def carried_out(case: Case, talk: Talk) -> BaseException | None:
+    """Return the error that came out of the client; what it sent, and in what time, is as told."""
     line = VirtualLine(case.answer)
     error, count, began = None, 0, 0.0
 
@@ -199,43 +171,42 @@ def carried_out(case: Case, talk: Talk) -> Outcome:
             count, began = len(line.received), line.now
 
     try:
-        talk(line, work, settle=0, on_exit=case.on_exit, **case.given)
+        talk(line, work, **{"settle": 0, "on_exit": "hold", **case.given})
     except (Stopped, NotHeldError) as raised:
         error = raised
     assert line.closed
-    return Outcome(line.received[count:], line.now - began, error)
+    assert line.received[count:] == [*case.sent]
+    assert line.now - began < 2.2
+    return error
 
 
-@both
+@pytest.mark.parametrize("talk", TALKS)
+@in_turn("case", lambda: CASES, ids=lambda case: case.about)
 def test_what_was_moved_is_held_or_released_last_of_all(
-    talk: Talk, caplog: pytest.LogCaptureFixture
+    talk: Talk, case: Case, caplog: pytest.LogCaptureFixture
 ) -> None:
-    for case in CASES:
-        done = carried_out(case, talk)
-        assert done.sent == [*case.sent], case.about
-        assert done.seconds < 2.2, case.about
-        error = done.error
-        assert (error is None) == (case.left is None), case.about
-        if isinstance(error, NotHeldError) and case.left is not None:
-            assert error.left.keys() == case.left.keys(), case.about
-            for number, why in case.left.items():
-                assert why in error.left[number], case.about
-            assert isinstance(error.__cause__, case.cause or type(None)), case.about
+    error = carried_out(case, talk)
+    assert (error is None) == (case.left is None)
+    if isinstance(error, NotHeldError) and case.left is not None:
+        assert error.left.keys() == case.left.keys()
+        assert [why for number, why in case.left.items() if why not in error.left[number]] == []
+        assert isinstance(error.__cause__, case.cause or type(None))
     assert not caplog.records
 
 
-@both
-def test_an_exception_that_is_under_way_wins(talk: Talk, caplog: pytest.LogCaptureFixture) -> None:
-    for case in CASES:
-        caplog.clear()
-        done = carried_out(replace(case, body=[*case.body, stop]), talk)
-        assert isinstance(done.error, Stopped), case.about
-        assert done.sent == [*case.sent], case.about
-        notes = getattr(done.error, "__notes__", [])
-        shown = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
-        assert len(shown) == (case.left is not None), case.about
-        if sys.version_info >= (3, 11):
-            assert [each.partition(": ")[2] for each in shown] == notes, case.about
+@pytest.mark.parametrize("talk", TALKS)
+@in_turn("case", lambda: CASES, ids=lambda case: case.about)
+def test_an_exception_that_is_under_way_wins(
+    talk: Talk, case: Case, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.clear()
+    error = carried_out(case._replace(body=[*case.body, stop]), talk)
+    assert isinstance(error, Stopped)
+    notes = getattr(error, "__notes__", [])
+    shown = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
+    assert len(shown) == (case.left is not None)
+    if sys.version_info >= (3, 11):
+        assert [each.partition(": ")[2] for each in shown] == notes
 
 
 def test_the_error_says_who_and_why() -> None:
@@ -262,26 +233,22 @@ class Pressed(VirtualLine):
         return super().read(timeout)
 
 
-@pytest.mark.parametrize(
-    ("times", "sent"),
-    [((1.0,), held((1, 433))), ((1.0, 1.001), [ServoPositionsRead([1])])],
-    ids=["once", "twice"],
+@in_turn(
+    "times, sent",
+    lambda: [((1.0,), held((1, 433))), ((1.0, 1.001), [ServoPositionsRead([1])])],
 )
 def test_ctrl_c_stops_a_motion_that_is_waited_for_and_a_second_one_just_leaves(
     times: tuple[float, ...], sent: list[Message], caplog: pytest.LogCaptureFixture
 ) -> None:
+    caplog.clear()
     line = Pressed(*times)
-    with (
-        pytest.raises(KeyboardInterrupt),
-        client_on(line, Controller, on_exit="hold") as arm,
-    ):
+    with pytest.raises(KeyboardInterrupt), client_on(line, Controller, on_exit="hold") as arm:
         arm.move_servos([(1, 900)], LONG).wait()
     assert line.received == [ServoMove(LONG, [(1, 900)]), *sent]
     assert line.closed
     assert line.now < 1.2
-    assert ["not held: 1" in each.getMessage() for each in caplog.records] == [True] * (
-        len(times) - 1
-    )
+    said = ["not held: 1" in each.getMessage() for each in caplog.records]
+    assert said == [True] * (len(times) - 1)
 
 
 def test_a_task_that_is_cancelled_holds_and_one_that_is_cancelled_twice_just_leaves(
@@ -348,10 +315,8 @@ def test_a_line_that_is_lost_while_it_carries_the_last_command_has_held_nobody(
     with pytest.raises(NotHeldError, match=problem):
         asyncio.run(work())
     lines[1].go_on.set()
-    with (
-        pytest.raises(NotHeldError, match=problem),
-        Controller(lines[1], on_exit="hold", **LIVE) as arm,
-    ):
+    arm = Controller(lines[1], on_exit="hold", **LIVE)
+    with pytest.raises(NotHeldError, match=problem), arm:
         arm.move_servos([(1, 900)], LONG)
 
 
@@ -376,12 +341,10 @@ def test_closing_by_hand_holds_as_well_and_lets_an_exception_go_on() -> None:
         closed(under_way=True)
 
 
-def test_a_client_for_asyncio_holds_what_it_is_told_to_without_having_done_anything() -> None:
-    async def work() -> None:
-        await client(line, on_exit="hold", ids=(2,), settle=0).close()
-
+@in_virtual_time
+async def test_a_client_for_asyncio_holds_what_it_is_told_to_without_having_done_anything() -> None:
     line = VirtualLine(where)
-    run(work(), line)
+    await client(line, on_exit="hold", ids=(2,), settle=0).close()
     assert line.received == held((2, 612))
 
 
@@ -486,10 +449,8 @@ def test_other_protocols_hold_and_release_in_words_of_their_own() -> None:
                 rolled.append(message.blind_ids)
 
         problem = r"^blinds not held: 9 \(no answer\)$"
-        with (
-            pytest.raises(blinds.NotHeldError, match=problem),
-            client_of(Motor(), on_exit="hold") as hub,
-        ):
+        hub = client_of(Motor(), on_exit="hold")
+        with pytest.raises(blinds.NotHeldError, match=problem), hub:
             hub.roll([(4, 50), (9, 50)], roll_ms=3000)
         with client_of(Motor(), on_exit="release", ids=(5,)):
             pass

@@ -1,17 +1,15 @@
-"""Limits, absent servos, holding, and which are present: for threads and for asyncio."""
+"""Positions: which servos are there, holding them, and going back; in any words of the spec."""
 
 from __future__ import annotations
 
-import asyncio
-import pickle
+import importlib
+import re
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import busservo
 import pytest
 from busservo import (
     AbsentError,
-    AsyncController,
     Controller,
     EncodeError,
     IncompleteReplyError,
@@ -25,24 +23,30 @@ from busservo import (
 )
 from busservo._exchanges import LIMITS, POSE
 from busservo_simulator import Faults, VirtualController
-from framewire.client.limits import Limits
 
+from tests.factories import DEMO, library, library_of
+from tests.handed import handed_by, program_of
 from tests.in_turn import in_turn
+from tests.lines import timed_line
 from tests.lines.at_board import client_at, virtual_board
+from tests.lines.both_clients import PORT_TALKS
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import LIVE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterator
+
+    from tests.lines.both_clients import Talk
+
+    Positions = list[tuple[int, int]]
 
 OFF = ServoPosition.POSITION_ABSENT
-MOVE_BEYOND = ServoMove(time_ms=100, targets=[(1, 800), (2, 1001)])
 
 
-def virtual(servos: Iterable[int] = range(1, 7), **given: Any) -> tuple[VirtualController, Any]:
+def virtual(**given: Any) -> tuple[VirtualController, Any]:
     """Return a board in virtual time, and a function that makes a client of it."""
-    board = virtual_board(servos=servos, **given)
+    board = virtual_board(**{"servos": range(1, 7), **given})
     return board, partial(client_at, board, Controller, settle=None)
 
 
@@ -54,16 +58,16 @@ def client_of(line: VirtualLine, **given: Any) -> Any:
     return client_on(line, Controller, settle=None, **given)
 
 
-# ------------------------------------------------------------------ what a position means
+def test_the_pose_of_the_protocol() -> None:
+    assert (POSE.read, POSE.move, POSE.release) == (ServoPositionsRead, ServoMove, ServoUnload)
+    assert POSE.ids == range(1, 254)
+    assert (LIMITS.usual, LIMITS.others) == ((0, 1000), {"PWM servo boards": (500, 2500)})
 
 
 @in_turn(
     "position, signed, absent",
     lambda: [
-        (0, 0, False),
-        (500, 500, False),
-        (1000, 1000, False),
-        (32767, 32767, False),
+        *((each, each, False) for each in (0, 500, 1000, 32767)),
         (32768, -32768, False),
         (65531, -5, False),
         (65534, -2, False),
@@ -77,117 +81,9 @@ def test_a_position_stays_raw_and_has_its_meaning_beside_it(
     assert (read.position, read.signed_position, read.absent) == (position, signed, absent)
     assert read == (4, position)
     assert repr(read) == f"ServoPosition(servo_id=4, position={position})"
-
-
-def test_derived_properties_cannot_be_set() -> None:
-    read = ServoPosition(1, 500)
     for name in ("signed_position", "absent"):
         with pytest.raises(AttributeError):
             setattr(read, name, 1)
-
-
-# ------------------------------------------------------------------ limits
-
-
-REFUSED: list[tuple[ServoMove, tuple[int, int], str]] = [
-    (
-        MOVE_BEYOND,
-        (0, 1000),
-        (
-            "targets[1].position: 1001 is outside the limits 0..1000; "
-            "limits=(500, 2500) is for PWM servo boards, limits=None for any"
-        ),
-    ),
-    (
-        ServoMove(time_ms=0, targets=[(1, 65535)]),
-        (0, 1000),
-        (
-            "targets[0].position: 65535 is outside the limits 0..1000; "
-            "targets_of() makes targets of what was read; limits=None sends anything"
-        ),
-    ),
-    (
-        ServoMove(time_ms=0, targets=[(1, 499)]),
-        (500, 2500),
-        (
-            "targets[0].position: 499 is outside the limits 500..2500; "
-            "limits=(0, 1000) is for what is usual, limits=None for any"
-        ),
-    ),
-    (
-        ServoMove(time_ms=0, targets=[(1, 900)]),
-        (100, 800),
-        (
-            "targets[0].position: 900 is outside the limits 100..800; "
-            "limits=(0, 1000) is for what is usual, limits=(500, 2500) is for PWM servo boards, "
-            "limits=None for any"
-        ),
-    ),
-]
-
-
-@in_turn("move, limits, expected", lambda: REFUSED)
-def test_what_is_outside_the_limits_is_refused_and_never_sent(
-    move: ServoMove, limits: tuple[int, int], expected: str
-) -> None:
-    line = VirtualLine()
-    with client_of(line, limits=limits) as controller:
-        for send in (controller.send, controller.send_latest):
-            with pytest.raises(LimitError) as refused:
-                send(move)
-            assert str(refused.value) == expected
-            assert refused.value.limits == limits
-    assert line.received == []
-
-
-def test_a_refusal_is_an_encode_error_that_can_be_pickled() -> None:
-    error = LimitError("targets[0].position", 1500, (0, 1000), LIMITS.way_out(1500))
-    assert isinstance(error, EncodeError)
-    assert isinstance(error, ValueError)
-    assert str(pickle.loads(pickle.dumps(error))) == str(error)  # noqa: S301 - our own
-    assert (error.path, error.value, error.limits) == ("targets[0].position", 1500, (0, 1000))
-
-
-@in_turn(
-    "limits, positions",
-    lambda: [
-        ((0, 1000), [0, 1000]),
-        ((500, 2500), [500, 2500]),
-        (None, [0, 65535]),
-        ([3, 4], [3, 4]),
-    ],
-)
-def test_the_ends_of_the_limits_are_inside(limits: Any, positions: list[int]) -> None:
-    line = VirtualLine()
-    with client_of(line, limits=limits) as controller:
-        controller.move_servos(list(enumerate(positions)), time_ms=100)
-    assert [move.columns()[1] for move in moves(line)] == [tuple(positions)]
-
-
-@in_turn("limits", lambda: [(1000, 0), (1,), 1000, "0..1000", (0, 1.5), (1, 2, 3), ()])
-def test_limits_that_can_be_none_are_refused_with_what_can(limits: Any) -> None:
-    with pytest.raises(ValueError, match=r"such as \(0, 1000\), or None for any"):
-        client_of(VirtualLine(), limits=limits)
-    with pytest.raises(ValueError, match="lowest and the highest"):
-        AsyncController(VirtualLine(), limits=limits)
-
-
-def test_a_protocol_without_limits_has_nothing_to_limit() -> None:
-    assert Limits().chosen(None) is None
-    with pytest.raises(ValueError, match="nothing that is sent here has limits"):
-        Limits().chosen((0, 1))
-
-
-def test_the_codec_has_no_limits() -> None:
-    assert ServoMove.decode(MOVE_BEYOND.encode()) == MOVE_BEYOND
-
-
-def test_other_messages_have_no_limits() -> None:
-    line = VirtualLine()
-    with client_of(line) as controller:
-        controller.set_action_group_speed(255, percent=65535)
-        controller.run_action_group(255, times=65535)
-    assert len(line.received) == 2
 
 
 # ------------------------------------------------------------------ who is there
@@ -216,7 +112,7 @@ def test_all_servos_are_requested_in_as_many_parts_as_replies_need() -> None:
 
 def test_silence_while_looking_for_servos_is_an_error() -> None:
     answered = ServoPositions([(1, 500)])
-    line = VirtualLine(lambda _: [] if line.received[1:] else [(0.0, answered)])
+    line = VirtualLine(lambda _: [] if line.received[1:] else [answered])
     with client_of(line) as controller, pytest.raises(NoReplyError):
         controller.present_servos(range(1, 100))
 
@@ -245,18 +141,14 @@ def test_holding_commands_the_positions_just_read() -> None:
         assert 200 < second.position < 400
 
 
-def answering(positions: list[tuple[int, int]]) -> Callable[[Any], list[tuple[float, Any]]]:
-    """Return a board that answers every question about positions alike."""
-
-    def answer(message: Any) -> list[tuple[float, Any]]:
-        requested = isinstance(message, ServoPositionsRead)
-        return [(0.0, ServoPositions(positions))] if requested else []
-
-    return answer
+def answering(positions: Positions) -> VirtualLine:
+    """Return a line to a board that answers every question about positions alike."""
+    reply = [ServoPositions(positions)]
+    return VirtualLine(lambda it: reply if isinstance(it, ServoPositionsRead) else [])
 
 
 def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
-    line = VirtualLine(answering([(1, 500), (2, OFF), (4, 600)]))
+    line = answering([(1, 500), (2, OFF), (4, 600)])
     with client_of(line) as controller, pytest.raises(AbsentError) as refused:
         controller.hold_servos([1, 2, 3, 4])
     assert moves(line) == []
@@ -268,28 +160,26 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
 
 
 def test_more_than_one_frame_moves_are_held_by_none() -> None:
-    line = VirtualLine(answering([(number, 500) for number in range(84)]))
-    with (
-        client_of(line) as controller,
-        pytest.raises(EncodeError, match=r"84 items is outside 1\.\.83"),
-    ):
+    line = answering([(number, 500) for number in range(84)])
+    problem = r"84 items is outside 1\.\.83"
+    with client_of(line) as controller, pytest.raises(EncodeError, match=problem):
         controller.hold_servos(range(84))
     assert moves(line) == []
 
 
-AT_THE_STOPS: list[tuple[Any, list[tuple[int, int]], list[tuple[int, int]]]] = [
-    ((0, 1000), [(1, 65531), (2, 1003), (3, 500)], [(1, 0), (2, 1000), (3, 500)]),
-    ((0, 1000), [(1, 65486), (2, 1050)], [(1, 0), (2, 1000)]),
-    ((500, 2500), [(1, 400), (2, 2600)], [(1, 500), (2, 2500)]),
-    (None, [(1, 65531), (2, 1003), (3, 40000)], [(1, 0), (2, 1003), (3, 40000)]),
-]
-
-
-@in_turn("limits, read, targets", lambda: AT_THE_STOPS)
+@in_turn(
+    "limits, read, targets",
+    lambda: [
+        ((0, 1000), [(1, 65531), (2, 1003), (3, 500)], [(1, 0), (2, 1000), (3, 500)]),
+        ((0, 1000), [(1, 65486), (2, 1050)], [(1, 0), (2, 1000)]),
+        ((500, 2500), [(1, 400), (2, 2600)], [(1, 500), (2, 2500)]),
+        (None, [(1, 65531), (2, 1003), (3, 40000)], [(1, 0), (2, 1003), (3, 40000)]),
+    ],
+)
 def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
-    limits: Any, read: list[tuple[int, int]], targets: list[tuple[int, int]]
+    limits: Any, read: Positions, targets: Positions
 ) -> None:
-    line = VirtualLine(answering(read))
+    line = answering(read)
     with client_of(line, limits=limits) as controller:
         controller.hold_servos([number for number, _ in read], time_ms=40)
         pose = ServoPositions([*read, (9, OFF)]).positions
@@ -301,11 +191,7 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
     "limits, position, expected",
     lambda: [
         ((0, 1000), 1051, "limits=(500, 2500) is for PWM servo boards, limits=None for any"),
-        (
-            (0, 1000),
-            65485,
-            "positions[1].position: 65485 is outside the limits 0..1000; limits=None",
-        ),
+        ((0, 1000), 65485, "position: 65485 is outside the limits 0..1000; limits=None"),
         ((500, 2500), 399, "limits=(0, 1000) is for what is usual, limits=None for any"),
         ((500, 2500), 65531, "limits=None sends anything"),
     ],
@@ -313,12 +199,13 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
 def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
     limits: tuple[int, int], position: int, expected: str
 ) -> None:
-    line = VirtualLine(answering([(1, 500), (2, position)]))
+    read = [(1, 500), (2, position)]
+    line = answering(read)
     with client_of(line, limits=limits) as controller:
         with pytest.raises(LimitError) as refused:
             controller.hold_servos([1, 2])
         with pytest.raises(LimitError):
-            controller.targets_of(ServoPositions([(1, 500), (2, position)]).positions)
+            controller.targets_of(ServoPositions(read).positions)
     assert str(refused.value).startswith("positions[1].position: ")
     assert expected in str(refused.value)
     assert moves(line) == []
@@ -334,43 +221,18 @@ def test_a_pose_that_was_read_can_be_replayed_whatever_it_holds() -> None:
         controller.move_servos(controller.targets_of(pose), time_ms=100)
 
 
-def test_the_same_for_asyncio() -> None:
-    async def run(port: str) -> None:
-        async with busservo.open_async_controller(port, **LIVE) as controller:
-            assert await controller.present_servos() == (1, 2, 3)
-            await controller.hold_servos([1, 2])
-            with pytest.raises(AbsentError):
-                await controller.hold_servos([1, 7])
-            with pytest.raises(LimitError):
-                await controller.send(MOVE_BEYOND)
-            with pytest.raises(LimitError):
-                controller.send_latest(MOVE_BEYOND)
-            assert controller.targets_of([ServoPosition(1, OFF), ServoPosition(2, 65531)]) == [
-                (2, 0)
-            ]
-        async with busservo.open_async_controller(port, limits=None) as controller:
-            await controller.send(MOVE_BEYOND)
+@pytest.mark.parametrize("talk", PORT_TALKS)
+def test_the_same_at_a_port(talk: Talk) -> None:
+    async def work(controller: Any) -> None:
+        assert await controller.present_servos() == (1, 2, 3)
+        await controller.hold_servos([1, 2])
+        with pytest.raises(AbsentError):
+            await controller.hold_servos([1, 7])
+        pose = [ServoPosition(1, OFF), ServoPosition(2, 65531)]
+        assert controller.targets_of(pose) == [(2, 0)]
 
     with VirtualController("tcp", servos=[1, 2, 3]) as board:
-        asyncio.run(run(board.port))
-        assert board.rejects.total == 0
-
-
-def test_a_port_is_opened_with_limits() -> None:
-    with VirtualController("tcp") as board:
-        with busservo.open_controller(board.port) as controller, pytest.raises(LimitError):
-            controller.send(MOVE_BEYOND)
-        with busservo.open_controller(board.port, limits=(500, 2500)) as controller:
-            controller.move_servos([(1, 2500)], time_ms=100)
-
-
-# ------------------------------------------------------------------ what the spec says of it
-
-
-def test_the_pose_of_the_protocol() -> None:
-    assert (POSE.read, POSE.move, POSE.release) == (ServoPositionsRead, ServoMove, ServoUnload)
-    assert POSE.ids == range(1, 254)
-    assert (LIMITS.usual, LIMITS.others) == ((0, 1000), {"PWM servo boards": (500, 2500)})
+        talk(board.port, work, **LIVE)
 
 
 @in_turn("seed", lambda: range(3))
@@ -385,3 +247,85 @@ def test_no_number_of_an_absent_servo_is_ever_sent(seed: int) -> None:
             there = controller.present_servos([1, 2, 3, 4])
             assert set(there) <= {1, 2, 3, 4}
         assert all(0 <= servo.position <= 1000 for servo in board.servos.values())
+
+
+# ------------------------------------------------------------------ in words of another protocol
+
+
+@pytest.fixture(scope="module")
+def blinds() -> Iterator[Any]:
+    """Return the library of a protocol that shares no name with the one that this was made for."""
+    with library(library_of(DEMO.with_name("blinds.yaml"))) as made:
+        yield made
+
+
+def motor(blinds: Any, heights: dict[int, int]) -> Any:
+    """Return a device with blinds at these heights, which go where they are sent."""
+
+    class Motor(blinds.Device):  # type: ignore[misc]
+        def on_blinds_read(self, message: Any) -> Any:
+            there = [(each, heights[each]) for each in message.blind_ids if each in heights]
+            return blinds.BlindsState(there)
+
+        def on_blinds_roll(self, message: Any) -> None:
+            heights.update({each.blind_id: each.height for each in message.heights})
+
+        def on_blinds_release(self, message: Any) -> None:
+            heights.update(dict.fromkeys(message.blind_ids, 0))
+
+    return Motor()
+
+
+def test_present_actuators_are_found_held_and_released(blinds: Any) -> None:
+    heights = {4: 200, 9: 300}
+    with timed_line.client_of(motor(blinds, heights)) as hub:
+        assert hub.present() == (4, 9)
+        found = hub.read_heights([4, 9])
+        assert [(each.blind_id, each.height) for each in found] == [(4, 200), (9, 300)]
+        hub.blinds_release([4])
+        assert heights == {4: 0, 9: 300}
+        hub.roll(hub.heights_of(found), roll_ms=10).wait()
+        assert heights == {4: 200, 9: 300}
+        hub.hold([9], roll_ms=10).wait()
+        with pytest.raises(blinds.AbsentError, match="5"):
+            hub.hold([4, 5])
+
+
+def test_verbs_name_actuators_in_the_words_of_the_spec(blinds: Any) -> None:
+    positions = importlib.import_module("framewire.command.positions")
+    pose = positions.the_pose(handed_by(blinds.__name__))
+    assert positions.listed(pose, [4]) == "blind 4"
+    assert positions.listed(pose, [4, 9]) == "blinds 4, 9"
+    assert list(pose.ids) == [*range(1, 21)]
+
+
+def examined(device: Any) -> dict[str, Any]:
+    """Return what the doctor finds out about a device."""
+    checks, diagnosis = (
+        importlib.import_module(f"framewire.command.checks.{name}")
+        for name in ("checks", "diagnosis")
+    )
+    line, program = timed_line.DeviceLine(device), program_of("blinds")
+    link = program.library.link
+    given = {"baud": link.baud, "local_echo": link.local_echo, "clock": line.clock}
+    opener = {"opener": lambda _port, _baud: line, "hid_devices": list}
+    case = diagnosis.Diagnosis(program, "loop://", **given, **opener)
+    every = checks.checks_of(program.library)
+    return {check.id: result for check, result in checks.examine(case, every)}
+
+
+# No question of this protocol suits any device: each names those that it is about.
+def test_the_doctor_finds_present_actuators(blinds: Any) -> None:
+    found = examined(motor(blinds, {4: 200, 9: 300}))
+    assert "rate" not in found
+    present = found["present"]
+    assert (present.state, present.seen) == ("passed", "blinds that are there: 4, 9")
+    present = examined(motor(blinds, {}))["present"]
+    assert (present.state, present.seen) == ("failed", "blinds that are there: none")
+
+
+def test_the_doctor_finds_that_nobody_answers(blinds: Any) -> None:
+    found = examined(blinds.Device())
+    assert found["present"].state == "failed"
+    assert "was not answered, though asked 3 times" in found["present"].seen
+    assert {*re.findall(r"check `([^`]+)`", found["present"].advice)} <= {*found}

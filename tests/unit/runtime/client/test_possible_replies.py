@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
 from busservo import (
@@ -16,404 +16,293 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
-from busservo._library import LIBRARY
-from framewire.client.session import Session
 
 from tests.in_turn import in_turn
-from tests.lines.questions import ask
+from tests.lines import questions
+from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session, settle
 
 if TYPE_CHECKING:
-    from busservo import Message
-    from framewire.client.request import Request
+    from framewire.client.session import Session
 
-REPLY_TIMEOUT = 0.25
-# Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.
-TRIP = 10 / 960
-# Just before the wire can have carried them, and just after.
-TOO_SOON, IN_TIME = 0.94 * TRIP, 0.96 * TRIP
+QUESTION = BatteryVoltageRead().encode()
+# Far too soon: where it is not said that the line is fast, no reply can have come.
+FAST = 0.001
+LOST, TWICE, SURPLUS, REOPENED = "lost", "twice", "surplus", "reopened"
 
 
-def session(baud: float = 9600, **settings: float) -> Session:
-    return Session(LIBRARY, baud=baud, reply_timeout=REPLY_TIMEOUT, report_limit=16, **settings)  # type: ignore[arg-type]
+class Story(NamedTuple):
+    """Earlier questions, by when the one reply to each came; and then one, and all its replies.
+
+    Its answer is there at once, or `at_last`, once the line has been quiet, or never.
+    """
+
+    earlier: list[float | str]
+    replies: list[tuple[float, int]]
+    at_once: int | None = None
+    at_last: int | None = None
+    impossible: int = 0
+    unsolicited: int = 0
 
 
-def say(line: Session, now: float, *messages: Message) -> None:
-    line.receive(b"".join(each.encode() for each in messages), now)
+STORIES = {
+    "in time": Story([], [(IN_TIME, 1)], 1),
+    "too soon": Story([], [(TOO_SOON, 1)], None, 1, 1),
+    "too soon, and then its own": Story([IN_TIME], [(TOO_SOON, 1), (0.2, 2)], 2, None, 1, 1),
+    "too soon for the fourth time": Story([FAST] * 3, [(FAST, 4)], 4, None, 3),
+    "too soon for the third time": Story([FAST] * 2, [(FAST, 3)], None, 3, 3),
+    "not all in a row": Story([FAST, FAST, IN_TIME, FAST, FAST], [(FAST, 5)], None, 5, 5),
+    "not all were answered": Story([FAST, FAST, LOST, FAST, FAST], [(FAST, 5)], None, 5, 5),
+    "one came twice, and counts": Story([FAST, FAST, TWICE, FAST], [(FAST, 5)], None, 5, 5, 1),
+    "three in a row again": Story([FAST, FAST, IN_TIME, *[FAST] * 3], [(FAST, 5)], 5, None, 5),
+    "one too many": Story([FAST] * 3 + [SURPLUS], [(FAST, 1)], None, 1, 4),
+    "on another line": Story([FAST] * 3 + [REOPENED], [(FAST, 1)], None, 1, 4),
+    "not yet known to keep its rate": Story(
+        [TOO_SOON, *[IN_TIME] * 7], [(TOO_SOON, 1)], None, 1, 2
+    ),
+    "known to keep its rate": Story([TOO_SOON, *[IN_TIME] * 8], [(TOO_SOON, 1)], None, None, 2, 1),
+    "it has become fast": Story([*[IN_TIME] * 8, FAST, FAST], [(FAST, 1)], None, 1, 3, 2),
+    "it has become fast, and that is known": Story(
+        [*[IN_TIME] * 8, *[FAST] * 3], [(FAST, 1)], 1, None, 3, 2
+    ),
+    # Which of the two is its own, nothing shows: test_doubtful_replies has the rest.
+    "behind one that was lost, two": Story([LOST], [(0.1, 1), (0.12, 2)], None, None, 0, 2),
+    "behind one that was lost": Story([LOST], [(IN_TIME, 1)], None, 1),
+    "behind one that was lost, and one that was not": Story([LOST, IN_TIME], [(IN_TIME, 1)], 1),
+}
 
 
-def settle(line: Session) -> float:
-    """Let time pass until nothing is left to be decided, and return the time then."""
-    now = 0.0
-    while (tick_at := line.tick_at) is not None:
-        now = tick_at
-        line.tick(now)
-    return now
+def happened(line: Session, at: float, what: float | str) -> None:
+    """Let one of the earlier questions be asked, or what there is besides."""
+    if isinstance(what, float):
+        questions.answered(line, at, 7500, what)
+    elif what == SURPLUS:
+        say(line, at, 7500)
+    elif what == REOPENED:
+        line.restart(at)
+    else:
+        ask(line, at)
+        for after in (FAST, 2 * FAST) if what == TWICE else ():
+            say(line, at + after, 7500)
+        settle(line)
 
 
-def answered(line: Session, now: float, voltage: int, after: float = IN_TIME) -> Request:
-    """Send a question, with one reply alone `after` seconds later."""
-    request = ask(line, now)
-    say(line, now + after, BatteryVoltage(voltage))
+@in_turn("name", lambda: STORIES)
+def test_a_reply_is_the_answer_where_the_wire_can_have_carried_it(name: str) -> None:
+    earlier, replies, at_once, at_last, impossible, unsolicited = STORIES[name]
+    line = session()
+    for number, each in enumerate(earlier):
+        happened(line, 2.0 * (number - len(earlier)), each)
+    request = ask(line)
+    for after, voltage in replies:
+        say(line, after, voltage)
+    assert request.reply == (at_once and BatteryVoltage(at_once))
     settle(line)
-    return request
+    answer = at_once or at_last
+    assert request.reply == (answer and BatteryVoltage(answer))
+    assert (line.counters.impossible, line.counters.unsolicited) == (impossible, unsolicited)
 
 
-def test_a_reply_that_the_wire_can_have_carried_is_the_answer_at_once() -> None:
-    line = session()
-    request = ask(line, 0.0)
-    say(line, IN_TIME, BatteryVoltage(7500))
-    assert request.reply == BatteryVoltage(7500)
-    assert line.counters.impossible == line.counters.unsolicited == 0
-
-
-def on_a_wire() -> Session:
-    """Return a line that has kept its rate so far."""
-    line = session()
-    answered(line, -1.0, 7500)
-    return line
-
-
-def test_of_an_impossible_reply_and_a_second_one_the_second_is_the_answer() -> None:
-    line = on_a_wire()
-    request = ask(line, 0.0)
-    say(line, TOO_SOON, BatteryVoltage(1))
-    assert not request.done
-    say(line, 0.2, BatteryVoltage(2))
-    assert request.reply == BatteryVoltage(2)
-    assert (line.counters.impossible, line.counters.unsolicited) == (1, 1)
-
-
-def test_an_impossible_reply_alone_is_the_answer_once_the_line_has_been_quiet() -> None:
-    line = session()
-    request = ask(line, 0.0)
-    say(line, TOO_SOON, BatteryVoltage(7500))
+# A longer reply timeout is no reason to hold a reply for longer.
+@in_turn("reply_timeout", lambda: [REPLY_TIMEOUT, 60])
+def test_an_impossible_reply_is_held_until_the_line_has_been_quiet(reply_timeout: float) -> None:
+    line = session(reply_timeout=reply_timeout)
+    request = ask(line)
+    say(line, TOO_SOON, 7500)
     line.tick(TRIP + REPLY_TIMEOUT - 1e-6)
     assert not request.done
     line.tick(TRIP + REPLY_TIMEOUT)
     assert request.reply == BatteryVoltage(7500)
-    assert (line.counters.impossible, line.counters.unsolicited) == (1, 0)
 
 
-def test_a_longer_reply_timeout_is_no_reason_to_hold_a_reply_for_longer() -> None:
-    line = Session(LIBRARY, baud=9600, reply_timeout=60, report_limit=16)
-    request = ask(line, 0.0)
-    say(line, TOO_SOON, BatteryVoltage(7500))
-    line.tick(TRIP + REPLY_TIMEOUT)
-    assert request.reply == BatteryVoltage(7500)
+def test_a_question_with_an_impossible_reply_alone_ends_with_an_error_that_says_so() -> None:
+    line = session()
+    for number in range(8):
+        questions.answered(line, number, 7500)
+    request = questions.answered(line, 9.0, 1, TOO_SOON)
+    assert isinstance(request.error, NoReplyError)
+    assert "1 reply came that cannot be the answer" in str(request.error)
+    assert questions.answered(line, 10.0, 7501).reply == BatteryVoltage(7501)
+
+
+def six(number: int) -> ServoPositions:
+    return ServoPositions([(servo, number) for servo in range(1, 7)])
 
 
 def test_a_duplicate_behind_a_reply_never_becomes_the_next_answer() -> None:
     """Six servos in a tight loop: each reply comes, and the one that came twice is dropped."""
-    line = session()
+    line, now = session(), 0.0
     there, back = 11 / 960, 23 / 960
-    request = ask(line, 0.0, ServoPositionsRead(range(1, 7)))
-    now = there + back
-    say(line, now, ServoPositions([(servo, 1) for servo in range(1, 7)]))
-    assert request.done
-    for number in range(2, 12):
+    for number in range(1, 12):
         request = ask(line, now, ServoPositionsRead(range(1, 7)))
         if number == 2:
-            say(line, now + back, ServoPositions([(servo, 1) for servo in range(1, 7)]))
+            say(line, now + back, six(1))
         now += 2 * back if number == 2 else there + back
-        say(line, now, ServoPositions([(servo, number) for servo in range(1, 7)]))
-        assert request.reply == ServoPositions([(servo, number) for servo in range(1, 7)])
+        say(line, now, six(number))
+        assert request.reply == six(number)
     assert line.counters.unsolicited == 1
 
 
 def test_of_several_replies_that_are_read_at_once_none_is_the_answer() -> None:
-    line = on_a_wire()
-    request = ask(line, 0.0)
+    line = session()
+    questions.answered(line, -1.0, 7500)
+    request = ask(line)
     # As where this process was stopped: it reads all that has come meanwhile, the late one too.
-    say(line, 1.0, BatteryVoltage(1), ActionGroupCompleted(8, 1), BatteryVoltage(2))
+    say(line, 1.0, 1, ActionGroupCompleted(8, 1), 2)
     assert not request.done
     assert (line.counters.unsolicited, line.counters.retries) == (2, 1)
     assert line.reports.take() == ActionGroupCompleted(8, 1)
 
 
 def test_what_came_before_the_question_was_sent_is_not_even_held() -> None:
-    line = session(math.inf)
+    line = session(baud=math.inf)
     request = ask(line, 1.0)
-    say(line, 0.999, BatteryVoltage(1))
+    say(line, 0.999, 1)
     assert line.counters.unsolicited == 1
-    say(line, 1.0, BatteryVoltage(2))
+    say(line, 1.0, 2)
     assert request.reply == BatteryVoltage(2)
 
 
 def test_the_frames_before_a_question_take_their_time_as_well() -> None:
-    line = on_a_wire()
+    line = session()
+    questions.answered(line, -1.0, 7500)
     move = ServoMove(100, [(servo, 500) for servo in range(1, 7)])
     line.submit(move)
     line.submit(BatteryVoltageRead())
     line.outgoing(0.0)
     before = len(move.encode()) / 960
-    (frame,) = line.outgoing(before)
-    assert frame == BatteryVoltageRead().encode()
-    line.receive(BatteryVoltage(1).encode(), before * 0.95 + TOO_SOON)
-    line.receive(BatteryVoltage(2).encode(), before + TRIP)
+    assert line.outgoing(before) == [QUESTION]
+    say(line, before * 0.95 + TOO_SOON, 1)
+    say(line, before + TRIP, 2)
     assert line.counters.unsolicited == 1
-
-
-def test_a_further_attempt_takes_the_late_reply_to_the_first() -> None:
-    line = session()
-    request = ask(line, 0.0, retries=1)
-    line.tick(TRIP + REPLY_TIMEOUT)
-    line.outgoing(TRIP + REPLY_TIMEOUT)
-    say(line, TRIP + REPLY_TIMEOUT + 0.001, BatteryVoltage(7500))
-    assert request.reply == BatteryVoltage(7500)
-
-
-def test_a_line_is_fast_after_three_questions_with_one_impossible_reply_each() -> None:
-    line = session()
-    for number in range(3):
-        assert answered(line, number, 7500 + number, 0.001).reply == BatteryVoltage(7500 + number)
-    request = ask(line, 3.0)
-    say(line, 3.001, BatteryVoltage(7503))
-    assert request.reply == BatteryVoltage(7503)
-    assert line.counters.impossible == 3
-
-
-@in_turn("between, more", lambda: [("in time", 2), ("not at all", 2), ("twice", 1)])
-def test_only_three_impossible_replies_in_a_row_make_a_line_fast(between: str, more: int) -> None:
-    line = session()
-    answered(line, 0.0, 1, 0.001)
-    answered(line, 1.0, 2, 0.001)
-    if between == "in time":
-        answered(line, 2.0, 3)
-    else:
-        ask(line, 2.0)
-        if between == "twice":  # the second of which is one reply again
-            say(line, 2.001, BatteryVoltage(3))
-            say(line, 2.002, BatteryVoltage(3))
-        settle(line)
-    for number in range(more):
-        assert not answered(line, 4.0 + number, 4, 0.001).error
-    request = ask(line, 8.0)
-    say(line, 8.001, BatteryVoltage(5))
-    assert not request.done
-    settle(line)
-    request = ask(line, 9.0)
-    say(line, 9.001, BatteryVoltage(6))
-    assert request.done
-
-
-def test_a_surplus_reply_ends_what_was_learnt() -> None:
-    line = session()
-    for number in range(3):
-        answered(line, number, 7500, 0.001)
-    say(line, 3.0, BatteryVoltage(1))
-    request = ask(line, 4.0)
-    say(line, 4.001, BatteryVoltage(2))
-    assert not request.done
-    settle(line)
-    assert request.reply == BatteryVoltage(2)
-
-
-def test_another_line_is_learnt_anew() -> None:
-    line = session()
-    for number in range(3):
-        answered(line, number, 7500, 0.001)
-    line.restart(3.0)
-    request = ask(line, 4.0)
-    say(line, 4.001, BatteryVoltage(2))
-    assert not request.done
-
-
-def test_on_a_line_that_keeps_its_rate_an_impossible_reply_is_no_answer_at_all() -> None:
-    """One that came twice, and then one that is lost: the question ends with an error."""
-    line = session()
-    for number in range(8):
-        answered(line, number, 7500)
-    request = answered(line, 9.0, 1, TOO_SOON)
-    assert isinstance(request.error, NoReplyError)
-    assert "1 reply came that cannot be the answer" in str(request.error)
-    assert line.counters.unsolicited == 1
-    assert answered(line, 10.0, 7501).reply == BatteryVoltage(7501)
-
-
-def test_a_line_that_has_become_fast_is_learnt_again() -> None:
-    line = session()
-    for number in range(8):
-        answered(line, number, 7500)
-    ends = [answered(line, 10.0 + 2 * number, number, 0.001).reply for number in range(4)]
-    assert ends == [None, None, BatteryVoltage(2), BatteryVoltage(3)]
 
 
 def test_a_line_that_takes_no_time_says_so() -> None:
-    line = session(math.inf)
+    line = session(baud=math.inf)
     for number in range(8):
         request = ask(line, number)
-        say(line, number, BatteryVoltage(number))
+        say(line, number, number)
         assert request.reply == BatteryVoltage(number)
     assert line.counters.impossible == 0
 
 
-def test_after_a_reply_that_never_came_the_next_is_held() -> None:
-    line = session()
-    ask(line, 0.0)
-    now = settle(line)  # no reply, and none late
-    line.tick(2 * now)
-    request = ask(line, 2 * now)
-    say(line, 2 * now + 0.1, BatteryVoltage(1))  # much too late, but possible
-    assert not request.done
-    # Which of the two is its own, nothing shows: test_doubtful_replies has the rest.
-    say(line, 2 * now + 0.12, BatteryVoltage(2))
-    assert not request.done
-    assert line.outgoing(2 * now + 0.12) == [request.message.encode()]
-
-
-def test_after_a_reply_that_never_came_the_next_alone_is_the_answer() -> None:
-    line = session()
-    ask(line, 0.0)
-    now = settle(line)
-    line.tick(2 * now)
-    assert answered(line, 2 * now, 7500).reply == BatteryVoltage(7500)
-    request = ask(line, 5.0)
-    say(line, 5.0 + IN_TIME, BatteryVoltage(7501))
-    assert request.reply == BatteryVoltage(7501)
-
-
 def test_a_reply_that_is_held_is_no_answer_to_what_was_cancelled() -> None:
     line = session()
-    request = ask(line, 0.0)
-    say(line, TOO_SOON, BatteryVoltage(1))
+    request = ask(line)
+    say(line, TOO_SOON, 1)
     line.cancel(request)
     assert line.counters.unsolicited == 1
     line.submit(BatteryVoltageRead())
     assert line.outgoing(0.1) == []
 
 
-def slow_board(line: Session, latency: float, reads: int) -> float:
-    """Read from a board that needs time for each answer, in a loop without a pause."""
+# ---------------------------------------------------------------- a board that takes its time
+
+
+def thinking(line: Session, *latencies: float) -> float:
+    """Read from a board that needs so long for each answer, in a loop without a pause."""
     now = 0.0
-    for number in range(reads):
+    for number, latency in enumerate(latencies):
         request = ask(line, now)
         now += TRIP + latency
-        say(line, now, BatteryVoltage(number))
+        say(line, now, number)
         assert request.reply == BatteryVoltage(number)
     return now
 
 
 def test_a_foreign_reply_in_the_time_of_the_right_one_makes_one_read_stale_and_no_more() -> None:
     """A board that thinks for longer than a question takes: all replies of a shift are possible."""
-    line, latency = session(), 0.02
-    now = slow_board(line, latency, 8)
+    line = session()
+    now = thinking(line, *[0.02] * 8)
     request = ask(line, now)
-    right_at = now + TRIP + latency
-    say(line, now + TRIP + 0.002, BatteryVoltage(1))
+    right_at = now + TRIP + 0.02
+    say(line, now + TRIP + 0.002, 1)
     assert request.reply == BatteryVoltage(1)  # indistinguishable
     request = line.submit(BatteryVoltageRead())
     assert line.outgoing(now + TRIP + 0.002) == []
-    say(line, right_at, BatteryVoltage(9))
+    say(line, right_at, 9)
     assert line.counters.unsolicited == 1
-    assert line.outgoing(right_at) == [request.message.encode()]
+    assert line.outgoing(right_at) == [QUESTION]
     line.written(request, right_at)
-    say(line, right_at + TRIP + latency, BatteryVoltage(10))
+    say(line, right_at + TRIP + 0.02, 10)
     assert request.reply == BatteryVoltage(10)
 
 
-def test_the_right_reply_has_as_long_as_the_slowest_of_the_latest() -> None:
-    line, now = session(), 0.0
-    for number, latency in enumerate([0.02, 0.035, 0.02, 0.03, 0.025]):
-        request = ask(line, now)
-        now += TRIP + latency
-        say(line, now, BatteryVoltage(number))
-        assert request.done
+def early(line: Session, now: float) -> float:
+    """Return when the question may be sent that follows a reply which was quick for once."""
     ask(line, now)
-    early = now + TRIP + 0.002
-    say(line, early, BatteryVoltage(1))
+    say(line, now + TRIP + 0.002, 1)
     line.submit(BatteryVoltageRead())
-    at = line.send_at(early)
+    at = line.send_at(now + TRIP + 0.002)
     assert at is not None
-    assert at >= now + TRIP + 0.035
+    return at
 
 
-@in_turn("in_time, believed", lambda: [(7, True), (8, False)])
-def test_a_line_keeps_its_rate_after_eight_questions_in_a_row(in_time: int, believed: bool) -> None:
+def test_the_right_reply_has_as_long_as_the_slowest_of_the_latest() -> None:
     line = session()
-    answered(line, 0.0, 1, TOO_SOON)
-    for number in range(in_time):
-        answered(line, 1.0 + number, 7500)
-    assert (answered(line, 20.0, 2, TOO_SOON).reply is not None) is believed
+    now = thinking(line, 0.02, 0.035, 0.02, 0.03, 0.025)
+    assert early(line, now) >= now + TRIP + 0.035
 
 
 def test_a_board_that_is_quick_for_once_costs_a_moment_and_nothing_else() -> None:
-    line, latency = session(), 0.02
-    now = slow_board(line, latency, 8)
-    answered(line, now, 7500, TRIP + 0.002)
-    request = line.submit(BatteryVoltageRead())
-    at = line.send_at(now + TRIP + 0.002)
-    assert at is not None
-    assert at < now + TRIP + latency + 0.01
-    line.outgoing(at)
-    line.written(request, at)
-    say(line, at + TRIP + 0.002, BatteryVoltage(7501))
-    assert request.reply == BatteryVoltage(7501)
+    line = session()
+    now = thinking(line, *[0.02] * 8)
+    at = early(line, now)
+    assert at < now + TRIP + 0.02 + 0.01
+    assert line.outgoing(at) == [QUESTION]
+    say(line, at + TRIP + 0.002, 7501)
+    assert line.idle
     ask(line, at + TRIP + 0.002)  # it is usual now, and costs nothing more
 
 
 # ---------------------------------------------------------------- what was there before
 
+SETTLED = TRIP + REPLY_TIMEOUT
+MOVE = ServoMove(100, [(1, 500)])
 
-def test_a_first_question_waits_until_replies_to_others_have_come() -> None:
-    line = session(now=10.0)
+
+@in_turn(
+    "given, heard, behind_a_command, after",
+    lambda: [
+        ({}, False, False, SETTLED),
+        # Requested by a program that was killed.
+        ({}, True, False, SETTLED),
+        ({}, True, True, SETTLED),
+        # On a quiet line, it goes once the command has all but left.
+        ({}, False, True, len(MOVE.encode()) / 960 - 0.004),
+        ({"settle": 0.0}, False, False, 0.0),
+        ({"settle": 1.5}, False, False, 1.5),
+    ],
+)
+def test_a_first_question_waits_until_replies_to_others_have_come(
+    given: dict[str, Any], heard: bool, behind_a_command: bool, after: float
+) -> None:
+    line = session(now=10.0, **given)
+    if heard:
+        say(line, 10.0, 5000)
+    if behind_a_command:
+        line.submit(MOVE)
+        assert line.outgoing(10.0) == [MOVE.encode()]
     request = line.submit(BatteryVoltageRead())
-    assert line.outgoing(10.0) == []
-    say(line, 10.01, BatteryVoltage(5000))  # requested by a program that was killed
-    at = line.send_at(10.01)
-    assert at == pytest.approx(10 + TRIP + REPLY_TIMEOUT)
+    at = line.send_at(10.0)
     assert at is not None
-    assert line.outgoing(at) == [BatteryVoltageRead().encode()]
+    at = max(10.0, at)
+    assert at == pytest.approx(10.0 + after)
+    if after:
+        assert line.outgoing(at - 1e-6) == []
+    assert line.outgoing(at) == [QUESTION]
     line.written(request, at)
-    say(line, at + TRIP, BatteryVoltage(7401))
+    say(line, request.left_at + 6 / 960, 7401)
     assert request.reply == BatteryVoltage(7401)
-    assert line.counters.unsolicited == 1
-
-
-def test_a_question_that_comes_later_does_not_wait() -> None:
-    line = session(now=10.0)
-    ask(line, 10.0 + TRIP + REPLY_TIMEOUT)
-
-
-def test_a_question_behind_a_command_does_not_wait_on_a_quiet_line() -> None:
-    line = session(now=10.0)
-    line.submit(ServoMove(100, [(1, 500)]))
-    line.submit(BatteryVoltageRead())
-    assert len(line.outgoing(10.0)) == 1
-    assert len(line.outgoing(10.02)) == 1
-
-
-def test_a_question_behind_a_command_waits_where_something_was_received() -> None:
-    line = session(now=10.0)
-    say(line, 10.0, BatteryVoltage(5000))
-    line.submit(ServoMove(100, [(1, 500)]))
-    line.submit(BatteryVoltageRead())
-    assert len(line.outgoing(10.0)) == 1
-    assert line.outgoing(10.02) == []
-    assert len(line.outgoing(10.0 + TRIP + REPLY_TIMEOUT)) == 1
-
-
-@pytest.mark.parametrize(("given", "waits"), [(0.0, 0.0), (1.5, 1.5)])
-def test_the_settling_time_can_be_set(given: float, waits: float) -> None:
-    line = session(now=10.0, settle=given)
-    line.submit(BatteryVoltageRead())
-    if waits:
-        assert line.outgoing(10.0 + waits - 0.001) == []
-    assert len(line.outgoing(10.0 + waits)) == 1
+    assert line.counters.unsolicited == heard
 
 
 def test_a_line_that_was_opened_again_settles_again() -> None:
     line = session(now=0.0)
-    answered(line, 1.0, 7500)
+    questions.answered(line, 1.0, 7500)
     line.restart(5.0)
     line.submit(BatteryVoltageRead())
     assert line.outgoing(5.1) == []
-    assert len(line.outgoing(5.0 + TRIP + REPLY_TIMEOUT)) == 1
-
-
-@in_turn("settle", lambda: [-1, math.nan])
-def test_a_negative_settling_time_is_refused(settle: float) -> None:
-    with pytest.raises(ValueError, match="settle is"):
-        session(settle=settle)
+    assert line.outgoing(5.0 + SETTLED) == [QUESTION]
 
 
 # ---------------------------------------------------------------- what is said
@@ -422,9 +311,9 @@ def test_a_negative_settling_time_is_refused(settle: float) -> None:
 def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> None:
     line = session()
     with caplog.at_level(logging.DEBUG, "busservo"):
-        ask(line, 0.0)
-        say(line, TOO_SOON, BatteryVoltage(1))
-        say(line, TRIP, BatteryVoltage(2))
+        ask(line)
+        say(line, TOO_SOON, 1)
+        say(line, TRIP, 2)
     assert "came sooner than the wire allows" in caplog.text
     assert "dropped BatteryVoltage(voltage_mv=1)" in caplog.text
 
@@ -443,10 +332,9 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
 def test_a_missing_reply_says_what_came_instead(came: bytes, expected: str) -> None:
     line = session(now=0.0, settle=0)
     say(line, 0.0, ActionGroupCompleted(1, 1))  # before the question, and none of its business
-    request = ask(line, 0.0)
-    line.receive(came, 0.2)
+    request = ask(line)
+    say(line, 0.2, came)
     settle(line)
     assert isinstance(request.error, NoReplyError)
     assert expected in str(request.error)
-    if came:
-        assert "nothing came" not in str(request.error)
+    assert ("nothing came" in str(request.error)) is (not came)

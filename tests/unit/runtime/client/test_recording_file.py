@@ -15,35 +15,32 @@ from busservo._library import CODEC
 from framewire.command.recorder import Recorder
 from framewire.recording.file import RecordingFile
 
+from tests.in_turn import in_turn
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
 RECORDED = "55 55 02 0F  # 0 s, host: BatteryVoltageRead()\n"
-
-
-def recorded_by_a_client(path: Path) -> None:
-    with Controller(VirtualLine(lambda _: []), trace=path):
-        pass
-
-
-def recorded_by_a_client_with_a_port(path: Path) -> None:
-    with open_controller("loop://", trace=path):
-        pass
-
-
-def recorded_by_a_monitor(path: Path) -> None:
-    assert main(["monitor", "--port", "loop://", "--log", str(path)]) == 2
-    raise FileExistsError
-
-
-@pytest.mark.parametrize(
-    "record", [recorded_by_a_client, recorded_by_a_client_with_a_port, recorded_by_a_monitor]
+PROBLEM = (
+    f"it holds {len(RECORDED)} bytes, and a recording is never overwritten; "
+    "give another name, or remove it"
 )
-def test_a_recording_is_never_overwritten(record: Callable[[Path], None], tmp_path: Path) -> None:
+
+
+def by_a_client(path: Path) -> object:
+    return Controller(VirtualLine(), trace=path)
+
+
+def by_a_client_with_a_port(path: Path) -> object:
+    return open_controller("loop://", trace=path)
+
+
+@in_turn("record", lambda: [by_a_client, by_a_client_with_a_port, RecordingFile])
+def test_a_recording_is_never_overwritten(record: Callable[[Path], object], tmp_path: Path) -> None:
     path = tmp_path / "line.hex"
     path.write_text(RECORDED)
-    with pytest.raises(FileExistsError):
+    with pytest.raises(FileExistsError, match=PROBLEM) as caught:
         record(path)
+    assert caught.value.filename == str(path)
     assert path.read_text() == RECORDED
 
 
@@ -52,15 +49,9 @@ def test_an_existing_recording_is_refused_with_advice(
 ) -> None:
     path = tmp_path / "line.hex"
     path.write_text(RECORDED)
-    problem = (
-        f"it holds {len(RECORDED)} bytes, and a recording is never overwritten; "
-        "give another name, or remove it"
-    )
-    with pytest.raises(FileExistsError, match=problem) as caught:
-        RecordingFile(path)
-    assert caught.value.filename == str(path)
     assert main(["monitor", "--port", "loop://", "--log", str(path)]) == 2
-    assert capsys.readouterr().err == f"busservo: error: {path} cannot be written: {problem}\n"
+    assert capsys.readouterr().err == f"busservo: error: {path} cannot be written: {PROBLEM}\n"
+    assert path.read_text() == RECORDED
 
 
 def test_an_empty_file_is_accepted(tmp_path: Path) -> None:
@@ -90,18 +81,20 @@ def test_a_device_or_a_fifo_is_accepted(tmp_path: Path) -> None:
     assert read == ["# quiet\n"]
 
 
+def lines_of(path: Path) -> list[str]:
+    """Return the lines of a recording without the times of a clock."""
+    text = re.sub(r"\d\.\d{6} s", "T s", path.read_text())
+    return re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{6} [+-]\d{4}", "DAY", text).splitlines()
+
+
 def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: Path) -> None:
-    line, path = VirtualLine(lambda _: []), tmp_path / "line.hex"
+    line, path = VirtualLine(), tmp_path / "line.hex"
     with client_on(line, Controller, reply_timeout=0.25, trace=path) as controller:
         line.say(bytes.fromhex("55 55 05 08"))
         with pytest.raises(NoReplyError):
             controller.read_battery_voltage()
-    first, *lines = path.read_text().splitlines()
-    assert re.fullmatch(
-        r"# recorded of 'virtual line' from \d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{6} [+-]\d{4} on",
-        first,
-    )
-    assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in lines] == [
+    assert lines_of(path) == [
+        "# recorded of 'virtual line' from DAY on",
         "55 55 02 0F  # T s, host: BatteryVoltageRead()",
         "55 55 05 08  # T s, noise: too short",
         "# quiet",
@@ -113,7 +106,7 @@ def test_what_has_begun_to_arrive_when_it_is_closed_is_recorded(tmp_path: Path) 
     with client_on(line, Controller, trace=path, baud=math.inf) as controller:
         line.say(ActionGroupStopped().encode() + bytes.fromhex("55 55 04"))
         assert controller.wait_for(ActionGroupStopped, timeout=1.0) == ActionGroupStopped()
-    assert [re.sub(r"\d\.\d{6} s", "T s", each) for each in path.read_text().splitlines()[1:]] == [
+    assert lines_of(path)[1:] == [
         "55 55 02 07  # T s, controller: ActionGroupStopped()",
         "55 55 04  # T s, noise: too short",
         "# quiet",

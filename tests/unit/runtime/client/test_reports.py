@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from busservo import (
     ActionGroupCompleted,
@@ -13,10 +14,13 @@ from busservo import (
     Message,
 )
 from busservo._library import CODEC, LIBRARY
-from framewire.client.report_filter import ReportFilter
-from framewire.client.session import Session
+from framewire.client.report_filter import Kinds, ReportFilter
 
 from tests.in_turn import in_turn
+from tests.lines.questions import say, session
+
+if TYPE_CHECKING:
+    from framewire.client.session import Session
 
 RUN_8, RUN_9, STOP = ActionGroupRun(8, 1), ActionGroupRun(9, 1), ActionGroupStop()
 STARTED_8 = ActionGroupStarted(8, 1)
@@ -27,22 +31,23 @@ ENDED = (ActionGroupCompleted, ActionGroupStopped)
 
 def after(story: list[Message]) -> Session:
     """Return a session in which these commands were sent and these reports came, in this order."""
-    line = Session(LIBRARY, baud=math.inf, reply_timeout=0.25, report_limit=16)
+    line = session(baud=math.inf)
     for message in story:
         if message.DIRECTION is CODEC.received:
-            line.receive(message.encode(), 0.0)
+            say(line, 0.0, message)
         else:
             line.submit(message)
             line.outgoing(0.0)
     return line
 
 
+def wanted(kind: Kinds, fields: dict[str, int]) -> ReportFilter:
+    return ReportFilter(LIBRARY.codec.received, kind, fields)
+
+
 def test_a_run_is_the_cause_of_its_reports() -> None:
     log = after([COMPLETED_8, RUN_8, COMPLETED_8, RUN_9]).reports
-    of_8, of_9 = (
-        ReportFilter(LIBRARY.codec.received, ActionGroupCompleted, {"group": group})
-        for group in (8, 9)
-    )
+    of_8, of_9 = (wanted(ActionGroupCompleted, {"group": group}) for group in (8, 9))
     assert log.since(of_8) == 1
     assert log.since(of_9) == 2
     found = log.find(of_8, since=1, began_at=2)
@@ -76,13 +81,13 @@ def test_a_run_is_the_cause_of_its_reports() -> None:
 def test_the_end_of_a_group_is_one_of_two_reports(
     story: list[Message], fields: dict[str, int], found: Message | None
 ) -> None:
-    log, wanted = after(story).reports, ReportFilter(LIBRARY.codec.received, ENDED, fields)
-    since = log.since(wanted)
-    assert log.find(wanted, since=since, began_at=log.next_number) == found
-    assert log.find(wanted, since=since, began_at=log.next_number) is None
+    log, end = after(story).reports, wanted(ENDED, fields)
+    since = log.since(end)
+    assert log.find(end, since=since, began_at=log.next_number) == found
+    assert log.find(end, since=since, began_at=log.next_number) is None
 
 
 def test_what_came_instead_is_counted_but_for_what_is_over() -> None:
     log = after([STOPPED, RUN_8, STARTED_8, COMPLETED_8, COMPLETED_9, STARTED_8]).reports
-    wanted = ReportFilter(LIBRARY.codec.received, ActionGroupCompleted, {"group": 8})
-    assert log.instead_of(wanted, since=log.since(wanted)) == {STARTED_8: 2, COMPLETED_9: 1}
+    end = wanted(ActionGroupCompleted, {"group": 8})
+    assert log.instead_of(end, since=log.since(end)) == {STARTED_8: 2, COMPLETED_9: 1}

@@ -7,61 +7,30 @@ from typing import TYPE_CHECKING
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoMove, TransportError
-from busservo._library import LIBRARY
-from framewire.client import session
+from framewire.client import session as session_module
 from framewire.client.request import STATES, Request, State, Step
-from framewire.client.session import Session
 
-from tests.lines.questions import ask
+from tests.in_turn import in_turn
+from tests.lines.questions import IN_TIME, TRIP, answered, ask, say, session
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-# As soon as the wire can have carried question and reply, and far too soon.
-IN_TIME, TOO_SOON = 10 / 960, 0.001
+    from framewire.client.session import Session
+
+    Do = Callable[[Session], object]
+
+LOST = TransportError("the line", "it was lost", "plug it in")
 
 
-def answer(line: Session, now: float, voltage: int = 7500) -> None:
-    line.receive(BatteryVoltage(voltage).encode(), now)
+def asked_again(line: Session) -> Request:
+    return ask(line, retries=1)
 
 
-def sent(line: Session) -> Request:
-    return ask(line, 0.0)
-
-
-def held(line: Session) -> Request:
-    request = ask(line, 0.0)
-    answer(line, TOO_SOON)
-    return request
-
-
-def held_twice(line: Session) -> Request:
-    request = held(line)
-    answer(line, 2 * TOO_SOON)
-    return request
-
-
-def dropped(line: Session) -> Request:
-    """Of a line that has kept its rate, one reply that is impossible is meant for another."""
+def asked_on_a_line_that_keeps_its_rate(line: Session) -> Request:
     for number in range(8):
-        ask(line, number)
-        answer(line, number + IN_TIME)
-    request = ask(line, 9.0)
-    answer(line, 9.0 + TOO_SOON)
-    line.tick(9.0 + IN_TIME + 0.25)
-    return request
-
-
-def tried_again(line: Session) -> Request:
-    request = ask(line, 0.0, retries=1)
-    line.tick(1.0)
-    return request
-
-
-def tried_again_in_doubt(line: Session) -> Request:
-    request = held(line)
-    answer(line, IN_TIME, 1)
-    return request
+        answered(line, number - 20.0, 7500)
+    return ask(line)
 
 
 def replaced(line: Session) -> Request:
@@ -72,88 +41,93 @@ def replaced(line: Session) -> Request:
     return request
 
 
-def answered(line: Session) -> Request:
-    request = ask(line, 0.0)
-    answer(line, IN_TIME)
-    return request
+def hear(at: float, voltage: int = 7500) -> Do:
+    return lambda line: say(line, at, voltage)
 
 
-def given_up(line: Session) -> Request:
-    request = ask(line, 0.0)
-    line.tick(1.0)
-    return request
+def tick(at: float) -> Do:
+    return lambda line: line.tick(at)
 
 
-def given_up_while_held(line: Session) -> Request:
-    request = held(line)
-    line.fail(TransportError("the line", "it was lost", "plug it in"))
-    return request
+def lose(line: Session) -> None:
+    line.fail(LOST)
 
 
-STORIES = [
-    (sent, (State.WAITING, Step.SEND), State.PENDING),
-    (replaced, (State.WAITING, Step.FINISH), State.DONE),
-    (held, (State.PENDING, Step.HOLD), State.HELD),
-    (tried_again, (State.PENDING, Step.RETRY), State.WAITING),
-    (given_up, (State.PENDING, Step.FINISH), State.DONE),
-    (held_twice, (State.HELD, Step.HOLD), State.HELD),
-    (dropped, (State.HELD, Step.DROP), State.PENDING),
-    (tried_again_in_doubt, (State.PENDING, Step.RETRY), State.WAITING),
-    (given_up_while_held, (State.HELD, Step.FINISH), State.DONE),
-    (answered, (State.HELD, Step.FINISH), State.DONE),
+# How a request begins, what happens then, and the last step of it: from which state to which.
+TOO_SOON = hear(0.001)
+STORIES: list[tuple[Callable[[Session], Request], list[Do], State, Step, State]] = [
+    (ask, [], State.WAITING, Step.SEND, State.PENDING),
+    (replaced, [], State.WAITING, Step.FINISH, State.DONE),
+    (ask, [TOO_SOON], State.PENDING, Step.HOLD, State.HELD),
+    (asked_again, [tick(1.0)], State.PENDING, Step.RETRY, State.WAITING),
+    (ask, [tick(1.0)], State.PENDING, Step.FINISH, State.DONE),
+    (ask, [TOO_SOON, hear(0.002)], State.HELD, Step.HOLD, State.HELD),
+    # One reply that is impossible, of a line that has kept its rate, is meant for another.
+    (
+        asked_on_a_line_that_keeps_its_rate,
+        [TOO_SOON, tick(TRIP + 0.25)],
+        State.HELD,
+        Step.DROP,
+        State.PENDING,
+    ),
+    (ask, [TOO_SOON, hear(TRIP, 1)], State.PENDING, Step.RETRY, State.WAITING),
+    (ask, [TOO_SOON, lose], State.HELD, Step.FINISH, State.DONE),
+    (ask, [hear(IN_TIME)], State.HELD, Step.FINISH, State.DONE),
 ]
 
 
 def test_each_step_of_the_table_has_an_example() -> None:
     table = {(state, step) for state, steps in STATES.items() for step in steps}
-    assert {last for _, last, _ in STORIES} == table
+    assert {(state, step) for _, _, state, step, _ in STORIES} == table
 
 
-@pytest.mark.parametrize(("story", "last", "then"), STORIES)
+@in_turn("begin, happens, state, step, then", lambda: STORIES)
 def test_each_step_of_the_table_happens(
-    story: Callable[[Session], Request],
-    last: tuple[State, Step],
-    then: State,
-    monkeypatch: pytest.MonkeyPatch,
+    begin: Callable[[Session], Request], happens: list[Do], state: State, step: Step, then: State
 ) -> None:
-    taken: dict[int, list[tuple[State, Step]]] = {}
+    taken: list[tuple[Request, State, Step]] = []
     take = Request.take
 
     def noted(request: Request, step: Step) -> None:
-        taken.setdefault(id(request), []).append((request.state, step))
+        taken.append((request, request.state, step))
         take(request, step)
 
-    monkeypatch.setattr(Request, "take", noted)
-    line = Session(LIBRARY, baud=9600, reply_timeout=0.5, report_limit=16)
-    request = story(line)
-    assert (taken[id(request)][-1], request.state) == (last, then)
-    assert STATES[last[0]][last[1]] is then
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Request, "take", noted)
+        line = session(reply_timeout=0.5)
+        request = begin(line)
+        for each in happens:
+            each(line)
+    steps = [(before, step) for each, before, step in taken if each is request]
+    assert (steps[-1], request.state) == ((state, step), then)
+    assert STATES[state][step] is then
 
 
 def test_a_finished_request_stays_finished() -> None:
-    line = Session(LIBRARY, baud=9600, reply_timeout=0.5, report_limit=16)
-    request = answered(line)
+    line = session()
+    request = answered(line, 0.0, 7500)
     for step in Step:
         with pytest.raises(KeyError):
             request.take(step)
     line.cancel(request)
-    line.fail(TransportError("the line", "it was lost", "plug it in"))
+    line.fail(LOST)
     assert (request.reply, request.error) == (BatteryVoltage(7500), None)
 
 
 def test_the_drawing_of_the_session_has_every_state_and_every_step() -> None:
-    drawing = re.findall(r"\b[A-Z]{4,}\b", (session.__doc__ or "").partition("RequestQueue")[0])
+    drawing = (session_module.__doc__ or "").partition("RequestQueue")[0]
     named = {each.name for each in [*State, *Step]}
-    assert {word for word in drawing if word != "STATES"} == named
+    assert {*re.findall(r"\b[A-Z]{4,}\b", drawing)} - {"STATES"} == named
 
 
 def test_a_request_cancelled_between_attempts_may_still_be_answered() -> None:
-    line = Session(LIBRARY, baud=9600, reply_timeout=0.5, report_limit=16)
-    request = tried_again(line)
+    line = session()
+    request = asked_again(line)
+    line.tick(0.3)
     line.cancel(request)
     following = line.submit(BatteryVoltageRead())
-    assert line.outgoing(1.0) == []
-    answer(line, 1.01, 1)
-    assert line.outgoing(1.01) == [BatteryVoltageRead().encode()]
-    answer(line, 1.03, 2)
+    assert line.outgoing(0.3) == []
+    say(line, 0.31, 1)
+    assert line.outgoing(0.31) == [BatteryVoltageRead().encode()]
+    say(line, 0.33, 2)
     assert following.reply == BatteryVoltage(2)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import os
 import socket
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 import serial
@@ -36,12 +34,16 @@ from framewire.line.port_errors import not_opened
 from framewire.line.serial_port import SerialPort
 
 from tests.in_turn import in_turn
-from tests.lines.live_line import Gate
-from tests.timeouts import GENEROUS, LIVE, await_that
+from tests.lines.both_clients import PORT_TALKS
+from tests.lines.gates import Gate, closing_ends_a_read, whoever_closes_second_waits
+from tests.lines.live_line import in_a_loop
+from tests.timeouts import GENEROUS, LIVE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
+
+    from tests.lines.both_clients import Talk
 
 pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
 
@@ -62,15 +64,22 @@ def tcp() -> Iterator[VirtualController]:
         yield made
 
 
+@pytest.mark.parametrize("talk", PORT_TALKS)
 @pytest.mark.parametrize("way", ["board", "tcp"])
-def test_a_session_over_a_port(way: str, request: pytest.FixtureRequest) -> None:
+def test_a_session_over_a_port(way: str, talk: Talk, request: pytest.FixtureRequest) -> None:
     board: VirtualController = request.getfixturevalue(way)
-    with open_controller(board.port, **LIVE) as controller:
-        assert controller.read_battery_voltage() == 7500
-        assert controller.read_servo_positions([1, 2]) == ((1, 500), (2, 500))
+
+    async def work(controller: Any) -> None:
+        assert await controller.read_battery_voltage() == 7500
+        await controller.reconnect()
+        assert await controller.read_servo_positions([1, 2]) == ((1, 500), (2, 500))
         board.report(ActionGroupStopped())
-        assert next(controller.reports(timeout=GENEROUS)) == ActionGroupStopped()
-    assert controller.closed
+        stopped = await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+        assert stopped == ActionGroupStopped()
+        await controller.close()
+        assert controller.closed
+
+    talk(board.port, work, **LIVE)
 
 
 def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
@@ -105,18 +114,14 @@ def test_a_socket_sends_small_frames_at_once(tcp: VirtualController) -> None:
     transport.close()
 
 
-def test_a_session_with_asyncio(board: VirtualController) -> None:
-    async def work() -> None:
-        async with open_async_controller(board.port, **LIVE) as controller:
-            assert await controller.read_battery_voltage() == 7500
-        awaited = await open_async_controller(board.port, **LIVE)
-        assert await awaited.read_servo_positions([3]) == ((3, 500),)
-        await awaited.close()
-        with pytest.raises(PortNotFoundError):
-            async with open_async_controller(f"{board.port}0000"):
-                pass
-
-    asyncio.run(work())
+@in_a_loop
+async def test_a_client_for_asyncio_is_opened_by_awaiting_it(board: VirtualController) -> None:
+    awaited = await open_async_controller(board.port, **LIVE)
+    assert await awaited.read_servo_positions([3]) == ((3, 500),)
+    await awaited.close()
+    with pytest.raises(PortNotFoundError):
+        async with open_async_controller(f"{board.port}0000"):
+            pass
 
 
 def test_a_port_of_pyserial_that_answers_itself() -> None:
@@ -174,6 +179,9 @@ REFUSED_NAMES = {
         ("SOCKET://127.0.0.1:1?logging=error", PortNotFoundError, "there and listening"),
         ("hwgrep://.*&n=99", PortNotFoundError, "in its description, or none that 'n=99' leaves;"),
         (" /dev/ttyUSB0", PortNotFoundError, "its name begins or ends with a blank"),
+        ("rfc2217://127.0.0.1:1", TransportError, "rfc2217://127.0.0.1:1"),
+        ("rfc2217://nowhere", TransportError, "rfc2217://nowhere"),
+        ("cp2110://", TransportError, "cp2110://"),
         ("socket:board:4000", PortNotFoundError, "and an address begins with socket://"),
         ("/", PortAddressError, "it is there, and is no serial port"),
         (__file__, PortAddressError, "it is there, and is no serial port"),
@@ -256,33 +264,20 @@ def test_a_scheme_may_be_written_in_capitals(monkeypatch: pytest.MonkeyPatch) ->
     assert looked_for == ["CH340"]
 
 
-def test_permission_denied_comes_with_advice(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object, **__: object) -> None:
-        raise serial.SerialException(13, "could not open port /dev/ttyUSB0: Permission denied")
+def test_an_error_at_opening_comes_with_advice_or_in_its_own_words(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise error
 
-    monkeypatch.setattr(serial, "serial_for_url", refuse)
+    monkeypatch.setattr(serial, "serial_for_url", fail)
+    error = serial.SerialException(13, "could not open port /dev/ttyUSB0: Permission denied")
     with pytest.raises(PortPermissionError, match="dialout"):
         open_controller("/dev/ttyUSB0")
-
-
-def test_hung_up_by_the_other_end(tcp: VirtualController) -> None:
-    with open_controller(tcp.port, **LIVE) as controller:
-        assert controller.read_battery_voltage() == 7500
-        tcp.unplug()
-        with pytest.raises(DisconnectedError):
-            controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
-
-
-def test_reconnecting_to_the_same_port(board: VirtualController) -> None:
-    with open_controller(board.port, **LIVE) as controller:
-        controller.reconnect()
-        assert controller.read_battery_voltage() == 7500
-
-
-def test_nothing_of_the_last_frame_is_cut_off(board: VirtualController) -> None:
-    with open_controller(board.port) as controller:
-        controller.unload_servos(range(1, 61))
-    await_that(lambda: board.accepted == 1)
+    error = serial.SerialException(5, "could not open port COM7: Input/output error")
+    with pytest.raises(TransportError, match=r"it cannot be opened .*Input/output") as caught:
+        open_transport("COM7")
+    assert type(caught.value) is TransportError
 
 
 def test_a_transport_on_its_own(board: VirtualController) -> None:
@@ -321,32 +316,15 @@ def test_a_read_waits_for_its_timeout(board: VirtualController, port: str, timeo
 
 
 def test_closing_ends_a_read_in_another_thread(board: VirtualController) -> None:
-    transport = open_transport(board.port)
-    ended = threading.Event()
-
-    def read() -> None:
-        with pytest.raises(ClosedError):
-            transport.read(2 * GENEROUS)
-        ended.set()
-
-    thread = threading.Thread(target=read)
-    thread.start()
-    transport.close()
-    assert ended.wait(GENEROUS)
-    thread.join()
+    closing_ends_a_read(open_transport(board.port))
 
 
+@pytest.mark.parametrize("talk", PORT_TALKS)
 def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(
-    board: VirtualController,
+    board: VirtualController, talk: Talk
 ) -> None:
     with pytest.raises(ValueError, match="reply_timeout"):
-        open_controller(board.port, reply_timeout=0)
-
-    async def work() -> None:
-        with pytest.raises(ValueError, match="reply_timeout"):
-            await open_async_controller(board.port, reply_timeout=0)
-
-    asyncio.run(work())
+        talk(board.port, None, reply_timeout=0)
     # Nobody has it: it can be had exclusively.
     with open_controller(board.port, **LIVE) as controller:
         assert controller.read_battery_voltage() == 7500
@@ -541,21 +519,7 @@ def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
 ) -> None:
     closing = Gate()
     driver = SlowToClose(closing)
-    port = made(driver)
-
-    def close_too() -> bool:
-        port.close()
-        return driver.closed
-
-    with ThreadPoolExecutor() as pool:
-        first = pool.submit(port.close)
-        closing.wait()
-        second = pool.submit(close_too)
-        done, _ = wait([second], timeout=0.05)
-        closing.go_on.set()
-        assert not done, "the port is not closed yet"
-        assert second.result(GENEROUS)
-        first.result(GENEROUS)
+    whoever_closes_second_waits(made(driver), closing, driver)
 
 
 @in_turn("made", lambda: [driven_by, by_hid])
@@ -569,18 +533,6 @@ def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
     closing.go_on.set()
     port.close()
     assert driver.closed
-
-
-def test_an_unknown_error_at_opening_is_reported_in_its_own_words(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def fail(*_: object, **__: object) -> None:
-        raise serial.SerialException(5, "could not open port COM7: Input/output error")
-
-    monkeypatch.setattr(serial, "serial_for_url", fail)
-    with pytest.raises(TransportError, match=r"it cannot be opened .*Input/output") as caught:
-        open_transport("COM7")
-    assert type(caught.value) is TransportError
 
 
 def test_a_pseudo_terminal_is_opened_though_it_keeps_no_parity(

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead, Controller, ServoPositions
+from busservo import BatteryVoltage, BatteryVoltageRead, Controller
 from busservo._library import LIBRARY
-from framewire.client.session import Session
+from framegen.model.codec import encode
 
-from tests.lines.questions import ask
+from tests.factories import data_of, files_of, layout_of, library
+from tests.in_turn import in_turn
+from tests.lines.questions import TRIP, ask, asked, say, session
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
+from tests.mutations.places import having
+from tests.protocols.specs import FILES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from busservo import Message
+    from framewire.client.session import Session
 
-REPLY_TIMEOUT = 0.25
-TRIP = 10 / 960
 ASK = "asked"
 
 
@@ -31,57 +34,51 @@ class Story(NamedTuple):
     declared: bool = False
 
 
-LONG = 5.0
 STORIES = {
-    "never asked for": Story([(LONG, 1), (LONG + 1, 2)], [1, 2]),
+    "never asked for": Story([(5, 1), (6, 2)], [1, 2]),
     "to a program that was killed": Story([(0.2, 1)], []),
-    "long after the answer": Story([(LONG, ASK), (LONG + TRIP, 1), (LONG + 2, 2)], [2]),
-    "twice": Story([(LONG, ASK), (LONG + TRIP, 1), (LONG + 0.2, 1)], []),
-    "late": Story([(LONG, ASK), (LONG + 0.4, 1)], []),
-    "much too late": Story([(LONG, ASK), (LONG + 3, 1)], []),
-    "behind one that was much too late": Story(
-        [(LONG, ASK), (LONG + 3, 1), (LONG + 4, 2), (LONG + 4.1, 3)], [2, 3]
-    ),
-    "read long after it came, as the process was stopped": Story(
-        [(LONG, ASK), (LONG + 3, 1), (LONG + 3.1, 1)], []
-    ),
+    "long after the answer": Story([(5, ASK), (5 + TRIP, 1), (7, 2)], [2]),
+    "twice": Story([(5, ASK), (5 + TRIP, 1), (5.2, 1)], []),
+    "late": Story([(5, ASK), (5.4, 1)], []),
+    "much too late": Story([(5, ASK), (8, 1)], []),
+    "behind one that was much too late": Story([(5, ASK), (8, 1), (9, 2), (9.1, 3)], [2, 3]),
+    "read long after it came, as the process was stopped": Story([(5, ASK), (8, 1), (8.1, 1)], []),
     "known to come by itself, right behind the answer": Story(
-        [(LONG, 1), (LONG + 1, ASK), (LONG + 1 + TRIP, 2), (LONG + 1 + 2 * TRIP, 3)], [1, 3]
+        [(5, 1), (6, ASK), (6 + TRIP, 2), (6 + 2 * TRIP, 3)], [1, 3]
     ),
     "known to come by itself, too soon for the answer": Story(
-        [(LONG, 1), (LONG + 1, ASK), (LONG + 1.001, 2), (LONG + 1 + TRIP, 3)], [1, 2]
+        [(5, 1), (6, ASK), (6.001, 2), (6 + TRIP, 3)], [1, 2]
     ),
     "declared, and never asked for": Story([(0.2, 1), (0.3, 2)], [1, 2], declared=True),
     "declared, right behind the answer": Story(
-        [(LONG, ASK), (LONG + TRIP, 1), (LONG + 2 * TRIP, 2)], [2], declared=True
+        [(5, ASK), (5 + TRIP, 1), (5 + 2 * TRIP, 2)], [2], declared=True
     ),
     "declared, too soon for the answer": Story(
-        [(LONG, ASK), (LONG + 0.001, 1), (LONG + TRIP, 2)], [1], declared=True
+        [(5, ASK), (5.001, 1), (5 + TRIP, 2)], [1], declared=True
     ),
 }
 
 
-@pytest.mark.parametrize("name", STORIES)
-def test_what_comes_by_itself_is_a_report(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    story = STORIES[name]
-    if story.declared:
-        monkeypatch.setattr(LIBRARY, "reports", frozenset([BatteryVoltage]))
-    line = Session(LIBRARY, baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16, now=0.0)
-    came, asked = [], 0
-    for at, step in story.steps:
+@in_turn("name", lambda: STORIES)
+def test_what_comes_by_itself_is_a_report(name: str) -> None:
+    steps, expected, declared = STORIES[name]
+    with pytest.MonkeyPatch.context() as patch:
+        if declared:
+            patch.setattr(LIBRARY, "reports", frozenset([BatteryVoltage]))
+        line = session(now=0.0)
+    for at, step in steps:
         while (tick_at := line.tick_at) is not None and tick_at < at:
             line.tick(tick_at)
         if isinstance(step, str):
-            asked += 1
             ask(line, at)
         else:
-            came.append(step)
-            line.receive(BatteryVoltage(step).encode(), at)
+            say(line, at, step)
     reports = list(taken(line))
-    assert reports == [BatteryVoltage(each) for each in story.reports]
+    assert reports == [BatteryVoltage(each) for each in expected]
     # Whatever came is counted, as one or the other.
     counters = line.counters
-    assert counters.reports + counters.replies + counters.unsolicited == len(came)
+    came = sum(isinstance(step, int) for _, step in steps)
+    assert counters.reports + counters.replies + counters.unsolicited == came
     assert counters.reports == len(reports)
 
 
@@ -92,15 +89,7 @@ def taken(line: Session) -> Iterator[Message]:
 
 def test_a_stream_of_measurements_reaches_who_listens_and_who_asks() -> None:
     """The board sends a voltage a second by itself, and the same message for an answer."""
-    line = VirtualLine()
-
-    def answer(message: Message) -> Iterator[tuple[float, Message]]:
-        if isinstance(message, BatteryVoltageRead):
-            yield TRIP, BatteryVoltage(7400)
-        else:
-            yield TRIP, ServoPositions([(1, 500)])
-
-    line.answer = answer
+    line = VirtualLine(lambda _: [(TRIP, BatteryVoltage(7400))])
     with client_on(line, Controller, baud=9600, settle=None) as controller:
         heard: list[Message] = []
         controller.on_report(heard.append)
@@ -109,12 +98,56 @@ def test_a_stream_of_measurements_reaches_who_listens_and_who_asks() -> None:
             line.say(BatteryVoltage(second))
             assert next(controller.reports(timeout=0.5)) == BatteryVoltage(second)
             assert controller.read_battery_voltage() == 7400
+        assert line.received == [BatteryVoltageRead()] * 5
         assert heard == [BatteryVoltage(second) for second in range(1, 6)]
         assert controller.counters.unsolicited == 0
 
 
 def test_another_line_is_learnt_anew() -> None:
-    line = Session(LIBRARY, baud=9600, reply_timeout=REPLY_TIMEOUT, report_limit=16, now=0.0)
-    line.restart(LONG)
-    line.receive(BatteryVoltage(1).encode(), LONG + 0.2)
+    line = session(now=0.0)
+    line.restart(5)
+    say(line, 5.2, 1)
     assert (line.counters.unsolicited, line.counters.reports) == (1, 0)
+
+
+# ------------------------------------------------------------------ a receiver
+
+
+@pytest.fixture(scope="module")
+def receiver() -> Iterator[Any]:
+    """Import the library of a protocol whose length counts to 65535, and return its spec.
+
+    A message comes again and again once it is switched on, and is asked for as well.
+    """
+    long = {"messages.MonVer.fields.extensions.count": "0.."}
+    data = having(data_of(FILES["ubx"]), long | {"messages.CfgMsgRateSet.reports": ["NavPvt"]})
+    with library(files_of(data)):
+        yield data
+
+
+def test_what_is_asked_for_and_reported_as_well_is_both(receiver: Any) -> None:
+    line, _, kinds = asked("ubx", "MonVerPoll")
+    frame = bytes.fromhex(receiver["messages"]["NavPvt"]["examples"][0]["hex"])
+    say(line, 0.01, frame)
+    assert line.reports.take() == kinds.NavPvt.decode(frame)
+    assert line.counters.unsolicited == 0
+    line.tick(2.0)  # what was asked first is given up
+    request = ask(line, 3.0, kinds.NavPvtPoll())
+    say(line, 3.2, frame)
+    assert request.reply == kinds.NavPvt.decode(frame)
+
+
+def test_a_long_reply_may_take_as_long_as_it_goes_on_arriving_and_no_longer(receiver: Any) -> None:
+    line, request, _ = asked("ubx", "MonVerPoll")
+    line.tick(2.0)
+    assert "no MonVer came" in str(request.error)
+    line, request, _ = asked("ubx", "MonVerPoll")
+    extensions = [{"text": f"extension {number}"} for number in range(200)]
+    values = {"software": "1", "hardware": "2", "extensions": extensions}
+    reply = encode(layout_of(receiver).messages["MonVer"], values)
+    assert len(reply) > 5000
+    for at in range(0, len(reply), 96):
+        say(line, 0.1 + at / 960, reply[at : at + 96])
+        line.tick(0.1 + at / 960 + 0.001)
+    assert request.error is None
+    assert len(request.reply.extensions) == 200

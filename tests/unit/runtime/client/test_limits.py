@@ -1,0 +1,225 @@
+"""The limits of what is sent, usual ones and those of each servo; and the ids of a client."""
+
+from __future__ import annotations
+
+import pickle
+from typing import TYPE_CHECKING, Any
+
+import lxservo
+import pytest
+from busservo import (
+    AsyncController,
+    Controller,
+    EncodeError,
+    LimitError,
+    ServoMove,
+    ServoPositions,
+)
+from busservo._exchanges import LIMITS, POSE
+from busservo_simulator import VirtualController
+from framewire.client.limits import Limits
+
+from tests.factories import DEMO, library, library_of
+from tests.in_turn import in_turn
+from tests.lines.both_clients import PORT_TALKS
+from tests.lines.timed_line import client_of, client_on
+from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import LIVE
+
+if TYPE_CHECKING:
+    from tests.lines.both_clients import Talk
+
+CLIENTS = (Controller, AsyncController)
+OWN = {1: (100, 900), 2: None, 3: (500, 2500)}
+PWM, USUAL = (
+    "limits=(500, 2500) is for PWM servo boards, ",
+    "limits=(0, 1000) is for what is usual, ",
+)
+READ = "targets_of() makes targets of what was read; limits=None sends anything"
+# Under which limits what is sent to whom, and what refuses it: none if it is inside of them.
+SENT: list[tuple[Any, list[tuple[int, int]], str]] = [
+    ((0, 1000), [(1, 0), (2, 1000)], ""),
+    ((500, 2500), [(1, 500), (2, 2500)], ""),
+    (None, [(1, 0), (2, 65535)], ""),
+    ([3, 4], [(1, 3), (2, 4)], ""),
+    (
+        (0, 1000),
+        [(1, 800), (2, 1001)],
+        f"targets[1].position: 1001 is outside the limits 0..1000; {PWM}limits=None for any",
+    ),
+    (
+        (0, 1000),
+        [(1, 65535)],
+        f"targets[0].position: 65535 is outside the limits 0..1000; {READ}",
+    ),
+    (
+        (500, 2500),
+        [(1, 499)],
+        f"targets[0].position: 499 is outside the limits 500..2500; {USUAL}limits=None for any",
+    ),
+    (
+        (100, 800),
+        [(1, 900)],
+        f"targets[0].position: 900 is outside the limits 100..800; {USUAL}{PWM}limits=None for any",
+    ),
+    (OWN, [(1, 100), (1, 900)], ""),
+    (OWN, [(1, 99)], "targets[0].position: 99 is outside the limits 100..900 of servo 1; "),
+    (OWN, [(1, 901)], "targets[0].position: 901 is outside the limits 100..900 of servo 1; "),
+    (OWN, [(2, 65535)], ""),
+    (OWN, [(3, 2500), (4, 1000), (4, 0)], ""),
+    (OWN, [(3, 499)], "targets[0].position: 499 is outside the limits 500..2500 of servo 3; "),
+    (OWN, [(4, 1001)], "targets[0].position: 1001 is outside the limits 0..1000 of servo 4; "),
+    (
+        OWN,
+        [(2, 5000), (1, 500), (1, 950)],
+        "targets[2].position: 950 is outside the limits 100..900 of servo 1; ",
+    ),
+]
+
+
+@in_turn("limits, targets, refusal", lambda: SENT)
+def test_what_is_outside_the_limits_is_refused_and_never_sent(
+    limits: Any, targets: list[tuple[int, int]], refusal: str
+) -> None:
+    line = VirtualLine()
+    move = ServoMove(targets=targets, time_ms=10)
+    with client_on(line, Controller, limits=limits, settle=None) as controller:
+        for send in (controller.send, controller.send_latest):
+            if not refusal:
+                send(move)
+                continue
+            with pytest.raises(LimitError) as refused:
+                send(move)
+            error = refused.value
+            assert str(error).startswith(refusal)
+            assert limits is OWN or str(error) == refusal
+            low, high = error.limits
+            said = f"{error.path}: {error.value} is outside the limits {low}..{high}"
+            assert refusal.startswith(said + (f" of {error.owner}; " if error.owner else "; "))
+            assert str(pickle.loads(pickle.dumps(error))) == str(error)  # noqa: S301 - our own
+    assert line.received == ([] if refusal else [move, move])
+
+
+def test_a_refusal_is_an_encode_error() -> None:
+    error = LimitError("targets[0].position", 1500, (0, 1000), LIMITS.way_out(1500))
+    assert isinstance(error, EncodeError)
+    assert isinstance(error, ValueError)
+    assert (error.path, error.value, error.limits) == ("targets[0].position", 1500, (0, 1000))
+
+
+LOWEST = r"limits is .* must be the lowest and the highest.* such as \(0, 1000\), or None for any"
+
+
+@in_turn(
+    "limits, problem",
+    lambda: [
+        *((each, LOWEST) for each in [(1000, 0), (1,), 1000, "0..1000", (0, 1.5), (1, 2, 3), ()]),
+        ({1: (900, 100)}, r"limits\[1\] is \(900, 100\), and must be the lowest"),
+        ({1: 5}, r"limits\[1\] is 5, and must be the lowest"),
+        ({"1": (0, 9)}, r"limits has '1', and must have numbers, such as \{1: \(0, 1000\)\}"),
+    ],
+)
+def test_limits_that_can_be_nobodys_are_refused_with_what_can(limits: Any, problem: str) -> None:
+    for client in CLIENTS:
+        with pytest.raises(ValueError, match=problem):
+            client(VirtualLine(), limits=limits)
+
+
+def test_nothing_else_has_limits() -> None:
+    beyond = ServoMove(time_ms=100, targets=[(1, 800), (2, 1001)])
+    assert ServoMove.decode(beyond.encode()) == beyond
+    line = VirtualLine()
+    with client_on(line, Controller, settle=None) as controller:
+        controller.set_action_group_speed(255, percent=65535)
+        controller.run_action_group(255, times=65535)
+    assert len(line.received) == 2
+    assert Limits().chosen(None) is None
+    with pytest.raises(ValueError, match="nothing that is sent here has limits"):
+        Limits().chosen((0, 1))
+
+
+@pytest.mark.parametrize("talk", PORT_TALKS)
+def test_a_port_is_opened_with_limits(talk: Talk) -> None:
+    beyond = ServoMove(time_ms=100, targets=[(1, 1001)])
+
+    async def refused(controller: Any) -> None:
+        with pytest.raises(LimitError):
+            await controller.send(beyond)
+        with pytest.raises(LimitError):
+            controller.send_latest(beyond)
+
+    async def sent(controller: Any) -> None:
+        await controller.send(beyond)
+
+    with VirtualController("tcp") as board:
+        talk(board.port, refused)
+        talk(board.port, sent, limits=(500, 2500))
+        talk(board.port, sent, limits=None)
+
+
+def test_positions_that_were_read_are_held_within_the_limits_of_each() -> None:
+    assert POSE is not None
+    read = ServoPositions([(1, 95), (4, 1010), (2, 4000)]).positions
+    assert POSE.targets_of(read, LIMITS.chosen(OWN)) == [(1, 100), (4, 1000), (2, 4000)]
+    with pytest.raises(LimitError, match=r"50 is outside the limits 100\.\.900 of servo 1; "):
+        POSE.targets_of(ServoPositions([(1, 50)]).positions, LIMITS.chosen(OWN))
+
+
+# ------------------------------------------------------------------ the ids of a client
+
+
+@in_turn(
+    "ids, problem",
+    lambda: [
+        ((0,), r"ids has 0, and a servo is 1\.\.253"),
+        ((254,), "ids has 254"),
+        ("1,2", "numbers"),
+    ],
+)
+def test_ids_of_no_servo_are_refused(ids: Any, problem: str) -> None:
+    for client in CLIENTS:
+        with pytest.raises(ValueError, match=problem):
+            client(VirtualLine(), ids=ids)
+
+
+def test_a_protocol_without_a_pose_takes_no_ids_and_no_limits() -> None:
+    for client in (lxservo.Controller, lxservo.AsyncController):
+        with pytest.raises(ValueError, match="nothing that is asked here takes a list of ids"):
+            client(VirtualLine(), ids=(1,))
+        with pytest.raises(ValueError, match="nothing that is sent here has limits"):
+            client(VirtualLine(), limits={1: (0, 9)})
+
+
+NO_IDS = "ids: give them here, or as ids=… when the client is opened"
+
+
+def test_positions_are_read_of_the_ids_of_the_client() -> None:
+    with library(library_of(DEMO.with_name("blinds.yaml"))) as blinds:
+        asked: list[tuple[int, ...]] = []
+
+        class Motor(blinds.Device):  # type: ignore[misc, name-defined]
+            def on_blinds_read(self, message: Any) -> Any:
+                asked.append(tuple(message.blind_ids))
+                return blinds.BlindsState([(each, 7) for each in message.blind_ids])
+
+        with client_of(Motor(), ids=(4, 9, 4)) as hub:
+            assert [each.blind_id for each in hub.read_heights()] == [4, 9]
+            assert [each.blind_id for each in hub.read_heights([5])] == [5]
+        with client_of(Motor()) as hub, pytest.raises(ValueError, match=NO_IDS):
+            hub.read_heights()
+        assert asked == [(4, 9), (5,)]
+
+
+@pytest.mark.parametrize("talk", PORT_TALKS)
+def test_a_port_is_opened_with_ids(talk: Talk) -> None:
+    async def asked(controller: Any) -> None:
+        read = await controller.read_servo_positions()
+        assert [each.servo_id for each in read] == [3, 2]
+
+    async def not_told(controller: Any) -> None:
+        with pytest.raises(ValueError, match="ids: give them here"):
+            await controller.read_servo_positions()
+
+    with VirtualController("tcp") as board:
+        talk(board.port, asked, **LIVE, ids=[3, 2])
+        talk(board.port, not_told)
