@@ -10,8 +10,6 @@ end no more memory, threads and pending messages may be there than after the fir
 It is no part of `make test`, which only tries that it runs.
 """
 
-from __future__ import annotations
-
 import argparse
 import asyncio
 import gc
@@ -19,10 +17,10 @@ import math
 import sys
 import threading
 import time
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
-from busservo import AsyncController, Controller, open_transport
+from busservo import AsyncController, Controller, Message, open_transport
 from busservo_simulator import Faults, VirtualController
 
 from tests.contract.independent import long_run
@@ -36,11 +34,6 @@ from tests.lines.conversation import (
 )
 from tests.lines.long_bus_run import on_a_bus
 from tests.timeouts import GENEROUS, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from busservo import Message
 
 THREADS, TASKS = 8, 100
 REPLY_TIMEOUT = 0.25

@@ -1,7 +1,5 @@
 """A virtual board in virtual time, and a client of it: a read moves its clock on."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

@@ -1,13 +1,9 @@
 """Conversations in real time, held at once: most of each is waiting."""
 
-from __future__ import annotations
-
 import traceback
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+from typing import Any
 
 
 def at_once(talk: Callable[..., None], lines: Iterable[tuple[Any, ...]]) -> None:

@@ -3,19 +3,13 @@
 A conftest.py of a folder with such tests imports both names.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Generator, Iterator
 
 import pytest
+from busservo import Noise
 from busservo._envelopes import HEADS
 from busservo_simulator import VirtualController
 from framewire.codec.rejects import Rejects
-
-if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator
-
-    from busservo import Noise
 
 _PASSED = pytest.StashKey[bool]()
 

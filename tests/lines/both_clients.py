@@ -4,13 +4,12 @@ A client for threads is awaited as the one for asyncio is: each of its calls is 
 that it returns, so that nobody has to wait for it.
 """
 
-from __future__ import annotations
-
 import asyncio
 import inspect
 import time
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterable
 from functools import wraps
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import pytest
 from busservo import (
@@ -27,12 +26,9 @@ from tests.lines.receiving import unanswered
 from tests.lines.virtual_line import VirtualLine, client, run
 from tests.timeouts import GENEROUS
 
-if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable, Coroutine, Iterable
-
-    Work = Callable[[Any], Coroutine[Any, Any, None]]
-    Talk = Callable[..., None]
-    Told = Callable[..., Coroutine[Any, Any, None]]
+Work = Callable[[Any], Coroutine[Any, Any, None]]
+Talk = Callable[..., None]
+Told = Callable[..., Coroutine[Any, Any, None]]
 
 _Result = TypeVar("_Result")
 

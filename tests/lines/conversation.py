@@ -5,39 +5,32 @@ another's is seen. Every report that leaves it is recorded, and so is every valu
 received: none may come twice, and none that was sent before the call began.
 """
 
-from __future__ import annotations
-
 import threading
 import time
+from collections.abc import Callable, Iterator
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from busservo import (
+    AsyncController,
     BatteryVoltage,
+    BatteryVoltageRead,
+    Controller,
     DisconnectedError,
     IncompleteReplyError,
+    Message,
     NoReplyError,
     ServoPosition,
     ServoPositions,
+    ServoPositionsRead,
     TransportError,
 )
+from busservo_simulator import VirtualController
 from busservo_simulator.board_fault_injector import REPLIES
+from busservo_simulator.virtual_device import Report
 
 from tests.lines.both_clients import Awaited, done_at_once, moment, until
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from busservo import (
-        AsyncController,
-        BatteryVoltageRead,
-        Controller,
-        Message,
-        ServoPositionsRead,
-    )
-    from busservo_simulator import VirtualController
-    from busservo_simulator.virtual_device import Report
 
 ABSENT = ServoPosition.POSITION_ABSENT
 # No call may take longer, on however slow a machine.

@@ -1,19 +1,14 @@
 """A library's client and its own device, connected: every method is called, and answered."""
 
-from __future__ import annotations
+from types import ModuleType
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
-
+from framegen.model.exchanges import Exchange
+from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
 from framegen.model.slots import Items, Number
 
 from tests.lines.timed_line import TimedLine
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from framegen.model.exchanges import Exchange
-    from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
 
 
 class Line(TimedLine):

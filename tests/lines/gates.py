@@ -1,19 +1,15 @@
 """Gates at which a thread waits until the test lets it go on, and what holds of closing."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo import ClosedError
 
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class Gate:

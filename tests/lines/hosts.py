@@ -1,19 +1,13 @@
 """A host for the tests: it writes messages, and reads what comes back."""
 
-from __future__ import annotations
-
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from busservo import Direction, Message, Noise, StreamDecoder
+from busservo_simulator import VirtualController
+from framewire.line.transport import Transport
 
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from busservo_simulator import VirtualController
-    from framewire.line.transport import Transport
 
 # How long silence lasts until it is believed, by the clock of a board whose time nobody waits for.
 SILENCE = 5.0

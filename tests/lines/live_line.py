@@ -1,19 +1,15 @@
 """A board at the end of a line in real time, that answers at once; its faults are hooks."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
+from collections.abc import Callable, Coroutine
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from busservo import ClosedError, DisconnectedError, Message
 
 from tests.lines.receiving import Receiving, answered
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine
 
 __all__ = ["LiveLine", "answered", "in_a_loop", "losing"]
 
@@ -81,7 +77,7 @@ class LiveLine(Receiving):
             self._changed.notify_all()
         self._begin("close")
 
-    def reopen(self) -> LiveLine:
+    def reopen(self) -> "LiveLine":
         self._begin("reopen")
         return LiveLine(self._answer)
 

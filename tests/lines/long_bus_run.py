@@ -1,7 +1,5 @@
 """A long run on a bus of servos, one of them dead, the others late at times or telling twice."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import sys

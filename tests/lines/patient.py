@@ -1,19 +1,15 @@
 """A virtual board for the doctor to examine, in virtual time, and all that it needs for that."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from busservo._command import PROGRAM
+from busservo_simulator import Faults, VirtualController
 from framewire.command.checks.checks import checks_of, examine
 from framewire.command.checks.diagnosis import Diagnosis
+from framewire.command.checks.result import Result
 from framewire.line.serial_port import SerialPortSeen
 
 from tests.lines.at_board import virtual_board
-
-if TYPE_CHECKING:
-    from busservo_simulator import Faults, VirtualController
-    from framewire.command.checks.result import Result
 
 CHECKS = checks_of(PROGRAM.library)
 PORT = "virtual board"

@@ -1,16 +1,12 @@
 """Lines to the programs of others: pseudo-terminals, with a device or another terminal behind."""
 
-from __future__ import annotations
-
 import os
 import select
 import threading
 import tty
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Protocol
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+from typing import Protocol
 
 
 class Receiver(Protocol):

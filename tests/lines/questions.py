@@ -1,18 +1,13 @@
 """A session alone, without a client, a line and a clock: what it asks, and what it is told."""
 
-from __future__ import annotations
-
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from busservo import BatteryVoltage, BatteryVoltageRead
+from busservo import BatteryVoltage, BatteryVoltageRead, Message
+from framewire.client.request import Request
 from framewire.client.session import Session
 
 from tests.handed import handed_by
-
-if TYPE_CHECKING:
-    from busservo import Message
-    from framewire.client.request import Request
 
 REPLY_TIMEOUT = 0.25
 # Question and reply of a battery on the wire: 4 bytes and 6, at 960 a second.

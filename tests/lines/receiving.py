@@ -1,11 +1,10 @@
 """What a board receives, in whatever time it lives, and what it answers."""
 
-from __future__ import annotations
-
 import json
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from busservo import (
     BatteryVoltage,
@@ -20,9 +19,6 @@ from busservo import (
 from busservo._envelopes import HEADS
 from busservo._exchanges import EXCHANGES
 from framewire.codec.rejects import Rejects
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 
 def answered(message: Message) -> list[Message]:

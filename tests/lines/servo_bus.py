@@ -4,16 +4,11 @@ Time is virtual, and every byte takes its time on the one wire that all share. I
 two send at once, which would damage both on a real wire.
 """
 
-from __future__ import annotations
-
 from bisect import insort
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from busservo_simulator import VirtualClock
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 BAUD = 115200
 ALL = 254

@@ -1,22 +1,16 @@
 """A line on which a protocol is spoken, and a tally of it that is made while it is spoken."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from random import Random
+from typing import Any
 
-from framegen.audit.audit import audit
+from framegen.audit.audit import Audit, audit
 from framegen.audit.recording import read_recording
 from framegen.model.codec import encode
+from framegen.model.model import Model
 
 from tests.unit.guess.traffic import values_for
-
-if TYPE_CHECKING:
-    from random import Random
-
-    from framegen.audit.audit import Audit
-    from framegen.model.model import Model
 
 
 @dataclass

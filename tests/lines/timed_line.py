@@ -5,20 +5,16 @@ Device, or by messages of a board (tests/lines/virtual_line.py). What is a secon
 nothing with it: tests/contract/independent, tests/lines/servo_bus.py.
 """
 
-from __future__ import annotations
-
 import asyncio
 import heapq
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from busservo_simulator import VirtualClock
 from busservo_simulator.virtual_loop import VirtualLoop
 
 from tests.handed import handed_by
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
 
 # Pieces of bytes, each with the seconds until it arrives.
 Pieces = list[tuple[float, bytes]]

@@ -1,9 +1,8 @@
 """A line and a board in one, in virtual time, for threads and for asyncio; and a loop on it."""
 
-from __future__ import annotations
-
+from collections.abc import Callable, Coroutine, Iterable
 from functools import wraps
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from busservo import AsyncController, ClosedError, DisconnectedError, Message
 from busservo_simulator import VirtualClock
@@ -12,11 +11,8 @@ from busservo_simulator.virtual_loop import run_virtual
 from tests.lines.receiving import Receiving, unanswered
 from tests.lines.timed_line import TimedLine
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Iterable
-
-    # What comes for a message: at once, or each so many seconds later.
-    Answer = Callable[[Message], Iterable[Message | tuple[float, bytes | Message]]]
+# What comes for a message: at once, or each so many seconds later.
+Answer = Callable[[Message], Iterable[Message | tuple[float, bytes | Message]]]
 
 _Result = TypeVar("_Result")
 
@@ -61,7 +57,7 @@ class VirtualLine(Receiving, TimedLine):
     def drain(self, _timeout: float) -> None:
         self.drained = len(self.received)
 
-    def reopen(self) -> VirtualLine:
+    def reopen(self) -> "VirtualLine":
         return VirtualLine(self.answer, self.timer)
 
     def _check(self) -> None:

@@ -5,21 +5,16 @@ speaks to the controller is in its repository only, and no part of the package: 
 a client written for these tests after how it behaves on the wire.
 """
 
-from __future__ import annotations
-
 import struct
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 import serial
+from busservo_simulator import VirtualController
 
 from tests.timeouts import GENEROUS, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from busservo_simulator import VirtualController
 
 MISSING = "{} is not installed: it is in the dependency group `test`"
 # How long each waits for an answer that does not come. They would wait a second.

@@ -4,11 +4,9 @@ One of them is `xarm` itself, from the package index, where it is installed. The
 for this test, after what such programs are seen to do on the wire.
 """
 
-from __future__ import annotations
-
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 import serial
@@ -16,9 +14,6 @@ from busservo_simulator import Faults, VirtualController
 
 from tests.contract.clients.other_clients import MISSING
 from tests.timeouts import await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 READ_TWO = bytes.fromhex("55 55 05 15 02 01 02")

@@ -3,11 +3,9 @@
 The same at a line that takes its time and at one that takes none.
 """
 
-from __future__ import annotations
-
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from busservo import ActionGroupCompleted
@@ -15,9 +13,6 @@ from busservo_simulator import Faults, VirtualController
 
 from tests.contract.clients.other_clients import CLIENTS, LewansoulLx16a, OtherClient
 from tests.timeouts import await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 GUIDE = Path(__file__).parents[3] / "docs" / "testing.md"

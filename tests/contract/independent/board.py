@@ -7,15 +7,14 @@ Every question gets the next number, and its reply holds nothing else: as the vo
 the position of every servo. So a value shows which question it answers.
 """
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections import deque
+from collections.abc import Callable, Collection
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from tests.contract.independent.faults import Piece, whole
+from tests.contract.independent.faults import Piece, Script, whole
 from tests.contract.independent.firmware import (
     BATTERY,
     COMPLETED,
@@ -31,11 +30,6 @@ from tests.contract.independent.firmware import (
     report,
     well_formed,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
-
-    from tests.contract.independent.faults import Script
 
 BITS_PER_BYTE = 10
 # Numbers go round below those that no board has to send. From 0x5500 on, a frame might begin in

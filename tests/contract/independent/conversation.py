@@ -14,12 +14,11 @@ A reply that answers nothing half a second after all was answered is a report, a
 might come by itself; and so is then each that answers nothing.
 """
 
-from __future__ import annotations
-
 from collections import Counter
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, Protocol
 
-from busservo import IncompleteReplyError, NoReplyError
+from busservo import AsyncController, Controller, IncompleteReplyError, NoReplyError
 
 from tests.contract.independent.board import BITS_PER_BYTE, NUMBERS
 from tests.contract.independent.firmware import (
@@ -31,13 +30,8 @@ from tests.contract.independent.firmware import (
 )
 from tests.lines.both_clients import Awaited, done_at_once
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from busservo import AsyncController, Controller
-
-    # The battery, or these servos.
-    Requested = Sequence[int] | None
+# The battery, or these servos.
+Requested = Sequence[int] | None
 
 SIX = (1, 2, 3, 4, 5, 6)
 # A line may run this much faster than it should, and no host can know.

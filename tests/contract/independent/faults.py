@@ -4,14 +4,10 @@ A script takes the frame of a reply and returns what is sent in its place: piece
 seconds after the reply is due. Bytes that a wire is still carrying then go first.
 """
 
-from __future__ import annotations
+from collections.abc import Callable
+from typing import NamedTuple
 
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    Script = Callable[[bytes], list["Piece"]]
+Script = Callable[[bytes], list["Piece"]]
 
 
 class Piece(NamedTuple):

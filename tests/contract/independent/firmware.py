@@ -3,8 +3,6 @@
 Nothing of the library or of the simulator is used here, nor anywhere in the independent board.
 """
 
-from __future__ import annotations
-
 import struct
 
 HEADER = 0x55

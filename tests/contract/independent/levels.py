@@ -4,12 +4,7 @@ Ten bits a byte: a start bit, eight of data with the lowest first, a stop bit. A
 the line to fall, and looks at the middle of each bit, by its own rate.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from collections.abc import Iterator
 
 BITS = 10
 

@@ -4,30 +4,23 @@
 passes at a line of 9600 baud; eight threads share one over TCP that is as fast as it can be.
 """
 
-from __future__ import annotations
-
 import gc
 import math
 import sys
 import time
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from random import Random
-from typing import TYPE_CHECKING
 
 from busservo import Controller, open_controller
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, without_replies
+from tests.contract.independent.conversation import SIX, Conversation, Requested, without_replies
+from tests.contract.independent.faults import Script
 from tests.contract.independent.ports import TcpPort, VirtualPort
 from tests.lines.timed_line import client_on
 from tests.timeouts import GENEROUS, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from tests.contract.independent.conversation import Requested
-    from tests.contract.independent.faults import Script
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25

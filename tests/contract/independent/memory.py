@@ -5,13 +5,8 @@ which request it answers, but how many bytes it holds. Each byte of it is the nu
 question, so that a stale one shows.
 """
 
-from __future__ import annotations
-
 import struct
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from collections.abc import Mapping
 
 HEADER = b"\xaa\x55"
 READ = 1

@@ -3,17 +3,13 @@
 They are written with the standard library alone, and share no code with what they are shown to.
 """
 
-from __future__ import annotations
-
 import heapq
 import math
+from collections.abc import Callable
 from itertools import count
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from tests.contract.independent.levels import BITS, received
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 GPS = (
     b"$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"
@@ -66,7 +62,7 @@ class Stranger:
         for each in self._prints:
             self._put(now + each.at, each.data, each.every)
 
-    def opened(self, rate: float, now: float) -> Stranger:
+    def opened(self, rate: float, now: float) -> "Stranger":
         """Return itself, read at a rate from now on."""
         self._read_at = rate
         # What came while nobody read is lost.

@@ -1,7 +1,5 @@
 """The levels of a line, and devices that print at their own rate."""
 
-from __future__ import annotations
-
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,7 +1,5 @@
 """Lines of other kinds, in virtual time: faster than stated, with an echo, or busy before."""
 
-from __future__ import annotations
-
 import logging
 import math
 

@@ -1,8 +1,7 @@
 """Answers of other sizes, and answers that overtake each other: no read gets another's."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from types import ModuleType
 
 import pytest
 from hypothesis import given
@@ -12,10 +11,6 @@ from tests.bad_specs import BASES
 from tests.contract.independent.memory import BYTE, MemoryPort
 from tests.factories import library, library_of
 from tests.lines.timed_line import client_on
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
 
 REPLY_TIMEOUT = 0.25
 # A question of 7 bytes, and a reply of 4 and 64 at most: twice, since a late one is waited for;

@@ -3,24 +3,18 @@
 The wire takes its time both ways, and the client is given the true baud rate.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pytest
 from busservo import Controller
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import BITS_PER_BYTE, Board
-from tests.contract.independent.conversation import SIX, Conversation, wire_time
-from tests.contract.independent.faults import Piece
+from tests.contract.independent.conversation import SIX, Conversation, Requested, wire_time
+from tests.contract.independent.faults import Piece, Script
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
 from tests.lines.timed_line import client_on
-
-if TYPE_CHECKING:
-    from tests.contract.independent.conversation import Requested
-    from tests.contract.independent.faults import Script
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25

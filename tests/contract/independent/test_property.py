@@ -4,9 +4,7 @@ A right reply or a declared error, in bounded time; no value from an impossible 
 invented, and none lost; after any fault the second next read is right.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from busservo import Controller
 from hypothesis import example, given
@@ -14,14 +12,10 @@ from hypothesis import strategies as st
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, without_replies
-from tests.contract.independent.faults import Piece
+from tests.contract.independent.conversation import SIX, Conversation, Requested, without_replies
+from tests.contract.independent.faults import Piece, Script
 from tests.contract.independent.ports import VirtualPort
 from tests.lines.timed_line import client_on
-
-if TYPE_CHECKING:
-    from tests.contract.independent.conversation import Requested
-    from tests.contract.independent.faults import Script
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25

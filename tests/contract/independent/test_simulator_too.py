@@ -4,10 +4,7 @@ It does not record when a fault happened, so that every fault is over before the
 must be right. No stale value may come of a reply that was impossible, whatever happens.
 """
 
-from __future__ import annotations
-
 import bisect
-from typing import TYPE_CHECKING
 
 from busservo import Controller
 from busservo_simulator import Faults, VirtualController
@@ -18,9 +15,6 @@ from tests.contract.independent.conversation import SIX, Conversation, wire_time
 from tests.lines.at_board import virtual_board
 from tests.lines.conversation import Numbering
 from tests.lines.timed_line import client_on
-
-if TYPE_CHECKING:
-    from busservo_simulator.memory_end import MemoryEnd
 
 BAUD = 9600
 REPLY_TIMEOUT = 0.25
@@ -37,7 +31,7 @@ class Simulated(Numbering):
         super().__init__(board)
         self.calm_at = float("inf")
         self.clock = board.clock.now
-        self._transport: MemoryEnd = board.transport
+        self._transport = board.transport
         self._stream = bytearray()
         # How many bytes there were by then, and when that was.
         self._sizes: list[int] = []

@@ -1,11 +1,10 @@
 """Runs, and the reports that acknowledge them: what the result of a run says, and when."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
+from collections.abc import Iterable
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import busservo
 import pytest
@@ -23,6 +22,7 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
+from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -30,12 +30,6 @@ from tests.in_turn import in_turn
 from tests.lines.both_clients import both, both_live, until
 from tests.lines.live_line import LiveLine
 from tests.lines.questions import REPLY_TIMEOUT, ask, say, session
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from framewire.client.request import Request
-    from framewire.client.session import Session
 
 FRAME = 7 / 960  # of a run, and of its report
 # When a run that is sent at 0 is taken to have been ignored.
@@ -227,7 +221,7 @@ def test_acknowledgements_match_what_the_board_has_done(
     line, board = seen_one(), Board([delay for _, delay, _ in requested])
     times = accumulate(later for later, _, _ in requested)
     pending = deque(zip(times, range(6), (servos for _, _, servos in requested), strict=False))
-    sent: list[Request] = []
+    sent = []
     for now in (at / 1000 for at in range(0, 8000, step)):
         while pending and pending[0][0] / 1000 <= now:
             _, group, servos = pending.popleft()

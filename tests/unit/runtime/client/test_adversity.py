@@ -5,8 +5,6 @@ happens, a call ends with the right value or with a declared error, in bounded t
 lives on, so does the client.
 """
 
-from __future__ import annotations
-
 import asyncio
 import os
 import socket
@@ -14,10 +12,12 @@ import struct
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 import serial
@@ -41,17 +41,11 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
-from tests.lines.both_clients import PORT_TALKS, Awaited, done_at_once, until
+from tests.lines.both_clients import PORT_TALKS, Awaited, Talk, done_at_once, until
 from tests.lines.conversation import again
 from tests.lines.live_line import in_a_loop
 from tests.lines.rfc2217_server import Rfc2217Server
 from tests.timeouts import GENEROUS, LIVE, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from tests.lines.both_clients import Talk
 
 WAYS = ["tcp"] if sys.platform == "win32" else ["tcp", "pty"]
 needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")

@@ -1,7 +1,5 @@
 """The client for asyncio: its promises to tasks that share it; test_client.py has those of both."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import math

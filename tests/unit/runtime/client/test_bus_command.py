@@ -1,12 +1,10 @@
 """The command of a library whose devices have addresses: what it sends, and whom it asks."""
 
-from __future__ import annotations
-
 import json
 import socket
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import lxservo
 import pytest
@@ -14,9 +12,6 @@ from lxservo.__main__ import main
 
 from tests import timeouts
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 class Servos(lxservo.Device):

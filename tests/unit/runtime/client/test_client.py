@@ -1,17 +1,16 @@
 """The promises of both clients, each told once; and those of one to the threads that share it."""
 
-from __future__ import annotations
-
 import logging
 import math
 import os
 import pickle
 import sys
 import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from inspect import signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import busservo
 import framewire
@@ -49,9 +48,6 @@ from tests.lines.timed_line import ScriptedLine, client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.programs import ran
 from tests.timeouts import GENEROUS, LIVE, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
 STARTED, STOPPED = ActionGroupStarted(8, 1), ActionGroupStopped()

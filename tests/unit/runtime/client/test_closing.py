@@ -1,14 +1,14 @@
 """The end of a line: closed, lost, given up, forgotten; and its return."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import sys
 import threading
 import time
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo import (
@@ -17,6 +17,7 @@ from busservo import (
     ClosedError,
     Controller,
     DisconnectedError,
+    Message,
     PortNotFoundError,
     ServoUnload,
     TransportError,
@@ -27,7 +28,7 @@ from busservo_simulator import VirtualController
 from framewire.client.awaited import Awaited as Opening
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import LIVE_TALKS, both_live
+from tests.lines.both_clients import LIVE_TALKS, Talk, both_live
 from tests.lines.gates import Gate, whoever_closes_second_waits
 from tests.lines.live_line import LiveLine, answered, in_a_loop, losing
 from tests.lines.receiving import unanswered
@@ -35,14 +36,6 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.programs import ran
 from tests.timeouts import GENEROUS, LIVE, await_that
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from busservo import Message
-
-    from tests.lines.both_clients import Talk
 
 REFUSING = losing("it takes no bytes")
 STOPPED = ActionGroupStopped()

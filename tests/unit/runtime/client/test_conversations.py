@@ -4,13 +4,11 @@ With every fault, by seeded schedules, for threads and for asyncio, in this proc
 tests/world/test_conversations_on_lines.py has a few over pseudo-terminals and TCP, in real time.
 """
 
-from __future__ import annotations
-
 import asyncio
 import math
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo import AsyncController, Controller, NoReplyError
@@ -24,9 +22,6 @@ from tests.lines.at_board import client_at, virtual_board
 from tests.lines.conversation import Ledger, converse, converse_async
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 REPLY_TIMEOUT = 0.25
 # A reply may come long after its request has timed out, but not so late that nothing could tell it
@@ -82,7 +77,7 @@ def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, c
         controller.reconnect()
         received = list(controller.reports(timeout=1))
         # What was under way when the line was cut is lost; nothing else is, and nothing is made up.
-        rest: Iterator[object] = iter(ledger.reported)
+        rest = iter(ledger.reported)
         assert all(report in rest for report in received)
 
 

@@ -1,11 +1,10 @@
 """What a device refuses or fails to carry out is an error; a reply is as long as was asked for."""
 
-from __future__ import annotations
-
 import importlib
 import math
 import pickle
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import pytest
 from framegen.model.codec import encode
@@ -26,9 +25,6 @@ from tests.lines.timed_line import Pieces, ScriptedLine, TimedLine, client_of, c
 from tests.lines.virtual_line import in_virtual_time
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 NAMES = ("dynamixel1", "modbus")
 MEMORY = BASES / "memory.yaml"

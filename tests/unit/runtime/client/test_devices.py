@@ -1,10 +1,8 @@
 """Devices that share a line: whose reply is whose, one that is dead, all at once; and both ends."""
 
-from __future__ import annotations
-
 import asyncio
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 import lxservo
 import pytest
@@ -17,11 +15,8 @@ from tests.lines.servo_bus import MOVE, READ_ID, READ_POSITION, ServoBus, frame
 from tests.lines.timed_line import ScriptedLine, client_of, client_on
 from tests.protocols.specs import FILES
 
-if TYPE_CHECKING:
-    from typing import TypeAlias
-
-    # Which servo is asked; after how many seconds it answers, and how often.
-    Turn: TypeAlias = tuple[int, float, int]
+# Which servo is asked; after how many seconds it answers, and how often.
+Turn: TypeAlias = tuple[int, float, int]
 
 # A question and its reply on the wire, with what a servo takes to begin.
 TRIP = 14 * 10 / 115200 + 0.001

@@ -1,11 +1,11 @@
 """Of two replies that differ, none is chosen: the question is asked again, or ends with both."""
 
-from __future__ import annotations
-
 import math
 import pickle
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
+import pytest
 from busservo import (
     BatteryVoltage,
     BatteryVoltageRead,
@@ -17,24 +17,15 @@ from busservo import (
 )
 from busservo._exchanges import EXCHANGES
 from framewire.client.exchange import Exchange
+from framewire.client.request import Request
+from framewire.client.session import Session
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import TALKS, by_threads
+from tests.lines.both_clients import TALKS, Talk, by_threads
 from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session
-from tests.lines.virtual_line import VirtualLine
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import Any
-
-    import pytest
-    from framewire.client.request import Request
-    from framewire.client.session import Session
-
-    from tests.lines.both_clients import Talk
-    from tests.lines.virtual_line import Answer
+from tests.lines.virtual_line import Answer, VirtualLine
 
 # As soon as the late reply to a question that has timed out is overdue, the next is sent.
 OVERDUE = 2 * (TRIP + REPLY_TIMEOUT)
@@ -51,7 +42,7 @@ class Reply(NamedTuple):
     came: float
     position: int
 
-    def may_be_taken_for(self, other: Reply) -> bool:
+    def may_be_taken_for(self, other: "Reply") -> bool:
         """Return whether this one came while the other was due, and before that.
 
         It came no sooner than the other can have, on a line that runs a little fast.

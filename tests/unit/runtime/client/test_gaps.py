@@ -1,8 +1,7 @@
 """A frame with a gap is no frame, and a silence tells that no longer one comes."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from busservo import (
@@ -22,10 +21,6 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 FRAME = BatteryVoltage(7500).encode()
 TORN = FRAME[:4]

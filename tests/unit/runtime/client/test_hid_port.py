@@ -1,13 +1,13 @@
 """Boards on USB HID, with a device that stands in for one: no real one has been tried yet."""
 
-from __future__ import annotations
-
 import os
 import sys
 import threading
 import types
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo import (
@@ -32,16 +32,10 @@ from framewire.line.hid_devices import HidDevice, hid_devices_at_hand, hid_libra
 from framewire.line.hid_port import HidPort, open_hid
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import PORT_TALKS
+from tests.lines.both_clients import PORT_TALKS, Talk
 from tests.lines.gates import closing_ends_a_read
 from tests.lines.receiving import answered
 from tests.timeouts import LIVE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from tests.lines.both_clients import Talk
 
 KNOWN = {"vendor_id": 0x0483, "product_id": 0x5750, "product_string": "LOBOT"}
 OTHER = {"vendor_id": 0x046D, "product_id": 0xC31C, "product_string": "Keyboard"}

@@ -1,7 +1,5 @@
 """What a library hands to the runtime, what its clients say of themselves, and its own device."""
 
-from __future__ import annotations
-
 import ast
 import doctest
 import importlib
@@ -9,7 +7,8 @@ import inspect
 import re
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import FrameType
+from typing import Any
 
 import busservo
 import framewire
@@ -19,6 +18,7 @@ from busservo import AsyncController, Controller, open_controller
 from busservo._exchanges import EXCHANGES
 from busservo_simulator import VirtualController
 from framegen.targets.python.names import names_of
+from framewire.client.exchange import Exchange
 from framewire.client.library import Library
 from framewire.edition import EDITION, OLDEST
 from framewire.line.link import Link
@@ -33,11 +33,6 @@ from tests.lines.virtual_line import VirtualLine
 from tests.protocols.specs import FILES
 from tests.rows import each_protocol
 from tests.timeouts import LIVE
-
-if TYPE_CHECKING:
-    from types import FrameType
-
-    from framewire.client.exchange import Exchange
 
 
 @in_turn("package", lambda: [busservo, lxservo])

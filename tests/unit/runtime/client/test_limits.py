@@ -1,9 +1,7 @@
 """The limits of what is sent, usual ones and those of each servo; and the ids of a client."""
 
-from __future__ import annotations
-
 import pickle
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import lxservo
 import pytest
@@ -21,13 +19,10 @@ from framewire.client.limits import Limits
 
 from tests.factories import DEMO, library, library_of
 from tests.in_turn import in_turn
-from tests.lines.both_clients import PORT_TALKS
+from tests.lines.both_clients import PORT_TALKS, Talk
 from tests.lines.timed_line import client_of, client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import LIVE
-
-if TYPE_CHECKING:
-    from tests.lines.both_clients import Talk
 
 CLIENTS = (Controller, AsyncController)
 OWN = {1: (100, 900), 2: None, 3: (500, 2500)}

@@ -1,9 +1,8 @@
 """Lines that return what is sent: expected, compared and dropped; or noticed, and reported."""
 
-from __future__ import annotations
-
 import logging
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import pytest
 from busservo import (
@@ -35,10 +34,7 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import LIVE
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    Incoming = Iterable[tuple[float, bytes | Message]]
+Incoming = Iterable[tuple[float, bytes | Message]]
 
 STARTED = ActionGroupStarted(8, 1)
 

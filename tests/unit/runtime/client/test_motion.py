@@ -1,7 +1,5 @@
 """Motions: when they end, and waiting for that; moves of which the latest wins."""
 
-from __future__ import annotations
-
 import asyncio
 import math
 from concurrent.futures import ThreadPoolExecutor

@@ -1,15 +1,14 @@
 """What becomes of what moves, as a client is closed: it is held, released, or left to itself."""
 
-from __future__ import annotations
-
 import asyncio
 import inspect
 import math
 import pickle
 import sys
 import threading
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import lxservo
 import pytest
@@ -18,6 +17,7 @@ from busservo import (
     ClosedError,
     Controller,
     DisconnectedError,
+    Message,
     NoReplyError,
     NotHeldError,
     ServoMove,
@@ -31,19 +31,12 @@ from framewire.client.line_threads import LineThreads
 
 from tests.factories import DEMO, library, library_of
 from tests.in_turn import in_turn
-from tests.lines.both_clients import TALKS
+from tests.lines.both_clients import TALKS, Talk
 from tests.lines.live_line import LiveLine
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_of, client_on
 from tests.lines.virtual_line import VirtualLine, client, in_virtual_time, run
 from tests.timeouts import GENEROUS, LIVE
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from busservo import Message
-
-    from tests.lines.both_clients import Talk
 
 # Where the servos are: on their way, outside the limits, or off.
 THERE = {1: 433, 2: 612, 3: 1500, 4: 65535}

@@ -1,11 +1,10 @@
 """Positions: which servos are there, holding them, and going back; in any words of the spec."""
 
-from __future__ import annotations
-
 import importlib
 import re
+from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from busservo import (
@@ -29,17 +28,12 @@ from tests.handed import handed_by, program_of
 from tests.in_turn import in_turn
 from tests.lines import timed_line
 from tests.lines.at_board import client_at, virtual_board
-from tests.lines.both_clients import PORT_TALKS
+from tests.lines.both_clients import PORT_TALKS, Talk
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import LIVE
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.lines.both_clients import Talk
-
-    Positions = list[tuple[int, int]]
+Positions = list[tuple[int, int]]
 
 OFF = ServoPosition.POSITION_ABSENT
 

@@ -1,10 +1,8 @@
 """A reply must be possible: what the wire cannot have carried yet was meant for somebody else."""
 
-from __future__ import annotations
-
 import logging
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from busservo import (
@@ -16,13 +14,11 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
 )
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 from tests.lines import questions
 from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session, settle
-
-if TYPE_CHECKING:
-    from framewire.client.session import Session
 
 QUESTION = BatteryVoltageRead().encode()
 # Far too soon: where it is not said that the line is fast, no reply can have come.

@@ -1,9 +1,6 @@
 """The reports that are kept, and which of them satisfies a wait."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 from busservo import (
     ActionGroupCompleted,
@@ -15,12 +12,10 @@ from busservo import (
 )
 from busservo._library import CODEC, LIBRARY
 from framewire.client.report_filter import Kinds, ReportFilter
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 from tests.lines.questions import say, session
-
-if TYPE_CHECKING:
-    from framewire.client.session import Session
 
 RUN_8, RUN_9, STOP = ActionGroupRun(8, 1), ActionGroupRun(9, 1), ActionGroupStop()
 STARTED_8 = ActionGroupStarted(8, 1)

@@ -1,24 +1,18 @@
 """What a request goes through: each step of the table happens, and nothing else can."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import pytest
 from busservo import BatteryVoltage, BatteryVoltageRead, ServoMove, TransportError
 from framewire.client import session as session_module
 from framewire.client.request import STATES, Request, State, Step
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 from tests.lines.questions import IN_TIME, TRIP, answered, ask, say, session
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from framewire.client.session import Session
-
-    Do = Callable[[Session], object]
+Do = Callable[[Session], object]
 
 LOST = TransportError("the line", "it was lost", "plug it in")
 

@@ -1,13 +1,13 @@
 """Real ports: pseudo-terminals and sockets through pyserial, and their failures."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import socket
 import threading
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 
 import pytest
 import serial
@@ -34,16 +34,10 @@ from framewire.line.port_errors import not_opened
 from framewire.line.serial_port import SerialPort
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import PORT_TALKS
+from tests.lines.both_clients import PORT_TALKS, Talk
 from tests.lines.gates import Gate, closing_ends_a_read, whoever_closes_second_waits
 from tests.lines.live_line import in_a_loop
 from tests.timeouts import GENEROUS, LIVE
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from tests.lines.both_clients import Talk
 
 pytest.importorskip("pty", reason="there are pseudo-terminals only where there is a tty")
 

@@ -1,9 +1,7 @@
 """The session alone: no line, no clock, no thread; every promise of its docstring, one by one."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import pytest
 from busservo import (
@@ -22,15 +20,11 @@ from busservo import (
 )
 from busservo._library import LIBRARY
 from framewire.client.exchange import Exchange
+from framewire.client.request import Request
+from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 from tests.lines.questions import REPLY_TIMEOUT, TRIP, ask, expires, say, session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from framewire.client.request import Request
-    from framewire.client.session import Session
 
 QUESTION, REPORT = BatteryVoltageRead().encode(), ActionGroupCompleted(8, 1).encode()
 HALF_A_REPLY = BatteryVoltage(7500).encode()[:-1]

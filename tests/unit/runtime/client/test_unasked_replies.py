@@ -1,13 +1,13 @@
 """A message that answers a question, and comes by itself as well, is a report where it does."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead, Controller
+from busservo import BatteryVoltage, BatteryVoltageRead, Controller, Message
 from busservo._library import LIBRARY
 from framegen.model.codec import encode
+from framewire.client.session import Session
 
 from tests.factories import data_of, files_of, layout_of, library
 from tests.in_turn import in_turn
@@ -16,12 +16,6 @@ from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from busservo import Message
-    from framewire.client.session import Session
 
 ASK = "asked"
 

@@ -1,13 +1,11 @@
 """Any request: a client sends whole frames that a board understands, or refuses it."""
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
-from busservo import Controller, EncodeError, IncompleteReplyError, NoReplyError
+from busservo import Controller, EncodeError, IncompleteReplyError, Message, NoReplyError
 from busservo._exchanges import EXCHANGES
 from busservo.strategies import messages
 from hypothesis import given
@@ -16,9 +14,6 @@ from hypothesis import strategies as st
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.both_clients import both
-
-if TYPE_CHECKING:
-    from busservo import Message
 
 numbers = (
     st.integers()
