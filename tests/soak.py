@@ -12,11 +12,8 @@ It is no part of `make test`, which only tries that it runs.
 
 import argparse
 import asyncio
-import gc
 import math
-import sys
 import threading
-import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 
@@ -32,6 +29,7 @@ from tests.lines.conversation import (
     reports_received,
     reports_received_async,
 )
+from tests.lines.growth import Growth
 from tests.lines.long_bus_run import on_a_bus
 from tests.timeouts import GENEROUS, await_that
 
@@ -47,22 +45,15 @@ VIRTUAL = {"noise": 0.2, "splits": 0.2, "coalesced": 0.1, "delays": 0.2, "droppe
 # Later than a request waits for its reply, but not than the next one of its kind does.
 VIRTUAL["longest_delay"] = 0.4
 BOTH = {"fewer": 0.05, "absent": 0.05, "unsolicited": 0.2}
-# What a round may leave behind: caches that grow by a little, and never by a message each.
-SPARE_BLOCKS = 2000
-# Fewer do not even fill what is kept on purpose: the board's log, the latest reports.
-ENOUGH = 50_000
 
 
 class Watch:
-    """A check that nothing grows from round to round."""
+    """A check that nothing is lost, and that nothing grows from round to round."""
 
     def __init__(self, name: str, ledger: Ledger, client: Controller | AsyncController) -> None:
-        self._name = name
         self._ledger = ledger
         self._client = client
-        self._blocks: list[int] = []
-        self._threads: list[int] = []
-        self._began = time.monotonic()
+        self._growth = Growth(name)
 
     def round(self, done: int, received: Sequence[Message]) -> None:
         """End a round: so many requests in all, and these reports since the round before."""
@@ -76,28 +67,13 @@ class Watch:
         assert session.reports.take() is None
         assert session.counters.lost_reports == 0
         assert ledger.board.rejects.total == 0
-        gc.collect()
-        self._blocks.append(sys.getallocatedblocks())
-        self._threads.append(threading.active_count())
-        if sys.stderr.isatty():
-            print(f"\r{self._name}: {done} requests", end="", file=sys.stderr, flush=True)
+        self._growth.round(done)
 
     def end(self, requests: int) -> None:
         """Print the result. Raises AssertionError if something has grown."""
-        fifth = len(self._blocks) // 5
-        grown = min(self._blocks[-3:]) - min(self._blocks[fifth : fifth + 3])
-        counters = self._client.counters
-        taken = time.monotonic() - self._began
-        print(
-            f"{self._name}: {requests} requests in {taken:.0f} s; {self._ledger.right} answered "
-            f"rightly, {self._ledger.refused} ended in a declared error, {counters.reports} "
-            f"reports received, {counters.lost_reports} lost; {counters.unsolicited} unsolicited, "
-            f"{counters.noise} bytes of noise; memory grew by {grown} blocks, threads from "
-            f"{self._threads[0]} to {self._threads[-1]}",
-            flush=True,
-        )
-        assert requests < ENOUGH or grown < SPARE_BLOCKS, f"memory grows: {self._blocks}"
-        assert self._threads[-1] <= self._threads[0], f"threads grow: {self._threads}"
+        right, refused, counters = self._ledger.right, self._ledger.refused, self._client.counters
+        result = f"{right} answered rightly, {refused} ended in a declared error"
+        self._growth.end(requests, f"{result}, {counters.lost_reports} lost: {counters}")
 
 
 def in_virtual_time(requests: int, rounds: int, seed: int) -> None:

@@ -1,14 +1,12 @@
 """A long run on a bus of servos, one of them dead, the others late at times or telling twice."""
 
 import asyncio
-import gc
-import sys
-import time
 from random import Random
 
 import lxservo
 from busservo_simulator.virtual_loop import run_virtual
 
+from tests.lines.growth import Growth
 from tests.lines.servo_bus import ServoBus
 from tests.lines.timed_line import client_on
 
@@ -19,16 +17,13 @@ TIMEOUT = 0.05
 DELAYS = (0.0005, 0.0005, 0.001, 0.002, 0.02, 0.06)
 COPIES = (0, 1, 1, 1, 1, 2)
 TASKS = 20
-# What a round may leave behind, and how many requests fill what is kept on purpose.
-SPARE_BLOCKS, ENOUGH = 2000, 50_000
 
 
 def on_a_bus(requests: int, rounds: int, seed: int) -> None:
     """Ask, by many tasks. Raises AssertionError at the first thing that is wrong."""
     line, random = ServoBus(*NUMBERS, apart=False), Random(seed)  # noqa: S311 - to be repeated
     line.servos[DEAD].dead = True
-    blocks: list[int] = []
-    began = time.monotonic()
+    growth = Growth(f"a bus of {len(NUMBERS)}")
 
     async def ask(bus: lxservo.AsyncController, number: int) -> None:
         servo = line.servos[number]
@@ -46,7 +41,7 @@ def on_a_bus(requests: int, rounds: int, seed: int) -> None:
         async with client_on(line, lxservo.AsyncController, reply_timeout=TIMEOUT) as bus:
             for number in NUMBERS * 4:
                 await ask(bus, number)
-            for _ in range(rounds):
+            for turn in range(rounds):
                 for _ in range(requests // rounds // TASKS):
                     await asyncio.gather(*(ask(bus, random.choice(NUMBERS)) for _ in range(TASKS)))
                     await bus.broadcast().start_move()
@@ -55,16 +50,8 @@ def on_a_bus(requests: int, rounds: int, seed: int) -> None:
                     servo.told.clear()
                 assert len(bus._session._matcher.late) < TASKS
                 assert not bus._session._matcher.pending
-                gc.collect()
-                blocks.append(sys.getallocatedblocks())
+                growth.round((turn + 1) * requests // rounds)
             return int(bus.counters.replies)
 
     answered = run_virtual(converse(), line.timer)
-    fifth = len(blocks) // 5
-    grown = min(blocks[-3:]) - min(blocks[fifth : fifth + 3])
-    print(
-        f"a bus of {len(NUMBERS)}: {requests} requests in {time.monotonic() - began:.0f} s; "
-        f"{answered} answered rightly; memory grew by {grown} blocks",
-        flush=True,
-    )
-    assert requests < ENOUGH or grown < SPARE_BLOCKS, f"memory grows: {blocks}"
+    growth.end(requests, f"{answered} answered rightly")

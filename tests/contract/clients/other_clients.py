@@ -22,36 +22,17 @@ SILENCE = 0.03
 
 
 class OtherClient:
-    """The calls that a user would make; NotImplementedError if a client has no method for one.
+    """The calls that a user would make, as far as a client has them.
 
     Before an answer is read, it is waited for: `answer` bytes, 0 if none will come.
     """
 
     name: str
     answer = 0
-
-    def __init__(self, board: VirtualController) -> None:
-        raise NotImplementedError
-
-    def move(self, targets: Sequence[tuple[int, int]]) -> None:
-        raise NotImplementedError
-
-    def battery(self) -> object:
-        """Return the voltage in millivolts."""
-        raise NotImplementedError
-
-    def positions(self, servo_ids: Sequence[int]) -> object:
-        """Return the positions, in order."""
-        raise NotImplementedError
-
-    def unload(self, servo_ids: Sequence[int]) -> None:
-        raise NotImplementedError
-
-    def run_group(self, group: int) -> None:
-        raise NotImplementedError
+    _line: Any
 
     def close(self) -> None:
-        raise NotImplementedError
+        self._line.close()
 
 
 class Xarm(OtherClient):
@@ -89,9 +70,6 @@ class Xarm(OtherClient):
     def unload(self, servo_ids: Sequence[int]) -> None:
         self._arm.servoOff(list(servo_ids))
 
-    def close(self) -> None:
-        self._line.close()
-
 
 class LewansoulLx16a(OtherClient):
     """The client `lewansoul-lx16a`: it speaks to the servos themselves, in their own protocol."""
@@ -117,9 +95,6 @@ class LewansoulLx16a(OtherClient):
     def unload(self, servo_ids: Sequence[int]) -> None:
         for servo_id in servo_ids:
             self._servos.motor_off(servo_id)
-
-    def close(self) -> None:
-        self._line.close()
 
 
 class NextFrame(OtherClient):
@@ -161,10 +136,5 @@ class NextFrame(OtherClient):
     def unload(self, servo_ids: Sequence[int]) -> None:
         self._send(20, bytes([len(servo_ids), *servo_ids]))
 
-    def close(self) -> None:
-        self._line.close()
 
-
-CLIENTS: dict[str, type[OtherClient]] = {
-    each.name: each for each in (Xarm, LewansoulLx16a, NextFrame)
-}
+CLIENTS: dict[str, Any] = {each.name: each for each in (Xarm, LewansoulLx16a, NextFrame)}

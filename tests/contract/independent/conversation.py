@@ -15,12 +15,13 @@ might come by itself; and so is then each that answers nothing.
 """
 
 from collections import Counter
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, NamedTuple, Protocol
 
 from busservo import AsyncController, Controller, IncompleteReplyError, NoReplyError
 
-from tests.contract.independent.board import BITS_PER_BYTE, NUMBERS
+from tests.contract.independent.board import BITS_PER_BYTE, NUMBERS, Board
 from tests.contract.independent.firmware import (
     QUESTIONS,
     battery_question,
@@ -28,12 +29,18 @@ from tests.contract.independent.firmware import (
     positions_question,
     positions_reply,
 )
+from tests.contract.independent.ports import VirtualPort
 from tests.lines.both_clients import Awaited, done_at_once
+from tests.lines.timed_line import client_on
 
 # The battery, or these servos.
 Requested = Sequence[int] | None
 
+BAUD = 9600
+REPLY_TIMEOUT = 0.25
 SIX = (1, 2, 3, 4, 5, 6)
+# So many healthy reads show that a line keeps its rate.
+HEALTHY = 8
 # A line may run this much faster than it should, and no host can know.
 FAST = 0.95
 # A question is asked so often at most, where no retries are wanted.
@@ -84,7 +91,7 @@ class Conversation:
     def __init__(self, board: NumberingBoard, now: Callable[[], float]) -> None:
         self.board = board
         self.calls: list[Call] = []
-        self._now = now
+        self.now = now
 
     def ask(self, controller: Controller, requested: Requested) -> None:
         """Read once. A declared error is recorded, any other is raised."""
@@ -92,7 +99,7 @@ class Conversation:
 
     async def ask_async(self, controller: AsyncController | Awaited, requested: Requested) -> None:
         """Read once, for asyncio."""
-        began, before = self._now(), self.board.questions
+        began, before = self.now(), self.board.questions
         number: int | None = None
         try:
             if requested is None:
@@ -101,7 +108,7 @@ class Conversation:
                 number = only(await controller.read_servo_positions(requested), requested)
         except (NoReplyError, IncompleteReplyError):
             pass
-        self.calls.append(Call(began, self._now(), before, number, requested))
+        self.calls.append(Call(began, self.now(), before, number, requested))
 
     @property
     def stale(self) -> list[Call]:
@@ -113,7 +120,7 @@ class Conversation:
         """The calls that ended in a declared error."""
         return [each for each in self.calls if each.number is None]
 
-    def check(self, baud: float, reply_timeout: float) -> None:
+    def check(self, baud: float = BAUD, reply_timeout: float = REPLY_TIMEOUT) -> None:
         """Raise AssertionError if a call took too long, or is wrong without an excuse."""
         since, before_was_stale = float("-inf"), False
         reply_time = reply_timeout + wire_time(SIX, baud)
@@ -134,12 +141,9 @@ class Conversation:
                 assert another or not before_was_stale, f"two in a row are stale: {described}"
                 possible_at = call.began + FAST * wire_time(call.requested, baud)
                 arrived = self._arrived(call)
-                assert any(at >= possible_at for at in arrived), (
-                    f"impossible: {described}, {arrived}"
-                )
-                assert not self._answered(place, baud), (
-                    f"the right one had come as well: {described}"
-                )
+                possible = any(at >= possible_at for at in arrived)
+                assert possible, f"impossible: {described}, {arrived}"
+                assert not self._answered(place, baud), f"its own had come as well: {described}"
             since, before_was_stale = call.began, stale
 
     def _fresh(self, call: Call) -> bool:
@@ -168,6 +172,17 @@ class Conversation:
         """Return when replies with this number were complete, until the call ended."""
         reply = reply_to(call.requested, call.number or 0)
         return [at for at in self.board.arrivals(reply) if at <= call.ended]
+
+
+@contextmanager
+def talking(
+    to: Any, board: NumberingBoard | None = None, **given: Any
+) -> Iterator[tuple[Conversation, Controller]]:
+    """Yield the calls at a board in virtual time, or its port, and a client on the time of it."""
+    port = VirtualPort(to) if isinstance(to, Board) else to
+    talk = Conversation(board or port.board, port.clock)
+    with client_on(port, Controller, **{"reply_timeout": REPLY_TIMEOUT, **given}) as controller:
+        yield talk, controller
 
 
 def without_replies(talks: Sequence[Conversation], received: Sequence[bytes]) -> list[bytes]:

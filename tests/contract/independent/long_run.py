@@ -4,9 +4,7 @@
 passes at a line of 9600 baud; eight threads share one over TCP that is as fast as it can be.
 """
 
-import gc
 import math
-import sys
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -16,22 +14,24 @@ from busservo import Controller, open_controller
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, Requested, without_replies
+from tests.contract.independent.conversation import (
+    BAUD,
+    REPLY_TIMEOUT,
+    SIX,
+    Conversation,
+    Requested,
+    talking,
+    without_replies,
+)
 from tests.contract.independent.faults import Script
-from tests.contract.independent.ports import TcpPort, VirtualPort
-from tests.lines.timed_line import client_on
+from tests.contract.independent.ports import TcpPort
+from tests.lines.growth import Growth
 from tests.timeouts import GENEROUS, await_that
 
-BAUD = 9600
-REPLY_TIMEOUT = 0.25
 # The other end is a thread of the same busy machine.
 LIVE_REPLY_TIMEOUT = 5.0
 THREADS = 8
 KINDS: list[Requested] = [None, None, SIX, (1, 2)]
-# What a run may leave behind: caches that grow by a little, and never by a message each.
-SPARE_BLOCKS = 2000
-# Fewer do not even fill what is kept on purpose: what the board remembers, the latest reports.
-ENOUGH = 50_000
 
 
 def a_report(random: Random) -> bytes:
@@ -70,12 +70,10 @@ class Rounds:
     """A check after each round: all was right, all reports came, and nothing grows."""
 
     def __init__(self, name: str, board: Board, controller: Controller) -> None:
-        self._name = name
         self._board = board
         self._controller = controller
-        self._blocks: list[int] = []
+        self._growth = Growth(f"independent board, {name}")
         self._right = self._refused = self._stale = 0
-        self._began = time.monotonic()
 
     def end(
         self, talks: Sequence[Conversation], baud: float, reply_timeout: float, quiet: float
@@ -95,25 +93,15 @@ class Rounds:
         assert board.refused == []
         for kept in (board.reported, board.faulty, board.troubles):
             kept.clear()
-        gc.collect()
-        self._blocks.append(sys.getallocatedblocks())
+        self._growth.round(board.questions)
 
     def print_result(self) -> None:
         """Print the result. Raises AssertionError if something has grown."""
-        fifth = len(self._blocks) // 5
-        grown = min(self._blocks[-3:]) - min(self._blocks[fifth : fifth + 3])
         counters = self._controller.counters
-        print(
-            f"{self._name}: {self._board.questions} questions in "
-            f"{time.monotonic() - self._began:.0f} s; {self._right} answered rightly, "
-            f"{self._stale} stale where no time can tell, {self._refused} ended in a declared "
-            f"error, {counters.reports} reports received, {counters.lost_reports} lost; "
-            f"{counters.unsolicited} unsolicited replies, {counters.impossible} impossible ones; "
-            f"memory grew by {grown} blocks",
-            flush=True,
-        )
-        assert self._board.questions < ENOUGH or grown < SPARE_BLOCKS, (
-            f"memory grows: {self._blocks}"
+        self._growth.end(
+            self._board.questions,
+            f"{self._right} answered rightly, {self._stale} stale where no time can tell, "
+            f"{self._refused} ended in a declared error, {counters.lost_reports} lost: {counters}",
         )
 
 
@@ -126,10 +114,8 @@ def at_a_paced_line(requests: int, rounds: int, seed: int) -> None:
     """Run one thread, in virtual time, with any fault."""
     random = Random(seed)  # noqa: S311 - to be repeated
     board = Board(baud=BAUD, thinks=0.001, faults=scheduled(random, any_fault))
-    port = VirtualPort(board)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
-        watch = Rounds("independent board, paced", board, controller)
-        talk = Conversation(board, port.clock)
+    with talking(board) as (talk, controller):
+        watch = Rounds("paced", board, controller)
         for _ in range(rounds):
             for _ in range(requests // rounds):
                 talk.ask(controller, random.choice(KINDS))
@@ -146,7 +132,7 @@ def with_threads(requests: int, rounds: int, seed: int) -> None:
         open_controller(port.name, baud=math.inf, reply_timeout=LIVE_REPLY_TIMEOUT) as controller,
         ThreadPoolExecutor(THREADS) as pool,
     ):
-        watch = Rounds(f"independent board, {THREADS} threads", board, controller)
+        watch = Rounds(f"{THREADS} threads", board, controller)
         talks = [Conversation(board, time.monotonic) for _ in range(THREADS)]
         size = requests // rounds // THREADS
 

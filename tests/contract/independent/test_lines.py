@@ -2,37 +2,38 @@
 
 import logging
 import math
+from typing import Any
 
 import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupStarted,
     ActionGroupStopped,
-    Controller,
     EchoError,
 )
 
-from tests.contract.independent import faults, firmware
-from tests.contract.independent.board import BITS_PER_BYTE, Board
-from tests.contract.independent.conversation import SIX, Conversation, wire_time
+from tests.contract.independent import faults
+from tests.contract.independent.board import Board
+from tests.contract.independent.conversation import (
+    BAUD,
+    REPLY_TIMEOUT,
+    SIX,
+    Conversation,
+    question_of,
+    seconds,
+    talking,
+    wire_time,
+)
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
-from tests.lines.timed_line import client_on
-
-BAUD = 9600
-REPLY_TIMEOUT = 0.25
 
 
-def conversation(
-    board: Board, reads: int, *, baud: float = BAUD
-) -> tuple[Conversation, Controller, VirtualPort]:
-    """Read the battery so often, one after the other."""
-    port = VirtualPort(board)
-    talk = Conversation(board, port.clock)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, baud=baud) as controller:
+def conversation(board: Board, reads: int, **given: Any) -> tuple[Conversation, Any]:
+    """Read the battery so often, one after the other; return the calls and what was counted."""
+    with talking(board, **given) as (talk, controller):
         for _ in range(reads):
             talk.ask(controller, None)
-    return talk, controller, port
+    return talk, controller.counters
 
 
 def times(talk: Conversation) -> list[float]:
@@ -45,26 +46,24 @@ def times(talk: Conversation) -> list[float]:
 
 def test_a_line_is_learnt_to_be_faster_from_three_replies_that_were_impossible() -> None:
     """Each of these is held until the line has been quiet; from then on, none is."""
-    talk, controller, _ = conversation(Board(), 10)
+    talk, counters = conversation(Board(), 10)
     assert (talk.stale, talk.failed) == ([], [])
-    assert controller.counters.impossible == 3
+    assert counters.impossible == 3
     assert max(times(talk)[3:]) < 0.001
     assert max(times(talk)) < REPLY_TIMEOUT + 2 * wire_time(None, BAUD)
-
-
-def test_a_line_that_is_said_to_be_faster_is_believed() -> None:
-    talk, controller, _ = conversation(Board(), 10, baud=math.inf)
+    # One that is said to be faster is believed.
+    talk, counters = conversation(Board(), 10, baud=math.inf)
     assert (talk.stale, talk.failed) == ([], [])
-    assert controller.counters.impossible == 0
+    assert counters.impossible == 0
     assert max(times(talk)) < 0.001
 
 
 @in_turn("baud", lambda: [BAUD, math.inf])
 def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> None:
     board = Board(thinks=0.002, faults={6: faults.duplicated()}.get)
-    talk, controller, _ = conversation(board, 20, baud=baud)
+    talk, counters = conversation(board, 20, baud=baud)
     assert (talk.stale, talk.failed) == ([], [])
-    assert controller.counters.unsolicited == 1
+    assert counters.unsolicited == 1
 
 
 @in_turn("baud", lambda: [BAUD, math.inf])
@@ -74,9 +73,7 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
     before, and nobody can know.
     """
     board = Board(thinks=0.002, faults={6: faults.duplicated(0.001)}.get)
-    port = VirtualPort(board)
-    talk = Conversation(board, port.clock)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, baud=baud) as controller:
+    with talking(board, baud=baud) as (talk, controller):
         for _ in range(12):
             talk.ask(controller, None)
         assert [talk.calls.index(each) for each in talk.stale] == [6, 7, 8, 9, 10, 11]
@@ -91,10 +88,10 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
 @in_turn("faster", lambda: [1.005, 1.02, 1.04])
 def test_a_board_whose_clock_runs_ahead_is_not_slowed(faster: float) -> None:
     """The oscillators of two UARTs may differ by a few per cent, and nothing is wrong with that."""
-    talk, controller, _ = conversation(Board(baud=BAUD * faster), 20)
+    talk, counters = conversation(Board(baud=BAUD * faster), 20)
     assert (talk.stale, talk.failed) == ([], [])
     assert max(times(talk)) <= wire_time(None, BAUD)
-    assert (controller.counters.impossible, controller.counters.unsolicited) == (0, 0)
+    assert (counters.impossible, counters.unsolicited) == (0, 0)
 
 
 # ------------------------------------------------------------------- a process that pauses
@@ -117,9 +114,7 @@ class Pausing(VirtualPort):
 
 @in_turn("behind", lambda: range(1, 24))
 def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind: int) -> None:
-    board = Board(baud=BAUD)
-    port = Pausing(board, behind)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
+    with talking(Pausing(Board(baud=BAUD), behind), settle=None) as (_, controller):
         for number in (1, 2, 3):
             positions = controller.read_servo_positions(SIX)
             assert {position for _, position in positions} == {number}
@@ -131,10 +126,7 @@ def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind
 
 def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
     board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
-    port = VirtualPort(board)
-    with client_on(
-        port, Controller, reply_timeout=REPLY_TIMEOUT, local_echo=True, settle=None
-    ) as controller:
+    with talking(board, local_echo=True, settle=None) as (_, controller):
         controller.stop_action_group()
         controller.run_action_group(9, times=1)
         assert list(controller.reports(timeout=0.3)) == []
@@ -154,17 +146,6 @@ def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
     assert board.refused == []
 
 
-def test_an_echo_that_is_missing_is_an_error() -> None:
-    port = VirtualPort(Board(baud=BAUD))
-    with (
-        client_on(
-            port, Controller, reply_timeout=REPLY_TIMEOUT, local_echo=True, settle=None
-        ) as controller,
-        pytest.raises(EchoError),
-    ):
-        controller.read_battery_voltage()
-
-
 class Damaging(VirtualPort):
     """An adapter that loses one byte of what it delivers."""
 
@@ -181,8 +162,7 @@ class Damaging(VirtualPort):
 def test_an_echo_that_is_damaged_ends_one_call_alone() -> None:
     # Two reads of 10 bytes each, echo and reply, and then the second byte of an echo.
     board = Board(baud=BAUD, echo=True, thinks=0.001)
-    port = Damaging(board, 22)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, local_echo=True) as controller:
+    with talking(Damaging(board, 22), local_echo=True) as (_, controller):
         assert [controller.read_battery_voltage() for _ in range(2)] == [1, 2]
         with pytest.raises(EchoError):
             controller.read_battery_voltage()
@@ -194,37 +174,25 @@ def test_an_undeclared_echo_harms_no_value_and_is_logged_once(
 ) -> None:
     board = Board(baud=BAUD, echo=True, thinks=0.001)
     with caplog.at_level(logging.WARNING, "busservo"):
-        talk, controller, _ = conversation(board, 8)
+        talk, counters = conversation(board, 8)
     assert [each.number for each in talk.calls] == list(range(1, 9))
-    assert controller.counters.echoes > 0
+    assert counters.echoes > 0
     assert len([each for each in caplog.records if "echo" in each.getMessage()]) == 1
 
 
 # ------------------------------------------------------------------- a stranger's reply
 
 
-@in_turn("after", lambda: [0.0, 0.001, 0.004, 0.010, 0.015])
+# Its question was still on the wire, or its reply, when we opened the port; or all was over.
+@in_turn("after", lambda: [-1.0, 0.0, 0.001, 0.004, 0.010, 0.015])
 @in_turn("requested", lambda: [None, SIX])
 def test_a_reply_meant_for_a_program_that_was_killed_is_not_taken_for_ours(
     after: float, requested: tuple[int, ...] | None
 ) -> None:
-    """Its question was still on the wire, or its reply, when we opened the port."""
     board = Board(baud=BAUD)
-    port = VirtualPort(board)
-    question = firmware.positions_question(list(SIX)) if requested else firmware.battery_question()
-    board.write(question, -(len(question) * BITS_PER_BYTE / BAUD) + after)
-    talk = Conversation(board, port.clock)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
+    question = question_of(requested)
+    board.write(question, after - seconds(question, BAUD))
+    with talking(board, settle=None) as (talk, controller):
         for _ in range(3):
             talk.ask(controller, requested)
-    assert (talk.stale, talk.failed) == ([], [])
-
-
-def test_what_is_in_the_buffer_at_opening_is_not_taken_for_ours() -> None:
-    board = Board(baud=BAUD)
-    board.write(firmware.battery_question(), -1)
-    port = VirtualPort(board)
-    talk = Conversation(board, port.clock)
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
-        talk.ask(controller, None)
     assert (talk.stale, talk.failed) == ([], [])

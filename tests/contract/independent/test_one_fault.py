@@ -6,18 +6,13 @@ The wire takes its time both ways, and the client is given the true baud rate.
 from typing import NamedTuple
 
 import pytest
-from busservo import Controller
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import BITS_PER_BYTE, Board
-from tests.contract.independent.conversation import SIX, Conversation, Requested, wire_time
+from tests.contract.independent.conversation import BAUD, SIX, Requested, talking, wire_time
 from tests.contract.independent.faults import Piece, Script
-from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
-from tests.lines.timed_line import client_on
 
-BAUD = 9600
-REPLY_TIMEOUT = 0.25
 READS = {"battery": None, "six positions": SIX}
 REPORT = firmware.report(firmware.COMPLETED, 8, 1)
 STOPPED = firmware.report(firmware.STOPPED)
@@ -78,14 +73,10 @@ FAULTS: dict[str, Script] = {
 # These leave a frame of the right shape, with other numbers in it, where it is the battery's.
 OF_POSITIONS = {"wrong count": faults.miscounted(-1), "count too high": faults.miscounted(1)}
 # All requests are answered, and in time.
-HARMLESS = (
-    "noise before",
-    "half a header before",
-    "a report before",
-    "a report behind",
-    "noise behind",
-    "a pause of 20 ms within",
-)
+HARMLESS = {
+    *("noise before", "half a header before", "a report before"),
+    *("a report behind", "noise behind", "a pause of 20 ms within"),
+}
 
 
 class Run:
@@ -99,34 +90,26 @@ class Run:
         reads: int = 9,
         first: int = 1,
     ) -> None:
-        self.board = Board(
-            baud=BAUD,
-            thinks=bench.thinks,
-            latency=bench.latency,
-            faults={first + FAULTY - 1: script}.get,
-            first=first,
-        )
-        port = VirtualPort(self.board)
-        self.talk = Conversation(self.board, port.clock)
-        with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
+        script_of = {first + FAULTY - 1: script}.get
+        self.board = Board(baud=BAUD, faults=script_of, first=first, **bench._asdict())
+        with talking(self.board) as (self.talk, controller):
             for _ in range(reads):
                 self.talk.ask(controller, requested)
             # All that is still to come is with the host by then, and the line has been quiet since.
-            quiet = self.board.last_event - port.now + 0.2
+            quiet = self.board.last_event - self.talk.now() + 0.2
             self.reports = [each.encode() for each in controller.reports(timeout=quiet)]
             self.counters = controller.counters
 
     def check(self) -> None:
-        self.talk.check(BAUD, REPLY_TIMEOUT)
+        self.talk.check()
         assert self.reports == self.board.reported
         assert self.board.refused == []
 
 
 def all_faults() -> list[tuple[str, str]]:
     """Return each kind of read with each fault that can happen to it."""
-    return [
-        (read, name) for read in READS for name in FAULTS | (OF_POSITIONS if READS[read] else {})
-    ]
+    of = {"battery": FAULTS, "six positions": FAULTS | OF_POSITIONS}
+    return [(read, name) for read in READS for name in of[read]]
 
 
 @in_turn("read, name", all_faults)
@@ -202,32 +185,25 @@ BYTE = BITS_PER_BYTE / BAUD
 # A question of 4 bytes, a reply of 6, and a board that then thinks for 7.7. How long after its own
 # reply a duplicate is due, and whether the next read is stale: it is where the duplicate is whole
 # after question and reply can have come, if the line is a little fast, and before the reply is.
+# Where a board thinks for longer than the wire takes, the right reply then comes when that to the
+# next question could: it is waited for.
 WINDOW = {
-    "at once": (0, False),
-    "before question and reply fit": (9.4, False),
-    "when question and reply fit": (10.1, True),
-    "while the board thinks": (14, True),
-    "behind the reply": (17.8, False),
+    "at once": (0, False, 0.008),
+    "before question and reply fit": (9.4, False, 0.008),
+    "when question and reply fit": (10.1, True, 0.008),
+    "while the board thinks": (14, True, 0.008),
+    "behind the reply": (17.8, False, 0.008),
+    "when they fit, at a slow board": (10.1, True, 0.020),
+    "while a slow board thinks": (14, True, 0.020),
+    "while a slow board thinks, later": (18, True, 0.020),
 }
 
 
 @in_turn("name", lambda: WINDOW)
 def test_one_read_at_most_is_stale_where_time_cannot_distinguish_replies(name: str) -> None:
-    after, stale = WINDOW[name]
-    run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.008))
+    after, stale, thinks = WINDOW[name]
+    run = Run(None, faults.duplicated(after * BYTE), Bench(thinks), reads=20)
     run.check()
     assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY] * stale
-    assert run.counters.unsolicited == 1
-    assert run.talk.failed == []
-
-
-@in_turn("after", lambda: [10.1, 14, 18])
-def test_one_read_at_most_is_stale_where_a_board_thinks_for_longer_than_the_wire_takes(
-    after: float,
-) -> None:
-    """The right reply then comes when that to the next question could: it is waited for."""
-    run = Run(None, faults.duplicated(after * BYTE), Bench(thinks=0.020), reads=20)
-    run.check()
-    assert [run.talk.calls.index(each) for each in run.talk.stale] == [FAULTY]
     assert run.counters.unsolicited == 1
     assert run.talk.failed == []

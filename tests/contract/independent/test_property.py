@@ -6,21 +6,20 @@ invented, and none lost; after any fault the second next read is right.
 
 from typing import NamedTuple
 
-from busservo import Controller
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, Requested, without_replies
+from tests.contract.independent.conversation import (
+    BAUD,
+    HEALTHY,
+    SIX,
+    Requested,
+    talking,
+    without_replies,
+)
 from tests.contract.independent.faults import Piece, Script
-from tests.contract.independent.ports import VirtualPort
-from tests.lines.timed_line import client_on
-
-BAUD = 9600
-REPLY_TIMEOUT = 0.25
-# So many healthy reads show that a line keeps its rate.
-HEALTHY = 8
 
 
 class Read(NamedTuple):
@@ -86,20 +85,14 @@ steps = st.lists(st.builds(Step, scripts, reads, st.booleans()), min_size=1, max
     0.0,
     0.0,
 )
-@given(
-    steps,
-    st.sampled_from([0.0, 0.001, 0.004]),
-    st.sampled_from([0.0, 0.001, 0.016]),
-)
+@given(steps, st.sampled_from([0.0, 0.001, 0.004]), st.sampled_from([0.0, 0.001, 0.016]))
 def test_every_read_is_right_or_excused_by_a_fault(
     steps: list[Step], thinks: float, latency: float
 ) -> None:
     script_of: dict[int, Script] = {}
     board = Board(baud=BAUD, thinks=thinks, latency=latency, faults=script_of.get)
-    port = VirtualPort(board)
-    talk = Conversation(board, port.clock)
     received: list[bytes] = []
-    with client_on(port, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
+    with talking(board) as (talk, controller):
         for _ in range(HEALTHY):
             talk.ask(controller, None)
         for step in steps:
@@ -115,6 +108,6 @@ def test_every_read_is_right_or_excused_by_a_fault(
         for _ in range(3):
             talk.ask(controller, SIX)
         received += [each.encode() for each in controller.reports(timeout=2)]
-        talk.check(BAUD, REPLY_TIMEOUT)
+        talk.check()
         assert without_replies([talk], received) == board.reported
         assert board.refused == []

@@ -6,32 +6,37 @@ must be right. No stale value may come of a reply that was impossible, whatever 
 
 import bisect
 
-from busservo import Controller
 from busservo_simulator import Faults, VirtualController
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tests.contract.independent.conversation import SIX, Conversation, wire_time, without_replies
+from tests.contract.independent.conversation import (
+    BAUD,
+    HEALTHY,
+    SIX,
+    talking,
+    wire_time,
+    without_replies,
+)
 from tests.lines.at_board import virtual_board
 from tests.lines.conversation import Numbering
-from tests.lines.timed_line import client_on
 
-BAUD = 9600
-REPLY_TIMEOUT = 0.25
-# So many healthy reads show that a line keeps its rate.
-HEALTHY = 8
 # By then, all that was late is there.
 QUIET = 3.0
 
 
 class Simulated(Numbering):
-    """A simulated board that numbers its replies, with a record of the bytes and times."""
+    """A simulated board that numbers its replies: a transport that records bytes and times."""
+
+    name = "simulator"
 
     def __init__(self, board: VirtualController) -> None:
         super().__init__(board)
         self.calm_at = float("inf")
         self.clock = board.clock.now
         self._transport = board.transport
+        self.write, self.drain = self._transport.write, self._transport.drain
+        self.close = self._transport.close
         self._stream = bytearray()
         # How many bytes there were by then, and when that was.
         self._sizes: list[int] = []
@@ -39,27 +44,12 @@ class Simulated(Numbering):
         # When the board received each question.
         self._asked_at = [float("-inf")]
 
-    # ---------------------------------------------------------------- a transport
-
-    name = "simulator"
-
     def read(self, timeout: float) -> bytes:
         data = self._transport.read(timeout)
         self._stream += data
         self._sizes.append(len(self._stream))
         self._times.append(self.clock())
         return data
-
-    def write(self, data: bytes) -> None:
-        self._transport.write(data)
-
-    def drain(self, timeout: float) -> None:
-        self._transport.drain(timeout)
-
-    def close(self) -> None:
-        self._transport.close()
-
-    # ---------------------------------------------------------------- what a test looks at
 
     def asked_at(self, number: int) -> float:
         return self._asked_at[number]
@@ -159,8 +149,7 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
 ) -> None:
     with virtual_board(baud=BAUD) as board:
         simulated = Simulated(board)
-        talk = Conversation(simulated, simulated.clock)
-        with client_on(simulated, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
+        with talking(simulated, simulated) as (talk, controller):
             for _ in range(HEALTHY):
                 talk.ask(controller, None)
             board.faults = faults
@@ -172,7 +161,7 @@ def test_every_read_from_the_faulty_simulator_is_right_or_excused(
             simulated.calm_at = board.clock.now()
             for _ in range(3):
                 talk.ask(controller, None)
-            talk.check(BAUD, REPLY_TIMEOUT)
+            talk.check()
             reports = without_replies([talk], [each.encode() for each in received])
             assert reports == [each.encode() for each in simulated.reported]
 
@@ -183,11 +172,10 @@ def test_reads_come_no_faster_than_the_line_allows() -> None:
         faults = Faults(seed=seed, delays=0.04, longest_delay=1.0)
         with virtual_board(baud=BAUD, faults=faults) as board:
             simulated = Simulated(board)
-            talk = Conversation(simulated, simulated.clock)
-            with client_on(simulated, Controller, reply_timeout=REPLY_TIMEOUT) as controller:
+            with talking(simulated, simulated) as (talk, controller):
                 for _ in range(100):
                     talk.ask(controller, None)
             least = 0.95 * wire_time(None, BAUD)
             early = [call for call in talk.calls if call.ended - call.began < least]
             assert early == []
-            talk.check(BAUD, REPLY_TIMEOUT)
+            talk.check()

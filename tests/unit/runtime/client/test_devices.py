@@ -241,8 +241,8 @@ def test_an_echo_that_nobody_spoke_of_is_noise() -> None:
 # ------------------------------------------------------------------ each with its faults
 
 TIMEOUT = 0.05
-# No question takes longer: it may wait for a late reply, and is then awaited itself.
-BOUND = 4 * TIMEOUT
+# No question takes longer: it may wait for a late reply, and is then asked three times itself.
+BOUND = 4 * (TIMEOUT + TRIP)
 NUMBERS = (1, 2, 3)
 # After so many rounds it is known that the line keeps its rate, and so what comes too early.
 ENOUGH = 3
