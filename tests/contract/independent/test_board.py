@@ -5,8 +5,6 @@ from __future__ import annotations
 
 import ast
 import math
-import os
-import socket
 import sys
 from pathlib import Path
 
@@ -14,7 +12,7 @@ import pytest
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.ports import PtyPort, TcpPort, VirtualPort
+from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
 
 HERE = Path(__file__).parent
@@ -47,24 +45,13 @@ SPOKEN = {
 @in_turn("part", lambda: PARTS)
 def test_it_shares_no_code_with_what_it_tests(part: str) -> None:
     tree = ast.parse((HERE / f"{part}.py").read_text(encoding="utf-8"))
-    names = [
-        name
-        for node in ast.walk(tree)
-        for name in (
-            [each.name for each in node.names]
-            if isinstance(node, ast.Import)
-            else [node.module or ""]
-            if isinstance(node, ast.ImportFrom)
-            else []
-        )
-    ]
-    assert names
+    imports = [each for each in ast.walk(tree) if isinstance(each, ast.Import)]
+    names = [alias.name for each in imports for alias in each.names]
+    names += [str(each.module) for each in ast.walk(tree) if isinstance(each, ast.ImportFrom)]
     apart = {"typing_extensions", *(f"tests.contract.independent.{each}" for each in PARTS)}
-    assert [
-        name
-        for name in names
-        if name not in apart and name.split(".")[0] not in sys.stdlib_module_names
-    ] == []
+    assert names
+    shared = [each for each in names if each.split(".")[0] not in sys.stdlib_module_names]
+    assert {*shared} <= apart
 
 
 @in_turn("name", lambda: SPOKEN)
@@ -182,27 +169,3 @@ def test_another_is_answered_while_a_reply_is_late() -> None:
     board.write(firmware.battery_question(), 0.2)
     assert board.read(0.3) == firmware.battery_reply(2)
     assert board.read(math.inf) == firmware.battery_reply(1)
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
-def test_it_answers_at_a_pty() -> None:
-    with PtyPort(Board(baud=9600)) as port:
-        end = os.open(port.name, os.O_RDWR | os.O_NOCTTY)
-        os.write(end, firmware.battery_question())
-        data = b""
-        while len(data) < 6:
-            data += os.read(end, 100)
-        os.close(end)
-        assert data == firmware.battery_reply(1)
-
-
-def test_it_answers_over_tcp_to_one_host_after_the_other() -> None:
-    with TcpPort(Board()) as port:
-        for number in (1, 2):
-            address = port.name.removeprefix("socket://").split(":")
-            with socket.create_connection((address[0], int(address[1]))) as line:
-                line.sendall(firmware.battery_question())
-                data = b""
-                while len(data) < 6:
-                    data += line.recv(100)
-                assert data == firmware.battery_reply(number)

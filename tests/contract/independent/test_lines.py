@@ -1,15 +1,12 @@
 """Lines of other kinds, in virtual time: faster than stated, with an echo, or busy before."""
 
-import logging
 import math
 from typing import Any
 
-import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupStarted,
     ActionGroupStopped,
-    EchoError,
 )
 
 from tests.contract.independent import faults
@@ -144,40 +141,6 @@ def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
         assert list(controller.reports(timeout=0.3)) == [ActionGroupStopped()]
         assert controller.counters.noise == 0
     assert board.refused == []
-
-
-class Damaging(VirtualPort):
-    """An adapter that loses one byte of what it delivers."""
-
-    def __init__(self, board: Board, lost: int) -> None:
-        super().__init__(board)
-        self._left = lost
-
-    def read(self, timeout: float) -> bytes:
-        data = super().read(timeout)
-        self._left -= len(data)
-        return data[:-1] if data and self._left == 0 else data
-
-
-def test_an_echo_that_is_damaged_ends_one_call_alone() -> None:
-    # Two reads of 10 bytes each, echo and reply, and then the second byte of an echo.
-    board = Board(baud=BAUD, echo=True, thinks=0.001)
-    with talking(Damaging(board, 22), local_echo=True) as (_, controller):
-        assert [controller.read_battery_voltage() for _ in range(2)] == [1, 2]
-        with pytest.raises(EchoError):
-            controller.read_battery_voltage()
-        assert [controller.read_battery_voltage() for _ in range(3)] == [4, 5, 6]
-
-
-def test_an_undeclared_echo_harms_no_value_and_is_logged_once(
-    caplog: pytest.LogCaptureFixture,
-) -> None:
-    board = Board(baud=BAUD, echo=True, thinks=0.001)
-    with caplog.at_level(logging.WARNING, "busservo"):
-        talk, counters = conversation(board, 8)
-    assert [each.number for each in talk.calls] == list(range(1, 9))
-    assert counters.echoes > 0
-    assert len([each for each in caplog.records if "echo" in each.getMessage()]) == 1
 
 
 # ------------------------------------------------------------------- a stranger's reply

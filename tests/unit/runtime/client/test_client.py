@@ -43,7 +43,6 @@ from busservo.__main__ import main
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both, by_threads
 from tests.lines.live_line import LiveLine, answered
-from tests.lines.receiving import unanswered
 from tests.lines.timed_line import ScriptedLine, client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.programs import ran
@@ -448,13 +447,3 @@ def test_a_report_reaches_a_callback_while_somebody_waits_for_another_or_nobody_
         assert not pending.done()
         line.say(COMPLETED)
         assert pending.result(GENEROUS) == COMPLETED
-
-
-def test_unplugged_while_a_question_is_under_way() -> None:
-    line = LiveLine(unanswered)
-    with Controller(line, **LIVE) as controller, ThreadPoolExecutor(1) as pool:
-        asking = pool.submit(controller.read_battery_voltage)
-        await_that(lambda: line.received)
-        line.unplug()
-        with pytest.raises(DisconnectedError, match="plug it in again"):
-            asking.result(GENEROUS)

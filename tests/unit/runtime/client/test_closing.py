@@ -332,14 +332,6 @@ def test_close_that_is_cancelled_is_done_all_the_same() -> None:
     assert line.closed
 
 
-def test_closing_from_within_a_callback_ends_all_the_same() -> None:
-    line = LiveLine()
-    controller = Controller(line)
-    controller.on_report(lambda _: controller.close())
-    line.say(STOPPED)
-    await_that(lambda: line.closed)
-
-
 def late(message: Message) -> list[tuple[float, bytes | Message]]:
     return [(0.1, each) for each in answered(message)]
 

@@ -87,13 +87,6 @@ def test_a_refusal_of_another_device_or_of_something_else_refuses_nothing() -> N
         assert bus.counters.unsolicited == 2
 
 
-def test_what_is_not_refused_is_answered() -> None:
-    reply = frame("modbus", "Holding", unit=17, registers=[1, 2, 3])
-    with client("modbus", reply) as bus:
-        assert bus.read_holding(17, start=107, quantity=3) == (1, 2, 3)
-        assert bus.device(17).read_holding(107, 3) == (1, 2, 3)
-
-
 def test_a_handler_may_refuse() -> None:
     modbus = lib("modbus")
 
@@ -129,12 +122,6 @@ def test_a_failure_names_the_bits_that_are_set() -> None:
         assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)  # noqa: S301
         with pytest.raises(dynamixel.FailureError):
             bus.device(1).ping()
-
-
-def test_a_reply_without_a_failure_is_returned() -> None:
-    reply = status(1, 0, [0x20])
-    with client("dynamixel1", reply) as bus:
-        assert bus.read(1, start=43, size=1) == (0x20,)
 
 
 @in_virtual_time

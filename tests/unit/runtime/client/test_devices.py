@@ -122,17 +122,6 @@ def test_nothing_is_sent_while_a_servo_may_answer() -> None:
     assert len(line.servos[1].moves) == 20
 
 
-def test_a_late_reply_holds_up_its_own_servo_only() -> None:
-    line = ServoBus(1, 2)
-    with client(line) as bus:
-        line.servos[2].delay = 0.2
-        with pytest.raises(lxservo.NoReplyError):
-            bus.read_position(2)
-        line.servos[2].delay = 0.001
-        assert bus.read_position(1) == 1001
-        assert bus.read_position(2) == 2002  # and not 2001, which came late
-
-
 def test_a_reply_that_comes_twice_never_answers_the_next_question() -> None:
     line = ServoBus(1, 2)
     line.servos[1].copies = 2
