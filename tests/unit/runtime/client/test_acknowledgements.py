@@ -7,7 +7,6 @@ from itertools import accumulate
 from typing import Any
 
 import busservo
-import pytest
 from busservo import (
     ActionGroupCompleted,
     ActionGroupRun,
@@ -26,10 +25,21 @@ from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.in_turn import in_turn
 from tests.lines.both_clients import both, both_live, until
 from tests.lines.live_line import LiveLine
-from tests.lines.questions import REPLY_TIMEOUT, ask, say, session
+from tests.lines.questions import REPLY_TIMEOUT, session
+from tests.lines.stories import (
+    Step,
+    Told,
+    ask,
+    hear,
+    replied,
+    restart,
+    send,
+    tick,
+    told,
+    want,
+)
 
 FRAME = 7 / 960  # of a run, and of its report
 # When a run that is sent at 0 is taken to have been ignored.
@@ -37,139 +47,121 @@ OVER = 2 * FRAME + REPLY_TIMEOUT
 STARTED = ActionGroupStarted(8, 1)
 
 
+SEEN_ONE = hear(-10.0, ActionGroupStarted(99, 1))  # of a line that has carried such a report
+
+
 def seen_one() -> Session:
-    """Return a session of a line that has carried an acknowledging report, long ago."""
     line = session()
-    say(line, -10.0, ActionGroupStarted(99, 1))
+    SEEN_ONE(Told(line))
     return line
 
 
-def ran(line: Session, group: int = 8, now: float = 0.0) -> Run:
-    request = line.submit(ActionGroupRun(group, 1))
-    line.outgoing(now)
-    line.acknowledgements.written(now)
-    assert isinstance(request.sent, Run)
-    assert request.sent.started is None
-    return request.sent
+def run(group: int = 8, at: float = 0.0) -> Step:
+    """Run a group; the port has the command at once."""
+
+    def step(it: Told) -> None:
+        want(ActionGroupRun(group, 1))(it)
+        it.line.outgoing(at)
+        it.line.acknowledgements.written(at)
+        started(None)(it)
+
+    return step
 
 
-@in_turn(
-    "report, started",
-    lambda: [
-        (STARTED, True),
-        (ActionGroupStarted(8, 2), None),
-        (ActionGroupStarted(7, 1), None),
-        (ActionGroupCompleted(8, 1), None),
-        (BatteryVoltage(7500), None),
-    ],
+def started(*expected: bool | None) -> Step:
+    """Check what is known of the runs so far."""
+
+    def step(it: Told) -> None:
+        runs = [each.sent for each in it.requests if each.sent is not None]
+        assert [each.started for each in runs][-len(expected) :] == [*expected]
+
+    return step
+
+
+def comes(report: Message, known: bool | None) -> list[Step]:
+    """A run is acknowledged by a report or not; what has come meanwhile took its time, too."""
+    over = OVER + len(report.encode()) / 960
+    return [
+        *[SEEN_ONE, run(), hear(0.1, report), started(known), tick(over - 0.001), started(known)],
+        *[tick(over), started(bool(known))],
+    ]
+
+
+def lose(it: Told) -> None:
+    it.line.fail(DisconnectedError("line", "lost", "again"))
+
+
+def written(at: float, place: int = -1) -> Step:
+    return lambda it: it.line.acknowledgements.written(at, it.requests[place].sent)
+
+
+def unwritten(it: Told) -> None:
+    assert it.line.acknowledgements.unwritten
+
+
+def nothing_is_due(it: Told) -> None:
+    assert it.line.tick_at is None
+
+
+LONG = ServoPositions([(servo, 500) for servo in range(84)])
+PIECES = [LONG.encode()[at : at + 16] for at in range(0, len(LONG.encode()), 16)]
+PIECES_AT = [0.36 + 16 * place / 960 for place in range(len(PIECES))]
+HALF, REST = STARTED.encode()[:3], STARTED.encode()[3:]
+test_a_run = told(
+    {
+        "is acknowledged by the report with its values": comes(STARTED, True),
+        "is not by one with other times": comes(ActionGroupStarted(8, 2), None),
+        "is not by one of another group": comes(ActionGroupStarted(7, 1), None),
+        "is not by another report": comes(ActionGroupCompleted(8, 1), None),
+        "is not by a reply": comes(BatteryVoltage(7500), None),
+        "is expected to be reported only where one has been": [
+            *[run(), tick(OVER), hear(5.0, STARTED), run(at=10.0), tick(10 + OVER - 1e-6)],
+            *[started(None, None), tick(10 + OVER + 1e-6), started(None, False), nothing_is_due],
+        ],
+        "wants a report of its own, as does its equal": [
+            *[SEEN_ONE, run(), run(at=0.01), hear(0.1, STARTED), started(True, None)],
+            *[hear(0.1, STARTED), started(True, True)],
+        ],
+        "is not late behind a long reply, which comes piece by piece": [
+            *[SEEN_ONE, ask(0.0, ServoPositionsRead(range(84))), run(at=0.1)],
+            *(
+                each
+                for at, data in zip(PIECES_AT, PIECES, strict=True)
+                for each in (hear(at, data), tick(at))
+            ),
+            *[replied(LONG, 0), started(None)],
+            *[hear(0.36 + (len(LONG.encode()) + 7) / 960, STARTED), started(True)],
+        ],
+        "waits for half a report": [
+            *[SEEN_ONE, run(), hear(OVER - 0.002, HALF), tick(OVER + 0.02), started(None)],
+            *[hear(OVER + 0.03, REST), started(True)],
+        ],
+        "has its time from when the port has it": [
+            *[SEEN_ONE, want(ActionGroupRun(8, 1)), send(0.0, ActionGroupRun(8, 1)), tick(5.0)],
+            *[started(None), unwritten, written(5.0), tick(5.0 + OVER - 0.001), started(None)],
+            *[tick(5.0 + OVER), started(False)],
+        ],
+        "has no deadline before": [
+            *[SEEN_ONE, *(want(ActionGroupRun(group, 1)) for group in (1, 2, 3))],
+            *(send(group / 10, ActionGroupRun(group, 1)) for group in (1, 2, 3)),
+            *[written(0.3, -2), tick(1.0), started(False, False, None), unwritten],
+        ],
+        "is not known of on a new line": [
+            *[SEEN_ONE, run(), lose, restart(1.0), tick(5.0), run(at=6.0), tick(10.0)],
+            started(None, None),
+        ],
+    }
 )
-def test_a_run_is_acknowledged_by_the_report_with_its_values(
-    report: Message, started: bool | None
-) -> None:
-    line = seen_one()
-    run = ran(line)
-    say(line, 0.1, report)
-    assert run.started is started
-    # What has come meanwhile took its time, too.
-    line.tick(OVER + len(report.encode()) / 960 - 0.001)
-    assert run.started is started
-    line.tick(OVER + len(report.encode()) / 960)
-    assert run.started is bool(started)
-
-
-def test_a_line_that_never_reported_a_start_expects_none() -> None:
-    line = session()
-    first = ran(line)
-    line.tick(OVER)
-    say(line, 5.0, STARTED)
-    second = ran(line, now=10.0)
-    assert line.tick_at == pytest.approx(10 + OVER)
-    line.tick(10 + OVER + 1e-6)
-    assert (first.started, second.started) == (None, False)
-    assert line.tick_at is None
-
-
-def test_each_of_two_equal_runs_wants_a_report_of_its_own() -> None:
-    line = seen_one()
-    first, second = ran(line), ran(line, now=0.01)
-    say(line, 0.1, STARTED)
-    assert (first.started, second.started) == (True, None)
-    say(line, 0.1, STARTED)
-    assert second.started is True
-
-
-def test_a_long_reply_before_the_report_does_not_make_it_late() -> None:
-    line = seen_one()
-    question = ask(line, 0.0, ServoPositionsRead(range(84)))
-    run = ran(line, now=0.1)
-    reply = ServoPositions([(servo, 500) for servo in range(84)]).encode()
-    # It comes piece by piece, and the report behind it.
-    for at in range(0, len(reply), 16):
-        now = 0.36 + at / 960
-        line.receive(reply[at : at + 16], now)
-        line.tick(now)
-    assert question.reply is not None
-    assert run.started is None
-    say(line, 0.36 + (len(reply) + 7) / 960, STARTED)
-    assert run.started is True
-
-
-def test_half_a_report_is_waited_for() -> None:
-    line = seen_one()
-    run = ran(line)
-    report = STARTED.encode()
-    line.receive(report[:3], OVER - 0.002)
-    line.tick(OVER + 0.02)
-    assert run.started is None
-    line.receive(report[3:], OVER + 0.03)
-    assert run.started is True
-
-
-def test_the_time_of_a_run_begins_when_the_port_has_it() -> None:
-    line = seen_one()
-    request = line.submit(ActionGroupRun(8, 1))
-    line.outgoing(0.0)
-    assert isinstance(request.sent, Run)
-    line.tick(5.0)
-    assert request.sent.started is None
-    assert line.acknowledgements.unwritten
-    line.acknowledgements.written(5.0)
-    line.tick(5.0 + OVER - 0.001)
-    assert request.sent.started is None
-    line.tick(5.0 + OVER)
-    assert request.sent.started is False
-
-
-def test_a_run_not_yet_written_has_no_deadline() -> None:
-    line = seen_one()
-    first, second, third = (line.submit(ActionGroupRun(group, 1)) for group in (1, 2, 3))
-    for now in (0.0, 0.1, 0.2):
-        line.outgoing(now)
-    line.acknowledgements.written(0.2, second.sent)
-    line.tick(1.0)
-    started = [getattr(each.sent, "started", ...) for each in (first, second, third)]
-    assert started == [False, False, None]
-    assert line.acknowledgements.unwritten
-
-
-def test_a_new_line_knows_nothing_of_runs_on_the_old_one() -> None:
-    line = seen_one()
-    run = ran(line)
-    line.fail(DisconnectedError("line", "lost", "again"))
-    line.restart(1.0)
-    line.tick(5.0)
-    other = ran(line, now=6.0)
-    line.tick(10.0)
-    assert (run.started, other.started) == (None, None)
 
 
 def test_more_runs_than_are_followed_do_no_harm() -> None:
-    line = session(baud=math.inf)
-    runs = [ran(line, group) for group in range(100)]
+    it = Told(session(baud=math.inf))
     for group in range(100):
-        say(line, 0.1, ActionGroupStarted(group, 1))
-    assert {run.started for run in runs} == {None, True}
-    assert runs[-1].started is True
+        run(group)(it)
+    for group in range(100):
+        hear(0.1, ActionGroupStarted(group, 1))(it)
+    assert {each.sent.started for each in it.requests} == {None, True}
+    assert it.requests[-1].sent.started is True
 
 
 class Board:

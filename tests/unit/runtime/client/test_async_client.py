@@ -6,19 +6,8 @@ import math
 import time
 import warnings
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupStop,
-    ActionGroupStopped,
-    AsyncController,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ClosedError,
-    DisconnectedError,
-    NoReplyError,
-    ServoMove,
-)
 from framewire.client.base_client import POLL_INTERVAL
 
 from tests.lines.live_line import LiveLine, answered, in_a_loop
@@ -26,20 +15,20 @@ from tests.lines.receiving import unanswered
 from tests.lines.virtual_line import VirtualLine, client, in_virtual_time, run
 from tests.timeouts import GENEROUS, LIVE
 
-STOPPED = ActionGroupStopped()
+STOPPED = busservo.ActionGroupStopped()
 
 
 @in_a_loop
 async def test_a_hundred_tasks_share_a_controller() -> None:
     line = LiveLine()
-    async with AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
+    async with busservo.AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
 
         async def ask(number: int) -> None:
             for _ in range(2):
                 servos = [number + 1, number + 2]
                 found = await controller.read_servo_positions(servos)
                 assert found == tuple((s, 10 * s) for s in servos)
-                line.say(ActionGroupCompleted(number, 1))
+                line.say(busservo.ActionGroupCompleted(number, 1))
 
         await asyncio.gather(*(ask(number) for number in range(100)))
         while controller.counters.reports < 200:
@@ -63,7 +52,7 @@ async def test_a_cancelled_question_leaves_the_line_usable() -> None:
         await asyncio.sleep(0)
         pending.cancel()
         assert await controller.read_servo_positions([1]) == ((1, 10),)
-        line.say(BatteryVoltage(7400))  # the late reply of the first
+        line.say(busservo.BatteryVoltage(7400))  # the late reply of the first
         assert await controller.read_battery_voltage() == 7500
         assert controller.counters.unsolicited == 1
 
@@ -73,12 +62,12 @@ async def test_unplugged_while_questions_are_under_way() -> None:
     line = VirtualLine()
     async with client(line, **LIVE) as controller:
         asking = [controller.read_battery_voltage() for _ in range(5)]
-        waiting = controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
+        waiting = controller.wait_for(busservo.ActionGroupStopped, timeout=GENEROUS)
         tasks = [asyncio.ensure_future(each) for each in (*asking, waiting)]
         await asyncio.sleep(0.02)
         line.unplug()
         for task in tasks:
-            with pytest.raises(DisconnectedError):
+            with pytest.raises(busservo.DisconnectedError):
                 await task
         await controller.reconnect()
         assert not controller.closed
@@ -98,14 +87,14 @@ async def test_close_ends_the_waits_of_other_tasks_and_the_reports() -> None:
     asking = asyncio.ensure_future(controller.read_battery_voltage())
     await asyncio.sleep(0.02)
     await asyncio.gather(controller.close(), controller.close())
-    with pytest.raises(ClosedError):
+    with pytest.raises(busservo.ClosedError):
         await asking
     assert await listening == [STOPPED]
 
 
 @in_a_loop
 async def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
-    async with AsyncController(LiveLine(), **LIVE) as controller:
+    async with busservo.AsyncController(LiveLine(), **LIVE) as controller:
 
         def elsewhere() -> None:
             with pytest.raises(RuntimeError, match="belongs to another event loop"):
@@ -118,13 +107,13 @@ async def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None
 @in_a_loop
 async def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
     line = LiveLine(unanswered)
-    async with AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
+    async with busservo.AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
         task = asyncio.ensure_future(controller.read_battery_voltage())
         while not line.received:
             await asyncio.sleep(0)
         # The loop stands still meanwhile, so that both are there when it goes on: the reply,
         # and then the end of whoever waited for it.
-        line.say(BatteryVoltage(7500))
+        line.say(busservo.BatteryVoltage(7500))
         before = line.reads
         while line.reads < before + 2:
             time.sleep(0.001)
@@ -133,7 +122,7 @@ async def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() ->
             await task
         assert controller.counters.replies == 1
         await controller.stop_action_group()
-    assert line.received == [BatteryVoltageRead(), ActionGroupStop()]
+    assert line.received == [busservo.BatteryVoltageRead(), busservo.ActionGroupStop()]
 
 
 @in_virtual_time
@@ -141,7 +130,7 @@ async def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment
     line = VirtualLine()
     async with client(line, **LIVE) as controller:
         line.say(STOPPED, delay=3600.25)
-        assert await controller.wait_for(ActionGroupStopped, timeout=4000) == STOPPED
+        assert await controller.wait_for(busservo.ActionGroupStopped, timeout=4000) == STOPPED
         assert line.now == 3600.25
         motion = await controller.move_servos([(1, 500)], 60_000)
         assert await motion.wait()
@@ -154,9 +143,9 @@ async def test_a_transport_without_notification_is_polled() -> None:
     line.on_readable = None  # type: ignore[assignment, method-assign]
     async with client(line, reply_timeout=1) as controller:
         line.say(STOPPED, delay=0.5)
-        await controller.wait_for(ActionGroupStopped, timeout=1)
+        await controller.wait_for(busservo.ActionGroupStopped, timeout=1)
         assert 0.5 <= line.now <= 0.5 + POLL_INTERVAL + 1e-4
-        with pytest.raises(NoReplyError) as late:
+        with pytest.raises(busservo.NoReplyError) as late:
             await controller.read_battery_voltage()
         assert late.value.waited == pytest.approx(1 + 10 / 960, abs=1e-4)
 
@@ -178,15 +167,15 @@ async def test_a_client_without_threads_that_is_forgotten_gives_its_line_back() 
 
 def test_what_a_loop_left_open_is_closed_in_another() -> None:
     line = VirtualLine()
-    moves = [ServoMove(20, [(1, position)]) for position in (1, 2)]
+    moves = [busservo.ServoMove(20, [(1, position)]) for position in (1, 2)]
 
-    async def use() -> AsyncController:
+    async def use() -> busservo.AsyncController:
         controller = client(line)
         for each in moves:
             controller.send_latest(each)
         return controller
 
-    async def close(controller: AsyncController) -> None:
+    async def close(controller: busservo.AsyncController) -> None:
         await controller.close()
 
     controller = run(use(), line)

@@ -16,7 +16,9 @@ from framewire.codec.gap import GAP
 
 from tests.factories import data_of, files_of, imported, library_of
 from tests.in_turn import in_turn
-from tests.lines.questions import ask, asked, expires, say, session
+from tests.lines import questions
+from tests.lines.questions import REPLY_TIMEOUT, TRIP, asked, say, session
+from tests.lines.stories import ask, counted, failed, hear, pending, replied, tick, told
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.mutations.places import having
@@ -38,27 +40,46 @@ def test_a_hole_and_a_report_after_any_time_are_an_error_and_that_report(gap: fl
         assert list(controller.reports(timeout=1)) == [REPORT]
 
 
-# A port found empty after so long; and the rest, which is there by then.
-@in_turn(
-    "empty_at, rest_at, ends",
-    lambda: [
-        (0.049, 0.09, False),
-        (0.051, 0.09, True),
+END = TRIP + REPLY_TIMEOUT
+MAYBE_TORN = bytes.fromhex("55 55 06 15 01 01 55 55")
+# What claims to be positions of 84 servos; a voltage may be in the middle of it.
+LONG_HEADER = b"\x55\x55\xff\x15\x54"
+test_a_gap_ends_a_frame = told(
+    {
+        "not a short one": [
+            *[ask(), hear(0.01, TORN), tick(0.059), hear(0.09, FRAME[4:]), replied(7500)]
+        ],
+        "a longer one": [
+            *[ask(), hear(0.01, TORN), tick(0.061), hear(0.09, FRAME[4:]), tick(0.15)],
+            *[pending, counted(noise=len(FRAME))],
+        ],
         # A process that was stopped for a second finds the rest at once: nobody knows when it came.
-        (-0.005, 1.01, False),
-    ],
+        "where the port was found empty": [
+            *[ask(), hear(0.01, TORN), tick(0.005), hear(1.01, FRAME[4:]), tick(1.005)],
+            replied(7500),
+        ],
+        "and no reply that may be torn, until the line is quiet": [
+            *[ask(), hear(0.02, 0x5555), pending, tick(0.02 + GAP), replied(0x5555)]
+        ],
+        "and such a reply is as old as its bytes: still sooner than the wire allows": [
+            *[ask(0.0, ServoPositionsRead([1])), hear(0.001, MAYBE_TORN), tick(0.001 + GAP)],
+            *[pending, counted(impossible=1)],
+        ],
+        "and no reply that is under way when the time is up": [
+            *[ask(), hear(END - 0.001, FRAME[:3]), tick(END), hear(END + 0.003, FRAME[3:])],
+            replied(7500),
+        ],
+        "but a line that never falls silent does not keep a question for ever": [
+            *[ask(), *(step for n in range(1, 25) for step in (hear(n / 25, b"UU"), tick(n / 25)))],
+            failed(NoReplyError),
+        ],
+        "and a reply behind a false header is found in time on such a line": [
+            *[ask(), hear(0.02, LONG_HEADER, FRAME)],
+            *(step for n in range(3, 16) for step in (tick(n / 50), hear(n / 50, b"\x00"))),
+            *[pending, tick(END + GAP), replied(7500), counted(timeouts=0)],
+        ],
+    }
 )
-def test_a_port_found_empty_for_longer_than_the_gap_ends_a_frame(
-    empty_at: float, rest_at: float, ends: bool
-) -> None:
-    line = session()
-    request = ask(line)
-    say(line, 0.01, TORN)
-    line.tick(0.01 + empty_at)
-    say(line, rest_at, FRAME[4:])
-    line.tick(rest_at - 0.005)
-    assert (request.reply is None) is ends
-    assert line.counters.noise == (len(FRAME) if ends else 0)
 
 
 def test_the_next_tick_is_due_when_a_gap_is_over() -> None:
@@ -70,65 +91,12 @@ def test_the_next_tick_is_due_when_a_gap_is_over() -> None:
     assert line.counters.noise == len(TORN)
 
 
-def test_a_reply_that_may_be_torn_waits_until_the_line_is_quiet_and_no_longer() -> None:
-    line = session()
-    request = ask(line)
-    say(line, 0.02, 0x5555)
-    assert not request.done
-    line.tick(0.02 + GAP)
-    assert request.reply == BatteryVoltage(0x5555)
-
-
-def test_a_reply_that_may_be_torn_is_as_old_as_its_bytes() -> None:
-    """Held until the line is quiet, it is still sooner than the wire allows."""
-    line = session()
-    request = ask(line, 0.0, ServoPositionsRead([1]))
-    say(line, 0.001, bytes.fromhex("55 55 06 15 01 01 55 55"))
-    line.tick(0.001 + GAP)
-    assert not request.done
-    assert line.counters.impossible == 1
-
-
-def test_a_reply_under_way_when_the_time_is_up_may_arrive_in_full() -> None:
-    line = session()
-    request, end = ask(line), expires(line)
-    say(line, end - 0.001, FRAME[:3])
-    line.tick(end)
-    say(line, end + 0.003, FRAME[3:])
-    assert request.reply == BatteryVoltage(7500)
-
-
-def test_a_line_that_never_falls_silent_does_not_keep_a_question_for_ever() -> None:
-    line, now = session(), 0.0
-    request = ask(line)
-    while not request.done:
-        now += 0.04
-        assert now < 1.0
-        say(line, now, b"\x55\x55")
-        line.tick(now)
-    assert isinstance(request.error, NoReplyError)
-
-
 def test_a_frame_that_breaks_off_is_marked_in_the_trace(tmp_path: Path) -> None:
     line = VirtualLine(lambda _: [(0.0, b"\x55\x55\x04")])
     trace = tmp_path / "line.log"
     with client_on(line, Controller, trace=trace) as controller, pytest.raises(NoReplyError):
         controller.read_battery_voltage()
     assert "# quiet" in trace.read_text(encoding="utf-8")
-
-
-def test_a_reply_behind_a_false_header_is_found_in_time_though_the_line_is_never_quiet() -> None:
-    line = session()
-    request = ask(line)
-    # What claims to be positions of 84 servos; the voltage is in the middle of it.
-    say(line, 0.02, b"\x55\x55\xff\x15\x54", FRAME)
-    for step in range(3, 16):
-        line.tick(step / 50)
-        say(line, step / 50, b"\x00")
-    assert not request.done
-    line.tick(0.25 + 10 / 960 + GAP)
-    assert request.reply == BatteryVoltage(7500)
-    assert line.counters.timeouts == 0
 
 
 # ------------------------------------------------------------------ the beginning of a longer one
@@ -191,7 +159,7 @@ def test_an_answer_waits_for_nothing_that_nobody_has_asked_for(libraries: None) 
 def test_it_waits_where_a_longer_one_may_come_late(libraries: None) -> None:
     line, late, kinds = asked("roboclaw", "VersionRead")
     line.cancel(late)
-    request = ask(line, 0.01, kinds.VoltageRead())
+    request = questions.ask(line, 0.01, kinds.VoltageRead())
     say(line, 0.1, kinds.Voltage(120))
     line.tick(0.1)
     assert not request.done

@@ -2,11 +2,10 @@
 
 import os
 import sys
-import threading
 import types
-from collections import deque
 from collections.abc import Iterator
 from pathlib import Path
+from queue import Empty, SimpleQueue
 from typing import Any
 
 import pytest
@@ -45,15 +44,13 @@ BATTERY = bytes.fromhex("55 55 04 0F 4C 1D")
 class Device:
     """A device as hidapi has it: reports of 64 bytes; those written begin with their number."""
 
-    def __init__(self) -> None:
+    def __init__(self, padding: int = 0) -> None:
         self.written: list[bytes] = []
-        self.padding = 0
-        self.lost = False
+        self.padding = padding
+        self.lost = self.closed = False
         self.takes = True
-        self.closed = False
-        self._reports: deque[bytes] = deque()
+        self._reports: SimpleQueue[bytes] = SimpleQueue()
         self._blocks = True
-        self._changed = threading.Condition()
 
     def open_path(self, path: bytes) -> None:
         if path.endswith(b"busy"):
@@ -63,19 +60,17 @@ class Device:
         self._blocks = not on
 
     def say(self, data: bytes) -> None:
-        with self._changed:
-            for at in range(0, len(data), 64):
-                piece = data[at : at + 64]
-                self._reports.append(piece + bytes([self.padding]) * (64 - len(piece)))
-            self._changed.notify_all()
+        for at in range(0, len(data), 64):
+            self._reports.put(data[at : at + 64].ljust(64, bytes([self.padding])))
 
     def read(self, size: int, timeout_ms: int = 0) -> list[int]:
         assert timeout_ms > 0 or not self._blocks, "this would wait for ever"
-        with self._changed:
-            self._changed.wait_for(lambda: self._reports or self.lost, timeout_ms / 1000)
-            if self.lost:
-                raise OSError("read error")
-            return list(self._reports.popleft()[:size]) if self._reports else []
+        if self.lost:
+            raise OSError("read error")
+        try:
+            return [*self._reports.get(timeout=timeout_ms / 1000)[:size]]
+        except Empty:
+            return []
 
     def write(self, data: bytes) -> int:
         if self.lost:
@@ -99,11 +94,8 @@ class Library:
     """The part of the module of hidapi that is used."""
 
     def __init__(self, *found: dict[str, object]) -> None:
-        self.found = list(found)
+        self.enumerate = lambda: [*found]
         self.devices: list[Device] = []
-
-    def enumerate(self) -> list[dict[str, object]]:
-        return self.found
 
     def device(self) -> Device:
         self.devices.append(Device())
@@ -147,11 +139,8 @@ def test_a_session_by_usb_hid(library: Library, talk: Talk, port: str) -> None:
 
 
 def port_on(device: Device) -> HidPort:
-    def never() -> HidPort:
-        raise NotImplementedError
-
     device.set_nonblocking(1)
-    return HidPort("hid://", device, 64, never, CODEC)
+    return HidPort("hid://", device, 64, lambda: port_on(device), CODEC)
 
 
 @in_turn(
@@ -174,8 +163,7 @@ def port_on(device: Device) -> HidPort:
     ],
 )
 def test_the_padding_of_a_report_is_dropped(padding: int, report: str, read: str) -> None:
-    device = Device()
-    device.padding = padding
+    device = Device(padding)
     device.say(bytes.fromhex(report).ljust(64, bytes([padding])))
     port = port_on(device)
     assert port.read(0.0) == bytes.fromhex(read)

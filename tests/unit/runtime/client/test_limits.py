@@ -5,14 +5,7 @@ from typing import Any
 
 import lxservo
 import pytest
-from busservo import (
-    AsyncController,
-    Controller,
-    EncodeError,
-    LimitError,
-    ServoMove,
-    ServoPositions,
-)
+from busservo import AsyncController, Controller, EncodeError, LimitError, ServoMove, ServoPositions
 from busservo._exchanges import LIMITS, POSE
 from busservo_simulator import VirtualController
 from framewire.client.limits import Limits

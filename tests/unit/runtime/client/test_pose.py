@@ -6,20 +6,8 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
+import busservo
 import pytest
-from busservo import (
-    AbsentError,
-    Controller,
-    EncodeError,
-    IncompleteReplyError,
-    LimitError,
-    NoReplyError,
-    ServoMove,
-    ServoPosition,
-    ServoPositions,
-    ServoPositionsRead,
-    ServoUnload,
-)
 from busservo._exchanges import LIMITS, POSE
 from busservo_simulator import Faults, VirtualController
 
@@ -35,25 +23,29 @@ from tests.timeouts import LIVE
 
 Positions = list[tuple[int, int]]
 
-OFF = ServoPosition.POSITION_ABSENT
+OFF = busservo.ServoPosition.POSITION_ABSENT
 
 
 def virtual(**given: Any) -> tuple[VirtualController, Any]:
     """Return a board in virtual time, and a function that makes a client of it."""
     board = virtual_board(**{"servos": range(1, 7), **given})
-    return board, partial(client_at, board, Controller, settle=None)
+    return board, partial(client_at, board, busservo.Controller, settle=None)
 
 
-def moves(line: VirtualLine) -> list[ServoMove]:
-    return [each for each in line.received if isinstance(each, ServoMove)]
+def moves(line: VirtualLine) -> list[busservo.ServoMove]:
+    return [each for each in line.received if isinstance(each, busservo.ServoMove)]
 
 
 def client_of(line: VirtualLine, **given: Any) -> Any:
-    return client_on(line, Controller, settle=None, **given)
+    return client_on(line, busservo.Controller, settle=None, **given)
 
 
 def test_the_pose_of_the_protocol() -> None:
-    assert (POSE.read, POSE.move, POSE.release) == (ServoPositionsRead, ServoMove, ServoUnload)
+    assert (POSE.read, POSE.move, POSE.release) == (
+        busservo.ServoPositionsRead,
+        busservo.ServoMove,
+        busservo.ServoUnload,
+    )
     assert POSE.ids == range(1, 254)
     assert (LIMITS.usual, LIMITS.others) == ((0, 1000), {"PWM servo boards": (500, 2500)})
 
@@ -71,7 +63,7 @@ def test_the_pose_of_the_protocol() -> None:
 def test_a_position_stays_raw_and_has_its_meaning_beside_it(
     position: int, signed: int, absent: bool
 ) -> None:
-    [read] = ServoPositions([(4, position)]).positions
+    [read] = busservo.ServoPositions([(4, position)]).positions
     assert (read.position, read.signed_position, read.absent) == (position, signed, absent)
     assert read == (4, position)
     assert repr(read) == f"ServoPosition(servo_id=4, position={position})"
@@ -105,9 +97,9 @@ def test_all_servos_are_requested_in_as_many_parts_as_replies_need() -> None:
 
 
 def test_silence_while_looking_for_servos_is_an_error() -> None:
-    answered = ServoPositions([(1, 500)])
+    answered = busservo.ServoPositions([(1, 500)])
     line = VirtualLine(lambda _: [] if line.received[1:] else [answered])
-    with client_of(line) as controller, pytest.raises(NoReplyError):
+    with client_of(line) as controller, pytest.raises(busservo.NoReplyError):
         controller.present_servos(range(1, 100))
 
 
@@ -115,7 +107,7 @@ def test_servo_ids_are_checked_before_anything_is_sent() -> None:
     line = VirtualLine()
     with client_of(line) as controller:
         for wrong in ([300], ["1"], 5, []):
-            with pytest.raises(EncodeError):
+            with pytest.raises(busservo.EncodeError):
                 controller.present_servos(wrong)
     assert line.received == []
 
@@ -137,18 +129,18 @@ def test_holding_commands_the_positions_just_read() -> None:
 
 def answering(positions: Positions) -> VirtualLine:
     """Return a line to a board that answers every question about positions alike."""
-    reply = [ServoPositions(positions)]
-    return VirtualLine(lambda it: reply if isinstance(it, ServoPositionsRead) else [])
+    reply = [busservo.ServoPositions(positions)]
+    return VirtualLine(lambda it: reply if isinstance(it, busservo.ServoPositionsRead) else [])
 
 
 def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
     line = answering([(1, 500), (2, OFF), (4, 600)])
-    with client_of(line) as controller, pytest.raises(AbsentError) as refused:
+    with client_of(line) as controller, pytest.raises(busservo.AbsentError) as refused:
         controller.hold_servos([1, 2, 3, 4])
     assert moves(line) == []
     assert refused.value.missing == (2, 3)
     assert refused.value.arrived == ((1, 500), (4, 600))
-    assert isinstance(refused.value, IncompleteReplyError)
+    assert isinstance(refused.value, busservo.IncompleteReplyError)
     problem = "nothing was sent, since these are off or missing: servo_ids 2, 3; "
     assert str(refused.value) == problem + "2 did arrive"
 
@@ -156,7 +148,7 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
 def test_more_than_one_frame_moves_are_held_by_none() -> None:
     line = answering([(number, 500) for number in range(84)])
     problem = r"84 items is outside 1\.\.83"
-    with client_of(line) as controller, pytest.raises(EncodeError, match=problem):
+    with client_of(line) as controller, pytest.raises(busservo.EncodeError, match=problem):
         controller.hold_servos(range(84))
     assert moves(line) == []
 
@@ -176,9 +168,9 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
     line = answering(read)
     with client_of(line, limits=limits) as controller:
         controller.hold_servos([number for number, _ in read], time_ms=40)
-        pose = ServoPositions([*read, (9, OFF)]).positions
+        pose = busservo.ServoPositions([*read, (9, OFF)]).positions
         assert controller.targets_of(pose) == targets
-    assert moves(line) == [ServoMove(time_ms=40, targets=targets)]
+    assert moves(line) == [busservo.ServoMove(time_ms=40, targets=targets)]
 
 
 @in_turn(
@@ -196,10 +188,10 @@ def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
     read = [(1, 500), (2, position)]
     line = answering(read)
     with client_of(line, limits=limits) as controller:
-        with pytest.raises(LimitError) as refused:
+        with pytest.raises(busservo.LimitError) as refused:
             controller.hold_servos([1, 2])
-        with pytest.raises(LimitError):
-            controller.targets_of(ServoPositions(read).positions)
+        with pytest.raises(busservo.LimitError):
+            controller.targets_of(busservo.ServoPositions(read).positions)
     assert str(refused.value).startswith("positions[1].position: ")
     assert expected in str(refused.value)
     assert moves(line) == []
@@ -210,7 +202,7 @@ def test_a_pose_that_was_read_can_be_replayed_whatever_it_holds() -> None:
     with board, client() as controller:
         board.servos[3].off = True
         pose = controller.read_servo_positions([1, 2, 3])
-        with pytest.raises(LimitError, match="65535"):
+        with pytest.raises(busservo.LimitError, match="65535"):
             controller.move_servos(pose, time_ms=100)
         controller.move_servos(controller.targets_of(pose), time_ms=100)
 
@@ -220,9 +212,9 @@ def test_the_same_at_a_port(talk: Talk) -> None:
     async def work(controller: Any) -> None:
         assert await controller.present_servos() == (1, 2, 3)
         await controller.hold_servos([1, 2])
-        with pytest.raises(AbsentError):
+        with pytest.raises(busservo.AbsentError):
             await controller.hold_servos([1, 7])
-        pose = [ServoPosition(1, OFF), ServoPosition(2, 65531)]
+        pose = [busservo.ServoPosition(1, OFF), busservo.ServoPosition(2, 65531)]
         assert controller.targets_of(pose) == [(2, 0)]
 
     with VirtualController("tcp", servos=[1, 2, 3]) as board:
@@ -236,7 +228,7 @@ def test_no_number_of_an_absent_servo_is_ever_sent(seed: int) -> None:
         for _ in range(20):
             try:
                 controller.hold_servos([1, 2, 3, 4])
-            except AbsentError:
+            except busservo.AbsentError:
                 continue
             there = controller.present_servos([1, 2, 3, 4])
             assert set(there) <= {1, 2, 3, 4}

@@ -18,6 +18,7 @@ from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 from tests.lines import questions
+from tests.lines import stories as story
 from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session, settle
 
 QUESTION = BatteryVoltageRead().encode()
@@ -98,26 +99,63 @@ def test_a_reply_is_the_answer_where_the_wire_can_have_carried_it(name: str) -> 
     assert (line.counters.impossible, line.counters.unsolicited) == (impossible, unsolicited)
 
 
-# A longer reply timeout is no reason to hold a reply for longer.
-@in_turn("reply_timeout", lambda: [REPLY_TIMEOUT, 60])
-def test_an_impossible_reply_is_held_until_the_line_has_been_quiet(reply_timeout: float) -> None:
-    line = session(reply_timeout=reply_timeout)
-    request = ask(line)
-    say(line, TOO_SOON, 7500)
-    line.tick(TRIP + REPLY_TIMEOUT - 1e-6)
-    assert not request.done
-    line.tick(TRIP + REPLY_TIMEOUT)
-    assert request.reply == BatteryVoltage(7500)
-
-
-def test_a_question_with_an_impossible_reply_alone_ends_with_an_error_that_says_so() -> None:
-    line = session()
-    for number in range(8):
-        questions.answered(line, number, 7500)
-    request = questions.answered(line, 9.0, 1, TOO_SOON)
-    assert isinstance(request.error, NoReplyError)
-    assert "1 reply came that cannot be the answer" in str(request.error)
-    assert questions.answered(line, 10.0, 7501).reply == BatteryVoltage(7501)
+SETTLED = TRIP + REPLY_TIMEOUT
+MOVE, REPORT = ServoMove(100, [(1, 500)]), ActionGroupCompleted(8, 1)
+SIX_MOVED = ServoMove(100, [(servo, 500) for servo in range(1, 7)])
+BEFORE = len(SIX_MOVED.encode()) / 960
+HEALTHY = [story.ask(-1.0), story.hear(IN_TIME - 1.0, 7500), story.replied(7500)]
+HELD = [
+    *[story.ask(), story.hear(TOO_SOON, 7500), story.tick(SETTLED - 1e-6), story.pending],
+    *[story.tick(SETTLED), story.replied(7500)],
+]
+test_an_impossible_reply = story.told(
+    {
+        "is held until the line has been quiet": HELD,
+        "ends alone, on a line that keeps its rate, with an error that says so": [
+            *(step for n in range(8) for step in (story.ask(n), story.hear(n + IN_TIME, 7500))),
+            *[story.ask(9), story.hear(9 + TOO_SOON, 1), story.settled],
+            story.failed(NoReplyError, "1 reply came that cannot be the answer"),
+            *[story.ask(10), story.hear(10 + IN_TIME, 7501), story.settled],
+            story.replied(7501),
+        ],
+        # As where this process was stopped: it reads all that has come meanwhile, the late one too.
+        "is each of several that are read at once": [
+            *[*HEALTHY, story.ask(), story.hear(1.0, 1, REPORT, 2), story.pending],
+            *[story.counted(unsolicited=2, retries=1), story.reported(REPORT)],
+        ],
+        "is one that came while frames before the question took their time": [
+            *[*HEALTHY, story.want(SIX_MOVED), story.want(), story.send(0.0, SIX_MOVED)],
+            *[story.send(BEFORE, story.QUESTION), story.hear(BEFORE * 0.95 + TOO_SOON, 1)],
+            *[story.hear(BEFORE + TRIP, 2), story.counted(unsolicited=1)],
+        ],
+        "is no answer to what was cancelled": [
+            *[story.ask(), story.hear(TOO_SOON, 1), story.cancel(), story.counted(unsolicited=1)],
+            *[story.want(), story.send(0.1)],
+        ],
+        "is not known of a line that was opened again, which settles again": [
+            *[story.ask(1.0), story.hear(1.0 + IN_TIME, 7500), story.restart(5.0), story.want()],
+            *[story.send(5.1), story.send(5.0 + SETTLED, story.QUESTION)],
+        ],
+    }
+)
+test_it_is_held_no_longer_for_a_longer_reply_timeout = story.told({"": HELD}, reply_timeout=60)
+test_on_a_line_that_takes_no_time = story.told(
+    {
+        "what came before the question was sent is not even held": [
+            *[story.ask(1.0), story.hear(0.999, 1), story.counted(unsolicited=1)],
+            *[story.hear(1.0, 2), story.replied(2)],
+        ],
+        "no reply is impossible": [
+            *(
+                each
+                for n in range(8)
+                for each in (story.ask(n), story.hear(n, n), story.replied(n))
+            ),
+            story.counted(impossible=0),
+        ],
+    },
+    baud=math.inf,
+)
 
 
 def six(number: int) -> ServoPositions:
@@ -136,59 +174,6 @@ def test_a_duplicate_behind_a_reply_never_becomes_the_next_answer() -> None:
         say(line, now, six(number))
         assert request.reply == six(number)
     assert line.counters.unsolicited == 1
-
-
-def test_of_several_replies_that_are_read_at_once_none_is_the_answer() -> None:
-    line = session()
-    questions.answered(line, -1.0, 7500)
-    request = ask(line)
-    # As where this process was stopped: it reads all that has come meanwhile, the late one too.
-    say(line, 1.0, 1, ActionGroupCompleted(8, 1), 2)
-    assert not request.done
-    assert (line.counters.unsolicited, line.counters.retries) == (2, 1)
-    assert line.reports.take() == ActionGroupCompleted(8, 1)
-
-
-def test_what_came_before_the_question_was_sent_is_not_even_held() -> None:
-    line = session(baud=math.inf)
-    request = ask(line, 1.0)
-    say(line, 0.999, 1)
-    assert line.counters.unsolicited == 1
-    say(line, 1.0, 2)
-    assert request.reply == BatteryVoltage(2)
-
-
-def test_the_frames_before_a_question_take_their_time_as_well() -> None:
-    line = session()
-    questions.answered(line, -1.0, 7500)
-    move = ServoMove(100, [(servo, 500) for servo in range(1, 7)])
-    line.submit(move)
-    line.submit(BatteryVoltageRead())
-    line.outgoing(0.0)
-    before = len(move.encode()) / 960
-    assert line.outgoing(before) == [QUESTION]
-    say(line, before * 0.95 + TOO_SOON, 1)
-    say(line, before + TRIP, 2)
-    assert line.counters.unsolicited == 1
-
-
-def test_a_line_that_takes_no_time_says_so() -> None:
-    line = session(baud=math.inf)
-    for number in range(8):
-        request = ask(line, number)
-        say(line, number, number)
-        assert request.reply == BatteryVoltage(number)
-    assert line.counters.impossible == 0
-
-
-def test_a_reply_that_is_held_is_no_answer_to_what_was_cancelled() -> None:
-    line = session()
-    request = ask(line)
-    say(line, TOO_SOON, 1)
-    line.cancel(request)
-    assert line.counters.unsolicited == 1
-    line.submit(BatteryVoltageRead())
-    assert line.outgoing(0.1) == []
 
 
 # ---------------------------------------------------------------- a board that takes its time
@@ -252,9 +237,6 @@ def test_a_board_that_is_quick_for_once_costs_a_moment_and_nothing_else() -> Non
 
 # ---------------------------------------------------------------- what was there before
 
-SETTLED = TRIP + REPLY_TIMEOUT
-MOVE = ServoMove(100, [(1, 500)])
-
 
 @in_turn(
     "given, heard, behind_a_command, after",
@@ -290,15 +272,6 @@ def test_a_first_question_waits_until_replies_to_others_have_come(
     say(line, request.left_at + 6 / 960, 7401)
     assert request.reply == BatteryVoltage(7401)
     assert line.counters.unsolicited == heard
-
-
-def test_a_line_that_was_opened_again_settles_again() -> None:
-    line = session(now=0.0)
-    questions.answered(line, 1.0, 7500)
-    line.restart(5.0)
-    line.submit(BatteryVoltageRead())
-    assert line.outgoing(5.1) == []
-    assert line.outgoing(5.0 + SETTLED) == [QUESTION]
 
 
 # ---------------------------------------------------------------- what is said

@@ -1,127 +1,108 @@
 """What a request goes through: each step of the table happens, and nothing else can."""
 
 import re
-from collections.abc import Callable
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead, ServoMove, TransportError
+from busservo import BatteryVoltage, ServoMove, TransportError
+from framewire.client import request
 from framewire.client import session as session_module
-from framewire.client.request import STATES, Request, State, Step
-from framewire.client.session import Session
+from framewire.client.request import STATES, Request, State
 
 from tests.in_turn import in_turn
-from tests.lines.questions import IN_TIME, TRIP, answered, ask, say, session
+from tests.lines.questions import IN_TIME, TRIP, answered, session
+from tests.lines.stories import (
+    QUESTION,
+    Step,
+    Told,
+    ask,
+    cancel,
+    hear,
+    replied,
+    send,
+    tick,
+    told,
+    want,
+)
 
-Do = Callable[[Session], object]
-
+SEND, HOLD, DROP, RETRY, FINISH = (
+    request.Step[name] for name in ("SEND", "HOLD", "DROP", "RETRY", "FINISH")
+)
 LOST = TransportError("the line", "it was lost", "plug it in")
 
 
-def asked_again(line: Session) -> Request:
-    return ask(line, retries=1)
+def lose(it: Told) -> None:
+    it.line.fail(LOST)
 
 
-def asked_on_a_line_that_keeps_its_rate(line: Session) -> Request:
-    for number in range(8):
-        answered(line, number - 20.0, 7500)
-    return ask(line)
-
-
-def replaced(line: Session) -> Request:
-    line.submit(ServoMove(0, [(each, 0) for each in range(80)]), latest=True)
-    line.outgoing(0.0)
-    request = line.submit(ServoMove(0, [(1, 1)]), latest=True)
-    line.submit(ServoMove(0, [(1, 2)]), latest=True)
-    return request
-
-
-def hear(at: float, voltage: int = 7500) -> Do:
-    return lambda line: say(line, at, voltage)
-
-
-def tick(at: float) -> Do:
-    return lambda line: line.tick(at)
-
-
-def lose(line: Session) -> None:
-    line.fail(LOST)
-
-
-# How a request begins, what happens then, and the last step of it: from which state to which.
-TOO_SOON = hear(0.001)
-STORIES: list[tuple[Callable[[Session], Request], list[Do], State, Step, State]] = [
-    (ask, [], State.WAITING, Step.SEND, State.PENDING),
-    (replaced, [], State.WAITING, Step.FINISH, State.DONE),
-    (ask, [TOO_SOON], State.PENDING, Step.HOLD, State.HELD),
-    (asked_again, [tick(1.0)], State.PENDING, Step.RETRY, State.WAITING),
-    (ask, [tick(1.0)], State.PENDING, Step.FINISH, State.DONE),
-    (ask, [TOO_SOON, hear(0.002)], State.HELD, Step.HOLD, State.HELD),
+TOO_SOON, HEALTHY = hear(0.001, 7500), range(-20, -12)
+KEEPS_ITS_RATE = [step for n in HEALTHY for step in (ask(n), hear(n + IN_TIME, 7500))]
+LONG, FIRST, SECOND = (ServoMove(0, [(each, n) for each in range(n)]) for n in (80, 2, 3))
+REPLACED = [want(LONG), send(0.0, LONG), want(FIRST, latest=True), want(SECOND, latest=True)]
+# What happens, and the last step of the request in question: from which state to which.
+STORIES: list[tuple[list[Step], State, request.Step, State]] = [
+    ([ask()], State.WAITING, SEND, State.PENDING),
+    (REPLACED, State.WAITING, FINISH, State.DONE),
+    ([ask(), TOO_SOON], State.PENDING, HOLD, State.HELD),
+    ([ask(retries=1), tick(1.0)], State.PENDING, RETRY, State.WAITING),
+    ([ask(), tick(1.0)], State.PENDING, FINISH, State.DONE),
+    ([ask(), TOO_SOON, hear(0.002, 7500)], State.HELD, HOLD, State.HELD),
     # One reply that is impossible, of a line that has kept its rate, is meant for another.
-    (
-        asked_on_a_line_that_keeps_its_rate,
-        [TOO_SOON, tick(TRIP + 0.25)],
-        State.HELD,
-        Step.DROP,
-        State.PENDING,
-    ),
-    (ask, [TOO_SOON, hear(TRIP, 1)], State.PENDING, Step.RETRY, State.WAITING),
-    (ask, [TOO_SOON, lose], State.HELD, Step.FINISH, State.DONE),
-    (ask, [hear(IN_TIME)], State.HELD, Step.FINISH, State.DONE),
+    ([*KEEPS_ITS_RATE, ask(), TOO_SOON, tick(TRIP + 0.25)], State.HELD, DROP, State.PENDING),
+    ([ask(), TOO_SOON, hear(TRIP, 1)], State.PENDING, RETRY, State.WAITING),
+    ([ask(), TOO_SOON, lose], State.HELD, FINISH, State.DONE),
+    ([ask(), hear(IN_TIME, 7500)], State.HELD, FINISH, State.DONE),
 ]
 
 
 def test_each_step_of_the_table_has_an_example() -> None:
     table = {(state, step) for state, steps in STATES.items() for step in steps}
-    assert {(state, step) for _, _, state, step, _ in STORIES} == table
+    assert {(state, step) for _, state, step, _ in STORIES} == table
 
 
-@in_turn("begin, happens, state, step, then", lambda: STORIES)
+@in_turn("happens, state, step, then", lambda: STORIES)
 def test_each_step_of_the_table_happens(
-    begin: Callable[[Session], Request], happens: list[Do], state: State, step: Step, then: State
+    happens: list[Step], state: State, step: request.Step, then: State
 ) -> None:
-    taken: list[tuple[Request, State, Step]] = []
+    taken: list[tuple[Request, State, request.Step]] = []
     take = Request.take
 
-    def noted(request: Request, step: Step) -> None:
-        taken.append((request, request.state, step))
-        take(request, step)
+    def noted(of: Request, step: request.Step) -> None:
+        taken.append((of, of.state, step))
+        take(of, step)
 
+    it = Told(session(reply_timeout=0.5))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Request, "take", noted)
-        line = session(reply_timeout=0.5)
-        request = begin(line)
         for each in happens:
-            each(line)
-    steps = [(before, step) for each, before, step in taken if each is request]
-    assert (steps[-1], request.state) == ((state, step), then)
+            each(it)
+    asked = it.requests[-2 if happens is REPLACED else -1]
+    steps = [(before, step) for of, before, step in taken if of is asked]
+    assert (steps[-1], asked.state) == ((state, step), then)
     assert STATES[state][step] is then
 
 
 def test_a_finished_request_stays_finished() -> None:
     line = session()
-    request = answered(line, 0.0, 7500)
-    for step in Step:
+    done = answered(line, 0.0, 7500)
+    for step in request.Step:
         with pytest.raises(KeyError):
-            request.take(step)
-    line.cancel(request)
+            done.take(step)
+    line.cancel(done)
     line.fail(LOST)
-    assert (request.reply, request.error) == (BatteryVoltage(7500), None)
+    assert (done.reply, done.error) == (BatteryVoltage(7500), None)
 
 
 def test_the_drawing_of_the_session_has_every_state_and_every_step() -> None:
     drawing = (session_module.__doc__ or "").partition("RequestQueue")[0]
-    named = {each.name for each in [*State, *Step]}
+    named = {each.name for each in [*State, *request.Step]}
     assert {*re.findall(r"\b[A-Z]{4,}\b", drawing)} - {"STATES"} == named
 
 
-def test_a_request_cancelled_between_attempts_may_still_be_answered() -> None:
-    line = session()
-    request = asked_again(line)
-    line.tick(0.3)
-    line.cancel(request)
-    following = line.submit(BatteryVoltageRead())
-    assert line.outgoing(0.3) == []
-    say(line, 0.31, 1)
-    assert line.outgoing(0.31) == [BatteryVoltageRead().encode()]
-    say(line, 0.33, 2)
-    assert following.reply == BatteryVoltage(2)
+test_a_request = told(
+    {
+        "that is cancelled between attempts may still be answered": [
+            *[ask(retries=1), tick(0.3), cancel(), want(), send(0.3)],
+            *[hear(0.31, 1), send(0.31, QUESTION), hear(0.33, 2), replied(2)],
+        ]
+    }
+)

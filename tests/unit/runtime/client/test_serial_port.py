@@ -3,9 +3,10 @@
 import contextlib
 import os
 import socket
-import threading
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -292,8 +293,8 @@ def test_a_transport_on_its_own(board: VirtualController) -> None:
         transport.write(b"\x55")
 
 
-@pytest.mark.parametrize("port", ["a pseudo-terminal", "loop://"])
-@pytest.mark.parametrize("timeout", [0.0, 0.01, 0.12])
+@in_turn("port", lambda: ["a pseudo-terminal", "loop://"])
+@in_turn("timeout", lambda: [0.0, 0.01, 0.12])
 def test_a_read_waits_for_its_timeout(board: VirtualController, port: str, timeout: float) -> None:
     transport = open_transport(port if "://" in port else board.port)
     first = time.monotonic()
@@ -327,43 +328,44 @@ def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(
 # ------------------------------------------------------------- drivers that cannot be had here
 
 
+@dataclass
 class Driver:
     """The part of a pyserial port that a test needs; its attributes say what it does."""
 
+    error: Exception | None = None
+    left: int = 0
+    closing: Callable[[], object] = int
+    closed: bool = False
     in_waiting = 0
 
-    def __init__(self, error: Exception | None = None) -> None:
-        self.error = error
-        self.closed = False
-        self.left = 0
+    def _fail(self) -> None:
+        if self.error is not None:
+            raise self.error
+
+    cancel_read = _fail
 
     @property
     def out_waiting(self) -> int:
-        if self.error is not None:
-            raise self.error
+        self._fail()
         self.left = max(0, self.left - 1)
         return self.left
 
     def write(self, data: bytes) -> int:
-        if self.error is not None:
-            raise self.error
+        self._fail()
         return len(data)
 
-    def cancel_read(self) -> None:
-        if self.error is not None:
-            raise self.error
-
     def close(self) -> None:
+        self.closing()
         self.closed = True
-        if self.error is not None:
-            raise self.error
+        self._fail()
 
 
 def driven_by(driver: Driver) -> SerialPort:
-    def never() -> SerialPort:
-        raise NotImplementedError
+    return SerialPort("COM7", driver, lambda: driven_by(driver))
 
-    return SerialPort("COM7", driver, never)
+
+def by_hid(driver: Driver) -> HidPort:
+    return HidPort("hid://", driver, 64, lambda: by_hid(driver), CODEC)
 
 
 def test_an_adapter_that_takes_no_more_bytes_is_reported_with_advice() -> None:
@@ -372,16 +374,15 @@ def test_an_adapter_that_takes_no_more_bytes_is_reported_with_advice() -> None:
         port.write(b"UU")
 
 
+@dataclass
 class Paused(Driver):
     """A port whose process stands still during each write, for longer than its timeout."""
 
-    def __init__(self, handle: int, most: int, clock: list[float]) -> None:
-        super().__init__()
-        self.handle = handle
-        self.most = most
-        self.clock = clock
-        self.taken = b""
-        self.write_timeout: float | None = 1.0
+    handle: int = 0
+    most: int = 100
+    clock: list[float] = field(default_factory=lambda: [0.0])
+    taken: bytes = b""
+    write_timeout: float | None = 1.0
 
     def fileno(self) -> int:
         return self.handle
@@ -394,15 +395,14 @@ class Paused(Driver):
         return min(len(data), self.most)
 
 
-@pytest.mark.parametrize("most", [1, 2, 100])
+@in_turn("most", lambda: [1, 2, 100])
 def test_a_pause_of_the_process_is_no_adapter_that_takes_no_bytes(
     monkeypatch: pytest.MonkeyPatch, most: int
 ) -> None:
-    clock = [100.0]
-    monkeypatch.setattr(time, "monotonic", lambda: clock[0])
     one, other = socket.socketpair()
     with one, other:
-        driver = Paused(one.fileno(), most, clock)
+        driver = Paused(handle=one.fileno(), most=most, clock=[100.0])
+        monkeypatch.setattr(time, "monotonic", lambda: driver.clock[0])
         driven_by(driver).write(b"UU\x02\x0f")
     assert driver.taken == b"UU\x02\x0f"
 
@@ -417,7 +417,7 @@ def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
             while True:
                 one.send(bytes(65536))
         monkeypatch.setattr("framewire.line.serial_port._WRITE_TIMEOUT", 0.01)
-        port = driven_by(Paused(one.fileno(), 100, [0.0]))
+        port = driven_by(Paused(handle=one.fileno()))
         with pytest.raises(WriteStuckError, match="has taken no bytes"):
             port.write(b"UU\x02\x0f")
 
@@ -469,8 +469,8 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
         with pytest.raises(ClosedError):
             port.read(0.01)
 
-    thread = threading.Thread(target=read)
-    thread.start()
+    pool = ThreadPoolExecutor()
+    ended = pool.submit(read)
     reading.wait()
     acquire = port._reading.acquire
 
@@ -487,44 +487,20 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     port.close()
     assert driver.closed
     reading.go_on.set()
-    thread.join(GENEROUS)
-    assert not thread.is_alive()
-
-
-class SlowToClose(Driver):
-    """A port that is closed through a gate."""
-
-    def __init__(self, gate: Gate) -> None:
-        super().__init__()
-        self.gate = gate
-
-    def close(self) -> None:
-        self.gate()
-        super().close()
-
-
-def by_hid(driver: Driver) -> HidPort:
-    return HidPort("hid://", driver, 64, lambda: by_hid(driver), CODEC)
+    ended.result(GENEROUS)
+    pool.shutdown()
 
 
 @in_turn("made", lambda: [driven_by, by_hid])
-def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first(
+def test_whoever_closes_a_port_second_waits_for_whoever_closes_it_first_but_not_for_itself(
     made: Callable[[Driver], SerialPort | HidPort],
 ) -> None:
     closing = Gate()
-    driver = SlowToClose(closing)
+    driver = Driver(closing=closing)
     whoever_closes_second_waits(made(driver), closing, driver)
-
-
-@in_turn("made", lambda: [driven_by, by_hid])
-def test_closing_a_port_while_closing_it_does_not_wait_for_itself(
-    made: Callable[[Driver], SerialPort | HidPort],
-) -> None:
-    closing = Gate()
-    driver = SlowToClose(closing)
+    driver = Driver()
     port = made(driver)
-    closing.meanwhile = port.close
-    closing.go_on.set()
+    driver.closing = port.close
     port.close()
     assert driver.closed
 

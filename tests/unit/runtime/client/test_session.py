@@ -10,7 +10,6 @@ from busservo import (
     BatteryVoltage,
     BatteryVoltageRead,
     EncodeError,
-    Message,
     NoReplyError,
     ServoMove,
     ServoPositions,
@@ -24,23 +23,86 @@ from framewire.client.request import Request
 from framewire.client.session import Session
 
 from tests.in_turn import in_turn
-from tests.lines.questions import REPLY_TIMEOUT, TRIP, ask, expires, say, session
+from tests.lines import questions
+from tests.lines.questions import REPLY_TIMEOUT, TRIP, expires, say, session
+from tests.lines.stories import (
+    QUESTION,
+    ask,
+    cancel,
+    counted,
+    failed,
+    hear,
+    idle,
+    pending,
+    replied,
+    reported,
+    send,
+    tick,
+    told,
+    want,
+)
 
-QUESTION, REPORT = BatteryVoltageRead().encode(), ActionGroupCompleted(8, 1).encode()
+REPORT = ActionGroupCompleted(8, 1)
+FIRST, REST = REPORT.encode()[:4], REPORT.encode()[4:]
 HALF_A_REPLY = BatteryVoltage(7500).encode()[:-1]
+STOP, FALSE_HEADER = ActionGroupStop(), bytes.fromhex("55 55 21 15 0A")
+END = TRIP + REPLY_TIMEOUT
+ONE = ServoPositions([(1, 5)])
 
 
-@in_turn("other", lambda: [None, ActionGroupCompleted(8, 1), ServoPositions([(1, 264)])])
-def test_a_reply_ends_its_request_and_nothing_else_does(other: Message | None) -> None:
-    line = session()
-    request = ask(line)
-    if other is not None:
-        say(line, 0.02, other)
-    assert not request.done
-    say(line, 0.03, 7500)
-    assert request.done
-    assert request.reply == BatteryVoltage(7500)
-    assert line.idle
+test_a_question_and_its_reply = told(
+    {
+        "a reply ends its request": [ask(), hear(0.03, 7500), replied(7500), idle],
+        "no report does": [ask(), hear(0.02, REPORT), pending, hear(0.03, 7500), replied(7500)],
+        "no other reply does": [ask(), hear(0.02, ONE), pending, hear(0.03, 7500), replied(7500)],
+        "a missing reply is an error that names the request": [
+            *[ask(), tick(END - 1e-9), pending, tick(END)],
+            failed(NoReplyError, "no BatteryVoltage came within", request=QUESTION),
+            failed(TimeoutError),
+        ],
+        "a question of another kind does not wait for a late reply": [
+            *[ask(), tick(0.3), ask(0.3, ServoPositionsRead([1]))],
+            *[hear(0.32, 1, ONE), replied(ONE)],
+        ],
+        "a request cancelled before it was sent is never sent": [
+            *[ask(), want(), cancel(), hear(0.02, 1), send(0.03), idle]
+        ],
+        "a retry takes the late reply of the attempt before": [
+            *[ask(retries=1), tick(0.3), pending, send(0.3, QUESTION), hear(0.301, 1), replied(1)],
+            # The other attempt's reply may be yet to come, and is nobody's.
+            *[want(), send(0.32), hear(0.33, 2), send(0.33, QUESTION)],
+        ],
+        "a command does not wait for a reply": [ask(), want(STOP), send(0.01, STOP)],
+        "bytes of half a frame are told where no reply came": [
+            *[ask(), hear(0.02, HALF_A_REPLY), tick(0.1), tick(END), failed(NoReplyError, noise=5)]
+        ],
+        "half a frame does not grow together with the next reply": [
+            *[ask(), hear(0.02, HALF_A_REPLY), tick(0.3), tick(0.6)],
+            *[ask(0.6), hear(0.63, 7400), tick(0.9), replied(7400)],
+        ],
+        "half a report is not lost because a request times out meanwhile": [
+            # Something is arriving, so the question has a little longer; but no longer than that.
+            *[
+                ask(),
+                hear(END - 0.04, FIRST),
+                tick(END),
+                pending,
+                hear(END, b""),
+                tick(END + 0.005),
+            ],
+            *[hear(END + 0.009, REST[:2]), tick(END + 0.05), failed(NoReplyError)],
+            *[hear(END + 0.055, REST[2:]), reported(REPORT), counted(noise=0)],
+        ],
+        "stray bytes and half a report are told together where no reply came": [
+            *[ask(), hear(0.02, b"\xff\xff\xff"), hear(END - 0.04, FIRST)],
+            *[hear(END + 0.009, REST[:2]), tick(END + 0.05), failed(NoReplyError, noise=3 + 6)],
+        ],
+        "a reply behind a false header is found before the time is up": [
+            *[ask(), hear(0.25, FALSE_HEADER, 7500), pending, tick(0.3)],
+            *[replied(7500), counted(noise=5)],
+        ],
+    }
+)
 
 
 @in_turn(
@@ -60,24 +122,10 @@ def test_a_reply_about_anything_not_requested_is_unsolicited(
     positions: list[tuple[int, int]], accepted: bool
 ) -> None:
     line = session()
-    request = ask(line, 0.0, ServoPositionsRead([1, 2]))
+    request = questions.ask(line, 0.0, ServoPositionsRead([1, 2]))
     say(line, 0.02, ServoPositions(positions))
     assert request.done is accepted
     assert line.counters.unsolicited == (not accepted)
-
-
-def test_a_missing_reply_is_an_error_that_names_the_request() -> None:
-    line = session()
-    request = ask(line)
-    deadline = expires(line)
-    assert deadline == pytest.approx(TRIP + REPLY_TIMEOUT)
-    line.tick(deadline - 1e-9)
-    assert not request.done
-    line.tick(deadline)
-    assert isinstance(request.error, NoReplyError)
-    assert isinstance(request.error, TimeoutError)
-    assert request.error.request == BatteryVoltageRead()
-    assert "no BatteryVoltage came within" in str(request.error)
 
 
 def test_the_time_for_an_answer_begins_when_the_port_has_the_question() -> None:
@@ -92,9 +140,9 @@ def test_the_time_for_an_answer_begins_when_the_port_has_the_question() -> None:
     line.tick(5.25)
     assert not request.done
     line.written(request, 9.0)  # said once, it holds
-    line.tick(5 + TRIP + REPLY_TIMEOUT)
+    line.tick(5 + END)
     assert isinstance(request.error, NoReplyError)
-    assert request.error.waited == pytest.approx(1 + TRIP + REPLY_TIMEOUT)
+    assert request.error.waited == pytest.approx(1 + END)
     # And so does the time that its late reply has: nothing of its kind is sent meanwhile.
     line.submit(BatteryVoltageRead())
     assert line.outgoing(5.5) == []
@@ -136,7 +184,7 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply(
     end: Callable[[Session, Request], float],
 ) -> None:
     line = session()
-    first = ask(line)
+    first = questions.ask(line)
     now = end(line, first)
     assert first.done or end is cancelled
     second = line.submit(BatteryVoltageRead())
@@ -145,7 +193,7 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply(
     assert not second.done
     # A line that was opened again settles first.
     now += 0.2 if end is reconnected else 0.01
-    assert line.outgoing(now) == [QUESTION]
+    assert line.outgoing(now) == [QUESTION.encode()]
     line.written(second, now)
     say(line, now + 0.02, 2)
     assert second.reply == BatteryVoltage(2)
@@ -154,65 +202,22 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply(
 
 def test_the_next_question_of_a_kind_waits_no_longer_than_twice_the_reply_time() -> None:
     line = session()
-    ask(line)
-    deadline = expires(line)
-    line.tick(deadline)
+    questions.ask(line)
+    line.tick(END)
     line.submit(BatteryVoltageRead())
-    at = line.send_at(deadline)
+    at = line.send_at(END)
     assert at is not None
     assert at == pytest.approx(4 / 960 + 2 * (REPLY_TIMEOUT + 6 / 960))
     assert line.outgoing(at - 0.001) == []
-    assert line.outgoing(at) == [QUESTION]
-
-
-def test_a_question_of_another_kind_does_not_wait_for_a_late_reply() -> None:
-    line = session()
-    ask(line)
-    line.tick(0.3)
-    request = ask(line, 0.3, ServoPositionsRead([1]))
-    say(line, 0.32, 1, ServoPositions([(1, 5)]))
-    assert request.reply == ServoPositions([(1, 5)])
-
-
-def test_a_request_cancelled_before_it_was_sent_is_never_sent() -> None:
-    line = session()
-    ask(line)
-    line.cancel(line.submit(BatteryVoltageRead()))
-    say(line, 0.02, 1)
-    assert line.outgoing(0.03) == []
-    assert line.idle
-
-
-def test_a_retry_takes_the_late_reply_of_the_attempt_before() -> None:
-    line = session()
-    request = ask(line, retries=1)
-    line.tick(0.3)
-    assert not request.done
-    assert line.outgoing(0.3) == [QUESTION]
-    say(line, 0.301, 1)
-    assert request.reply == BatteryVoltage(1)
-    # The other attempt's reply may be yet to come, and is nobody's.
-    line.submit(BatteryVoltageRead())
-    assert line.outgoing(0.32) == []
-    say(line, 0.33, 2)
-    assert line.outgoing(0.33) != []
-
-
-def test_a_command_does_not_wait_for_a_reply() -> None:
-    line = session()
-    ask(line)
-    stop = line.submit(ActionGroupStop())
-    assert line.outgoing(0.01) == [ActionGroupStop().encode()]
-    assert stop.done
-    assert stop.sent is not None
+    assert line.outgoing(at) == [QUESTION.encode()]
 
 
 def test_questions_are_sent_one_at_a_time_in_order() -> None:
     line = session(baud=math.inf)
-    questions = [ServoPositionsRead([servo]) for servo in (1, 2, 3)]
-    for each in questions:
+    asked = [ServoPositionsRead([servo]) for servo in (1, 2, 3)]
+    for each in asked:
         line.submit(each)
-    for each in questions:
+    for each in asked:
         assert line.outgoing(0.0) == [each.encode()]
         assert line.outgoing(0.0) == []
         say(line, 0.0, ServoPositions([(each.servo_ids[0], 5)]))
@@ -233,83 +238,24 @@ def test_frames_are_handed_over_no_faster_than_the_line_takes_them() -> None:
     assert line.wire_time.free_at == pytest.approx(40 * 25 / 960)
 
 
-def test_the_latest_takes_the_place_of_what_it_covers() -> None:
-    line = session()
-    line.submit(ActionGroupStop())
-    line.outgoing(0.0)
-    for position in range(50):
-        line.submit(ServoMove(20, [(1, position), (2, position)]), latest=True)
-        line.submit(ServoMove(20, [(3, position)]), latest=True)
-    kept = [line.outgoing(now)[0] for now in (1.0, 2.0)]
-    assert kept == [ServoMove(20, [(1, 49), (2, 49)]).encode(), ServoMove(20, [(3, 49)]).encode()]
-    assert line.idle
-    assert line.counters.replaced == 98
-    for servo_ids in ([1, 2], [3], [2, 1], [4, 2, 1]):
-        line.submit(ServoUnload(servo_ids), latest=True)
-    kept = [line.outgoing(now)[0] for now in (3.0, 4.0)]
-    assert kept == [ServoUnload([3]).encode(), ServoUnload([4, 2, 1]).encode()]
-    assert line.idle
+LAST, OF_3 = ServoMove(20, [(1, 49), (2, 49)]), ServoMove(20, [(3, 49)])
 
 
-def test_bytes_of_half_a_frame_are_told_where_no_reply_came() -> None:
-    line = session()
-    request = ask(line)
-    say(line, 0.02, HALF_A_REPLY)
-    while not request.done:
-        line.tick(expires(line))
-    assert isinstance(request.error, NoReplyError)
-    assert request.error.noise == 5
-
-
-def test_half_a_frame_does_not_grow_together_with_the_next_reply() -> None:
-    line = session()
-    ask(line)
-    say(line, 0.02, HALF_A_REPLY)
-    line.tick(0.3)
-    line.tick(0.6)
-    request = ask(line, 0.6)
-    say(line, 0.63, 7400)
-    line.tick(0.9)
-    assert request.reply == BatteryVoltage(7400)
-
-
-def test_half_a_report_is_not_lost_because_a_request_times_out_meanwhile() -> None:
-    line = session()
-    request, end = ask(line), expires(line)
-    say(line, end - 0.04, REPORT[:4])
-    # Something is arriving, so the question has a little longer; but no longer than that.
-    line.tick(end)
-    assert not request.done
-    say(line, end, b"")
-    line.tick(end + 0.005)
-    say(line, end + 0.009, REPORT[4:6])
-    line.tick(end + 0.05)
-    assert isinstance(request.error, NoReplyError)
-    say(line, end + 0.055, REPORT[6:])
-    assert line.reports.take() == ActionGroupCompleted(8, 1)
-    assert line.counters.noise == 0
-
-
-def test_stray_bytes_and_half_a_report_are_told_together_where_no_reply_came() -> None:
-    line = session()
-    request = ask(line)
-    say(line, 0.02, b"\xff\xff\xff")
-    end = expires(line)
-    say(line, end - 0.04, REPORT[:4])
-    say(line, end + 0.009, REPORT[4:6])
-    line.tick(end + 0.05)
-    assert isinstance(request.error, NoReplyError)
-    assert request.error.noise == 3 + 6
-
-
-def test_a_reply_behind_a_false_header_is_found_before_the_time_is_up() -> None:
-    line = session()
-    request = ask(line)
-    say(line, 0.25, bytes.fromhex("55 55 21 15 0A"), 7500)
-    assert not request.done
-    line.tick(expires(line))
-    assert request.reply == BatteryVoltage(7500)
-    assert line.counters.noise == 5
+test_the_latest_command_takes_the_place_of_others = told(
+    {
+        "it takes the place of what it covers": [
+            *[want(STOP), send(0.0, STOP)],
+            *(want(ServoMove(20, [(1, n), (2, n)]), latest=True) for n in range(50)),
+            *(want(ServoMove(20, [(3, n)]), latest=True) for n in range(50)),
+            *[send(1.0, LAST), send(2.0, OF_3), idle, counted(replaced=98)],
+        ],
+        "of what names the same servos or fewer": [
+            *[want(STOP), send(0.0, STOP)],
+            *(want(ServoUnload(n), latest=True) for n in ([1, 2], [3], [2, 1], [4, 2, 1])),
+            *[send(1.0, ServoUnload([3])), send(2.0, ServoUnload([4, 2, 1])), idle],
+        ],
+    }
+)
 
 
 def test_what_cannot_be_asked_or_sent_is_refused() -> None:
@@ -324,7 +270,7 @@ def test_what_cannot_be_asked_or_sent_is_refused() -> None:
 
 def test_a_lost_line_ends_everything() -> None:
     line = session()
-    requests = [ask(line), line.submit(ServoPositionsRead([1]))]
+    requests = [questions.ask(line), line.submit(ServoPositionsRead([1]))]
     error = TransportError("port", "gone", "look for it")
     line.fail(error)
     assert [request.error for request in requests] == [error, error]
