@@ -29,8 +29,8 @@ HERE = Path(__file__).parent
 JUDGES = {
     "framewire.client": {
         "unit/runtime/client": "session request_states possible_replies client async_client "
-        "reports closing motion pose gaps acknowledgements local_echo virtual_board hid_port "
-        "faults conversations",
+        "reports closing motion pose limits gaps acknowledgements local_echo hid_port "
+        "doubtful_replies devices conversations",
         "contract/independent": "one_fault",
     },
     "framegen": {

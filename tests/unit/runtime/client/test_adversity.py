@@ -120,45 +120,6 @@ def test_a_connection_that_is_reset_in_the_middle_of_a_reply() -> None:
             controller.read_battery_voltage()
 
 
-@needs_pty
-def test_another_reader_of_the_port_costs_replies_and_makes_none_wrong() -> None:
-    stolen = 0
-    begun, over = threading.Event(), threading.Event()
-    results = set()
-
-    def steal(port: str) -> None:
-        nonlocal stolen
-        with serial.Serial(port, 9600, timeout=0.01) as thief:
-            begun.set()
-            while not over.is_set():
-                try:
-                    stolen += len(thief.read(3))
-                except serial.SerialException:
-                    # Ready, and empty when read: the other has been quicker.
-                    continue
-
-    with VirtualController("pty") as board, ThreadPoolExecutor() as pool:
-        stealing = pool.submit(steal, board.port)
-        try:
-            assert begun.wait(GENEROUS)
-            with open_controller(board.port, exclusive=False, reply_timeout=0.02) as controller:
-                requests, end = 0, time.monotonic() + GENEROUS
-                while requests < 20 or (not stolen and time.monotonic() < end):
-                    requests += 1
-                    with bounded():
-                        try:
-                            results.add(controller.read_battery_voltage())
-                        except NoReplyError:
-                            pass
-                        except TransportError:
-                            reconnect(controller)
-        finally:
-            over.set()
-        stealing.result(GENEROUS)
-    assert stolen
-    assert results <= {7500}
-
-
 # -------------------------------------------------------------------- rebooted
 
 

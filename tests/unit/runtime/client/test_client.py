@@ -1,7 +1,6 @@
 """The promises of both clients, each told once; and those of one to the threads that share it."""
 
 import logging
-import math
 import os
 import pickle
 import sys
@@ -41,7 +40,7 @@ from busservo import (
 from busservo.__main__ import main
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import both, by_threads
+from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.timed_line import ScriptedLine, client_on
 from tests.lines.virtual_line import VirtualLine
@@ -354,21 +353,6 @@ async def test_every_frame_is_logged_and_traced(
 def in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def test_a_long_trace_is_read_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    async def work(controller: Any) -> None:
-        for _ in range(600):
-            await controller.read_battery_voltage()
-
-    trace = tmp_path / "line.log"
-    by_threads(VirtualLine(answered), work, trace=trace, baud=math.inf)
-    text = trace.read_bytes().replace(b"#", b"#" * 3)
-    for pad in range(3):
-        # Wherever the first 64 KiB end: in a comment, or between the two digits of a byte.
-        trace.write_bytes(b"#" * pad + b"\n" + text)
-        assert main(["decode", str(trace)]) == 0
-        assert "1200 messages, 0 bytes of noise" in capsys.readouterr().err
 
 
 def test_the_codec_imports_no_client() -> None:

@@ -185,16 +185,6 @@ def memory_client(*answers: Pieces) -> Any:
     return client_on(line, lib("memory").Controller, reply_timeout=0.25)
 
 
-def test_the_late_answer_to_a_question_for_more_is_not_that_to_one_for_fewer() -> None:
-    """A question for 1 byte, after one for 2 that had timed out, returned the 2 of the first."""
-    error = lib("memory").NoReplyError
-    with memory_client([(0.6, frame("memory", "Bytes", stored=[1, 2]))], []) as host:
-        with pytest.raises(error):
-            host.read_bytes(16, count=2)
-        with pytest.raises(error, match="1 reply came that cannot be the answer"):
-            host.read_bytes(16, count=1)
-
-
 def test_the_right_size_is_taken_among_others() -> None:
     two, one = (frame("memory", "Bytes", stored=stored) for stored in ([1, 2], [7]))
     with memory_client([(0.02, two), (0.03, one), (0.04, two)]) as host:

@@ -12,11 +12,9 @@ import pytest
 from busservo import (
     BatteryVoltageRead,
     ClosedError,
-    Controller,
     Direction,
     DisconnectedError,
     EncodeError,
-    NoReplyError,
     PortAddressError,
     PortNotFoundError,
     PortPermissionError,
@@ -223,14 +221,6 @@ def test_the_same_board_is_opened_again(library: Library) -> None:
         controller.reconnect()
         assert controller.read_battery_voltage() == 7500
     assert len(library.devices) == 2
-
-
-def test_silence_is_no_reply(library: Library) -> None:
-    device = Device()
-    device.write = len  # type: ignore[assignment, method-assign]
-    controller = Controller(port_on(device), reply_timeout=0.01)
-    with controller, pytest.raises(NoReplyError):
-        controller.read_battery_voltage()
 
 
 TWO, CHOICE = (

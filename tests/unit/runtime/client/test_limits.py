@@ -127,22 +127,26 @@ def test_nothing_else_has_limits() -> None:
 
 
 @pytest.mark.parametrize("talk", PORT_TALKS)
-def test_a_port_is_opened_with_limits(talk: Talk) -> None:
+def test_a_port_is_opened_with_limits_and_ids(talk: Talk) -> None:
     beyond = ServoMove(time_ms=100, targets=[(1, 1001)])
 
-    async def refused(controller: Any) -> None:
+    async def usual(controller: Any) -> None:
         with pytest.raises(LimitError):
             await controller.send(beyond)
         with pytest.raises(LimitError):
             controller.send_latest(beyond)
+        with pytest.raises(ValueError, match="ids: give them here"):
+            await controller.read_servo_positions()
 
-    async def sent(controller: Any) -> None:
+    async def chosen(controller: Any) -> None:
         await controller.send(beyond)
+        read = await controller.read_servo_positions()
+        assert [each.servo_id for each in read] == [3, 2]
 
     with VirtualController("tcp") as board:
-        talk(board.port, refused)
-        talk(board.port, sent, limits=(500, 2500))
-        talk(board.port, sent, limits=None)
+        talk(board.port, usual)
+        for limits in ((500, 2500), None):
+            talk(board.port, chosen, **LIVE, ids=[3, 2], limits=limits)
 
 
 def test_positions_that_were_read_are_held_within_the_limits_of_each() -> None:
@@ -196,18 +200,3 @@ def test_positions_are_read_of_the_ids_of_the_client() -> None:
         with client_of(Motor()) as hub, pytest.raises(ValueError, match=NO_IDS):
             hub.read_heights()
         assert asked == [(4, 9), (5,)]
-
-
-@pytest.mark.parametrize("talk", PORT_TALKS)
-def test_a_port_is_opened_with_ids(talk: Talk) -> None:
-    async def asked(controller: Any) -> None:
-        read = await controller.read_servo_positions()
-        assert [each.servo_id for each in read] == [3, 2]
-
-    async def not_told(controller: Any) -> None:
-        with pytest.raises(ValueError, match="ids: give them here"):
-            await controller.read_servo_positions()
-
-    with VirtualController("tcp") as board:
-        talk(board.port, asked, **LIVE, ids=[3, 2])
-        talk(board.port, not_told)

@@ -17,7 +17,6 @@ from busservo import (
 )
 
 from tests.in_turn import in_turn
-from tests.lines.at_board import client_at, virtual_board
 from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.timed_line import client_on
@@ -84,13 +83,6 @@ async def test_whatever_sends_it_a_move_in_a_task_is_a_motion() -> None:
         assert isinstance(await controller.send(ServoMove(0, SIX)), AsyncMotion)
 
 
-def test_with_a_board_in_virtual_time_the_servo_is_there_when_the_motion_is_over() -> None:
-    with virtual_board(baud=9600) as board, client_at(board, Controller) as controller:
-        controller.move_servos([(1, 800)], 1000).wait()
-        assert 1.0 < board.clock.now() < 1.1
-        assert controller.read_servo_positions([1]) == ((1, 800),)
-
-
 # -------------------------------------------------------------------- while it is waited for
 
 
@@ -120,16 +112,6 @@ async def test_a_line_that_is_lost_or_closed_ends_the_wait(controller: Any, line
     with pytest.raises(ClosedError):
         await motion.wait()
     assert await over.wait(), "it had ended before"
-
-
-def test_closing_in_another_thread_ends_the_wait() -> None:
-    with ThreadPoolExecutor() as pool, Controller(LiveLine()) as controller:
-        motion = controller.move_servos([(1, 800)], LONG)
-        pending = pool.submit(motion.wait)
-        assert not pending.done()
-        controller.close()
-        with pytest.raises(ClosedError):
-            pending.result(GENEROUS)
 
 
 def test_a_motion_is_waited_for_while_others_talk() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import busservo
 import pytest
 from busservo._exchanges import LIMITS, POSE
-from busservo_simulator import Faults, VirtualController
+from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, library, library_of
 from tests.handed import handed_by, program_of
@@ -115,18 +115,6 @@ def test_servo_ids_are_checked_before_anything_is_sent() -> None:
 # ------------------------------------------------------------------ holding, and going back
 
 
-def test_holding_commands_the_positions_just_read() -> None:
-    board, client = virtual()
-    with board, client() as controller:
-        controller.move_servos([(1, 1000), (2, 0)], time_ms=1000)
-        board.advance(0.4)
-        controller.hold_servos([1, 2])
-        board.advance(1)
-        first, second = controller.read_servo_positions([1, 2])
-        assert 600 < first.position < 800
-        assert 200 < second.position < 400
-
-
 def answering(positions: Positions) -> VirtualLine:
     """Return a line to a board that answers every question about positions alike."""
     reply = [busservo.ServoPositions(positions)]
@@ -197,16 +185,6 @@ def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
     assert moves(line) == []
 
 
-def test_a_pose_that_was_read_can_be_replayed_whatever_it_holds() -> None:
-    board, client = virtual()
-    with board, client() as controller:
-        board.servos[3].off = True
-        pose = controller.read_servo_positions([1, 2, 3])
-        with pytest.raises(busservo.LimitError, match="65535"):
-            controller.move_servos(pose, time_ms=100)
-        controller.move_servos(controller.targets_of(pose), time_ms=100)
-
-
 @pytest.mark.parametrize("talk", PORT_TALKS)
 def test_the_same_at_a_port(talk: Talk) -> None:
     async def work(controller: Any) -> None:
@@ -219,20 +197,6 @@ def test_the_same_at_a_port(talk: Talk) -> None:
 
     with VirtualController("tcp", servos=[1, 2, 3]) as board:
         talk(board.port, work, **LIVE)
-
-
-@in_turn("seed", lambda: range(3))
-def test_no_number_of_an_absent_servo_is_ever_sent(seed: int) -> None:
-    board, client = virtual(faults=Faults(seed=seed, absent=0.5, fewer=0.2))
-    with board, client() as controller:
-        for _ in range(20):
-            try:
-                controller.hold_servos([1, 2, 3, 4])
-            except busservo.AbsentError:
-                continue
-            there = controller.present_servos([1, 2, 3, 4])
-            assert set(there) <= {1, 2, 3, 4}
-        assert all(0 <= servo.position <= 1000 for servo in board.servos.values())
 
 
 # ------------------------------------------------------------------ in words of another protocol

@@ -12,7 +12,6 @@ from busservo import (
     NoReplyError,
     ServoMove,
     ServoPositions,
-    ServoPositionsRead,
 )
 from framewire.client.session import Session
 
@@ -139,41 +138,15 @@ test_an_impossible_reply = story.told(
     }
 )
 test_it_is_held_no_longer_for_a_longer_reply_timeout = story.told({"": HELD}, reply_timeout=60)
-test_on_a_line_that_takes_no_time = story.told(
+test_what_came_before_the_question_was_sent_is_not_even_held = story.told(
     {
-        "what came before the question was sent is not even held": [
+        "": [
             *[story.ask(1.0), story.hear(0.999, 1), story.counted(unsolicited=1)],
             *[story.hear(1.0, 2), story.replied(2)],
-        ],
-        "no reply is impossible": [
-            *(
-                each
-                for n in range(8)
-                for each in (story.ask(n), story.hear(n, n), story.replied(n))
-            ),
-            story.counted(impossible=0),
-        ],
+        ]
     },
     baud=math.inf,
 )
-
-
-def six(number: int) -> ServoPositions:
-    return ServoPositions([(servo, number) for servo in range(1, 7)])
-
-
-def test_a_duplicate_behind_a_reply_never_becomes_the_next_answer() -> None:
-    """Six servos in a tight loop: each reply comes, and the one that came twice is dropped."""
-    line, now = session(), 0.0
-    there, back = 11 / 960, 23 / 960
-    for number in range(1, 12):
-        request = ask(line, now, ServoPositionsRead(range(1, 7)))
-        if number == 2:
-            say(line, now + back, six(1))
-        now += 2 * back if number == 2 else there + back
-        say(line, now, six(number))
-        assert request.reply == six(number)
-    assert line.counters.unsolicited == 1
 
 
 # ---------------------------------------------------------------- a board that takes its time
@@ -188,24 +161,6 @@ def thinking(line: Session, *latencies: float) -> float:
         say(line, now, number)
         assert request.reply == BatteryVoltage(number)
     return now
-
-
-def test_a_foreign_reply_in_the_time_of_the_right_one_makes_one_read_stale_and_no_more() -> None:
-    """A board that thinks for longer than a question takes: all replies of a shift are possible."""
-    line = session()
-    now = thinking(line, *[0.02] * 8)
-    request = ask(line, now)
-    right_at = now + TRIP + 0.02
-    say(line, now + TRIP + 0.002, 1)
-    assert request.reply == BatteryVoltage(1)  # indistinguishable
-    request = line.submit(BatteryVoltageRead())
-    assert line.outgoing(now + TRIP + 0.002) == []
-    say(line, right_at, 9)
-    assert line.counters.unsolicited == 1
-    assert line.outgoing(right_at) == [QUESTION]
-    line.written(request, right_at)
-    say(line, right_at + TRIP + 0.02, 10)
-    assert request.reply == BatteryVoltage(10)
 
 
 def early(line: Session, now: float) -> float:

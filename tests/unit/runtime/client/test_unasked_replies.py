@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead, Controller, Message
+from busservo import BatteryVoltage, Message
 from busservo._library import LIBRARY
 from framegen.model.codec import encode
 from framewire.client.session import Session
@@ -12,8 +12,6 @@ from framewire.client.session import Session
 from tests.factories import data_of, files_of, layout_of, library
 from tests.in_turn import in_turn
 from tests.lines.questions import TRIP, ask, asked, say, session
-from tests.lines.timed_line import client_on
-from tests.lines.virtual_line import VirtualLine
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
@@ -79,22 +77,6 @@ def test_what_comes_by_itself_is_a_report(name: str) -> None:
 def taken(line: Session) -> Iterator[Message]:
     while (report := line.reports.take()) is not None:
         yield report
-
-
-def test_a_stream_of_measurements_reaches_who_listens_and_who_asks() -> None:
-    """The board sends a voltage a second by itself, and the same message for an answer."""
-    line = VirtualLine(lambda _: [(TRIP, BatteryVoltage(7400))])
-    with client_on(line, Controller, baud=9600, settle=None) as controller:
-        heard: list[Message] = []
-        controller.on_report(heard.append)
-        assert list(controller.reports(timeout=1.0)) == []
-        for second in range(1, 6):
-            line.say(BatteryVoltage(second))
-            assert next(controller.reports(timeout=0.5)) == BatteryVoltage(second)
-            assert controller.read_battery_voltage() == 7400
-        assert line.received == [BatteryVoltageRead()] * 5
-        assert heard == [BatteryVoltage(second) for second in range(1, 6)]
-        assert controller.counters.unsolicited == 0
 
 
 def test_another_line_is_learnt_anew() -> None:
