@@ -163,6 +163,7 @@ def _driven(
         kept = [each for name, each in named.items() if name not in ("controller", "line")]
         ours = inspect.Parameter("talk", inspect.Parameter.POSITIONAL_OR_KEYWORD)
         driven.__signature__ = inspect.Signature([ours, *kept])  # type: ignore[attr-defined]
-        return pytest.mark.parametrize("talk", talks)(driven)
+        parametrized: Callable[..., None] = pytest.mark.parametrize("talk", talks)(driven)
+        return parametrized
 
     return decorated

@@ -11,21 +11,9 @@ from collections.abc import Callable, Iterator
 from random import Random
 from typing import Any
 
-from busservo import (
-    AsyncController,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    Controller,
-    DisconnectedError,
-    IncompleteReplyError,
-    Message,
-    NoReplyError,
-    ServoPosition,
-    ServoPositions,
-    ServoPositionsRead,
-    TransportError,
-)
-from busservo_simulator import VirtualController
+import busservo
+from busservo import BatteryVoltage, Controller, IncompleteReplyError, Message, ServoPosition
+from busservo_simulator import Faults, VirtualController
 from busservo_simulator.board_fault_injector import REPLIES
 from busservo_simulator.virtual_device import Report
 
@@ -35,6 +23,22 @@ from tests.timeouts import GENEROUS
 ABSENT = ServoPosition.POSITION_ABSENT
 # No call may take longer, on however slow a machine.
 BOUND = GENEROUS
+# No frame comes to the client in pieces: a busy machine would hold up the second one for so long
+# that the frame is lost, as on a line that is quiet within a frame. In virtual time, they do.
+FAULTS = {
+    "mixed": Faults(
+        noise=0.3,
+        coalesced=0.2,
+        delays=0.3,
+        dropped=0.05,
+        fewer=0.1,
+        absent=0.1,
+        unsolicited=0.5,
+        longest_delay=0.05,
+        splits_to_board=0.3,
+    ),
+    "cut": Faults(noise=0.2, unsolicited=0.3, hang_up=0.08),
+}
 
 
 class Numbering:
@@ -65,12 +69,12 @@ class Numbering:
         # Of 16 bits, and never the number that stands for a servo that is not there.
         return self.questions % ABSENT
 
-    def _voltage(self, _message: BatteryVoltageRead) -> BatteryVoltage:
+    def _voltage(self, _message: busservo.BatteryVoltageRead) -> BatteryVoltage:
         return BatteryVoltage(self._next())
 
-    def _positions(self, message: ServoPositionsRead) -> ServoPositions:
+    def _positions(self, message: busservo.ServoPositionsRead) -> busservo.ServoPositions:
         number = self._next()
-        return ServoPositions([(servo, number) for servo in message.servo_ids])
+        return busservo.ServoPositions([(servo, number) for servo in message.servo_ids])
 
 
 class Ledger(Numbering):
@@ -111,7 +115,7 @@ class Ledger(Numbering):
         assert sorted(each.servo_id for each in positions) == sorted(requested)
         self.given(before, {each.position for each in positions} - {ABSENT})
 
-    def over(self, controller: Controller | AsyncController) -> bool:
+    def over(self, controller: Controller | busservo.AsyncController) -> bool:
         """Return whether the board has received everything: it has then sent all its reports."""
         return self.board.accepted == controller.counters.sent
 
@@ -167,12 +171,12 @@ async def converse_async(
                 await controller.unload_servos([200])
             elif isinstance(turn, list):
                 ledger.given_all(before, turn, await controller.read_servo_positions(turn))
-        except NoReplyError:
+        except busservo.NoReplyError:
             ledger.refused += 1
         except IncompleteReplyError as error:
             assert isinstance(turn, list)
             ledger.given_part(before, turn, error)
-        except DisconnectedError:
+        except busservo.DisconnectedError:
             assert now() - began <= bound
             ledger.board.plug_in()
             await again(controller)
@@ -187,7 +191,7 @@ async def again(controller: Any) -> None:
     while True:
         try:
             await controller.reconnect()
-        except TransportError:
+        except busservo.TransportError:
             assert time.monotonic() < end
             await moment(controller)
         else:

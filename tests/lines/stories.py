@@ -65,7 +65,11 @@ def hear(at: float, *what: Message | bytes | int) -> Step:
 
 
 def tick(*at: float) -> Step:
-    return lambda it: [it.line.tick(each) for each in at]
+    def step(it: Told) -> None:
+        for each in at:
+            it.line.tick(each)
+
+    return step
 
 
 def cancel(place: int = -1) -> Step:

@@ -1,14 +1,14 @@
 """No wrong value over pseudo-terminals, TCP and memory, in real time."""
 
+from __future__ import annotations
+
 import asyncio
 import math
 import sys
-from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractAsyncContextManager, contextmanager
+from contextlib import contextmanager
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import AsyncController, Controller, open_async_controller, open_controller
@@ -19,14 +19,20 @@ from tests.lines.at_once import at_once
 from tests.lines.boards import no_board_refuses_anything
 from tests.lines.both_clients import Awaited, done_at_once
 from tests.lines.conversation import (
+    FAULTS,
     Ledger,
     converse,
     converse_async,
     reports_received,
     reports_received_async,
 )
-from tests.timeouts import Line
-from tests.unit.runtime.client.test_conversations import FAULTS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from contextlib import AbstractAsyncContextManager
+    from pathlib import Path
+
+    from tests.timeouts import Line
 
 __all__ = ["no_board_refuses_anything"]
 

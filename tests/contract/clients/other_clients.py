@@ -117,7 +117,7 @@ class NextFrame(OtherClient):
                 raise TimeoutError
             headers = headers + 1 if byte == b"\x55" else 0
         length, _command = self._line.read(2)
-        return self._line.read(length - 2)
+        return bytes(self._line.read(length - 2))
 
     def move(self, targets: Sequence[tuple[int, int]]) -> None:
         each = b"".join(struct.pack("<BH", *target) for target in targets)

@@ -180,7 +180,8 @@ def talking(
 ) -> Iterator[tuple[Conversation, Controller]]:
     """Yield the calls at a board in virtual time, or its port, and a client on the time of it."""
     port = VirtualPort(to) if isinstance(to, Board) else to
-    talk = Conversation(board or port.board, port.clock)
+    numbering: Any = board or port.board
+    talk = Conversation(numbering, port.clock)
     with client_on(port, Controller, **{"reply_timeout": REPLY_TIMEOUT, **given}) as controller:
         yield talk, controller
 

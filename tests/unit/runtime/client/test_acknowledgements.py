@@ -3,24 +3,12 @@
 import math
 from collections import deque
 from collections.abc import Iterable
+from functools import partial
 from itertools import accumulate
 from typing import Any
 
 import busservo
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupStarted,
-    ActionGroupStop,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    Direction,
-    DisconnectedError,
-    Message,
-    Run,
-    ServoPositions,
-    ServoPositionsRead,
-)
+from busservo import ActionGroupRun, ActionGroupStarted, BatteryVoltage, Message, ServoPositionsRead
 from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
@@ -88,7 +76,7 @@ def comes(report: Message, known: bool | None) -> list[Step]:
 
 
 def lose(it: Told) -> None:
-    it.line.fail(DisconnectedError("line", "lost", "again"))
+    it.line.fail(busservo.DisconnectedError("line", "lost", "again"))
 
 
 def written(at: float, place: int = -1) -> Step:
@@ -103,7 +91,7 @@ def nothing_is_due(it: Told) -> None:
     assert it.line.tick_at is None
 
 
-LONG = ServoPositions([(servo, 500) for servo in range(84)])
+LONG = busservo.ServoPositions([(servo, 500) for servo in range(84)])
 PIECES = [LONG.encode()[at : at + 16] for at in range(0, len(LONG.encode()), 16)]
 PIECES_AT = [0.36 + 16 * place / 960 for place in range(len(PIECES))]
 HALF, REST = STARTED.encode()[:3], STARTED.encode()[3:]
@@ -112,7 +100,7 @@ test_a_run = told(
         "is acknowledged by the report with its values": comes(STARTED, True),
         "is not by one with other times": comes(ActionGroupStarted(8, 2), None),
         "is not by one of another group": comes(ActionGroupStarted(7, 1), None),
-        "is not by another report": comes(ActionGroupCompleted(8, 1), None),
+        "is not by another report": comes(busservo.ActionGroupCompleted(8, 1), None),
         "is not by a reply": comes(BatteryVoltage(7500), None),
         "is expected to be reported only where one has been": [
             *[run(), tick(OVER), hear(5.0, STARTED), run(at=10.0), tick(10 + OVER - 1e-6)],
@@ -173,13 +161,13 @@ class Board:
         self._on_the_wire: list[tuple[float, int]] = []
 
     def receive(self, frame: bytes, at: float) -> None:
-        match busservo.decode(frame, Direction.HOST_TO_CONTROLLER):
+        match busservo.decode(frame, busservo.Direction.HOST_TO_CONTROLLER):
             case ActionGroupRun(group, times):
                 delay = self._delays[group]
                 if delay is not None:
                     self._say(at + delay / 1000, ActionGroupStarted(group, times))
             case ServoPositionsRead(servo_ids):
-                self._say(at, ServoPositions([(servo, 500) for servo in servo_ids]))
+                self._say(at, busservo.ServoPositions([(servo, 500) for servo in servo_ids]))
 
     def _say(self, at: float, message: Message) -> None:
         for byte in message.encode():
@@ -227,7 +215,7 @@ def test_acknowledgements_match_what_the_board_has_done(
             line.written(line.unwritten, now)
         line.receive(board.arrived(now), now)
         line.tick(now)
-    started = [each.sent.started for each in sent if isinstance(each.sent, Run)]
+    started = [each.sent.started for each in sent if isinstance(each.sent, busservo.Run)]
     assert started == [delay is not None for _, delay, _ in requested]
 
 
@@ -238,7 +226,7 @@ def of_group_8(message: Message) -> Iterable[tuple[float, Message]]:
     """Yield the messages of a board that has group 8 and no other."""
     if isinstance(message, ActionGroupRun) and message.group == 8:
         yield 0.02, ActionGroupStarted(message.group, message.times)
-    elif isinstance(message, BatteryVoltageRead):
+    elif isinstance(message, busservo.BatteryVoltageRead):
         yield 0.02, BatteryVoltage(7500)
 
 
@@ -260,8 +248,12 @@ async def test_a_run_that_the_board_ignores_is_seen(controller: Any, line: Any) 
     # Nobody asks anything: the client listens, and time passes, all the same.
     assert [each async for each in controller.reports(timeout=1)] == [STARTED]
     assert ignored.started is False
-    assert (await controller.stop_action_group()).message == ActionGroupStop()
-    assert isinstance(await controller.send(ActionGroupRun(8, 1)), Run)
+    assert (await controller.stop_action_group()).message == busservo.ActionGroupStop()
+    assert isinstance(await controller.send(ActionGroupRun(8, 1)), busservo.Run)
+
+
+def known(run: busservo.Run) -> bool:
+    return run.started is not None
 
 
 def on_group_8() -> LiveLine:
@@ -272,5 +264,5 @@ def on_group_8() -> LiveLine:
 async def test_a_run_that_the_board_ignores_is_seen_where_nobody_asks(controller: Any) -> None:
     for group in (8, 7):
         run = await controller.run_action_group(group, times=1)
-        await until(controller, lambda run=run: run.started is not None)
+        await until(controller, partial(known, run))
         assert run.started is (group == 8)

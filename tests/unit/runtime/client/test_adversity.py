@@ -13,28 +13,16 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import busservo
 import pytest
 import serial
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ClosedError,
-    Controller,
-    DisconnectedError,
-    NoReplyError,
-    PortNotFoundError,
-    TransportError,
-    open_async_controller,
-    open_controller,
-)
+from busservo import ActionGroupStopped, BatteryVoltageRead, DisconnectedError, open_controller
 from busservo_simulator import Faults, VirtualController
 from serial.tools import list_ports
 from serial.tools.list_ports_common import ListPortInfo
@@ -52,7 +40,11 @@ needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no p
 both_clients = pytest.mark.parametrize("talk", PORT_TALKS)
 # Until an answer that is not to come is given up.
 SHORT = 0.1
-ANSWER, STOPPED, COMPLETED = BatteryVoltage(7500), ActionGroupStopped(), ActionGroupCompleted(8, 1)
+ANSWER, STOPPED, COMPLETED = (
+    busservo.BatteryVoltage(7500),
+    ActionGroupStopped(),
+    busservo.ActionGroupCompleted(8, 1),
+)
 
 
 @pytest.fixture(params=WAYS)
@@ -71,12 +63,12 @@ def bounded() -> Iterator[None]:
     assert time.monotonic() - began < GENEROUS
 
 
-def reconnect(controller: Controller) -> None:
+def reconnect(controller: busservo.Controller) -> None:
     done_at_once(again(Awaited(controller)))
 
 
 def client_on_its_time(board: VirtualController) -> Any:
-    return client_at(board, Controller, reply_timeout=SHORT, settle=None)
+    return client_at(board, busservo.Controller, reply_timeout=SHORT, settle=None)
 
 
 # -------------------------------------------------------------------- pulled, stolen
@@ -89,7 +81,7 @@ def test_pulled_in_the_middle_of_a_reply(board: VirtualController, talk: Talk) -
             await controller.read_battery_voltage()
         with pytest.raises(DisconnectedError):
             await controller.stop_action_group()
-        with pytest.raises(TransportError):
+        with pytest.raises(busservo.TransportError):
             await controller.reconnect()
         board.faults = Faults()
         board.plug_in()
@@ -128,7 +120,7 @@ def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
         assert controller.request(BatteryVoltageRead()) == ANSWER
         # It is silent for longer than anybody waits here, until the test ends that.
         board.reboot(60)
-        with pytest.raises(NoReplyError, match="is the device switched on"):
+        with pytest.raises(busservo.NoReplyError, match="is the device switched on"):
             controller.read_battery_voltage()
         board.reboot(0.2)
         assert controller.request(BatteryVoltageRead(), retries=3) == ANSWER
@@ -146,8 +138,8 @@ def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController)
         assert next(controller.reports(timeout=GENEROUS)) == STOPPED
         board.unplug()
         with bounded(), pytest.raises(DisconnectedError):
-            controller.wait_for(ActionGroupCompleted, timeout=GENEROUS)
-        with pytest.raises(PortNotFoundError):
+            controller.wait_for(busservo.ActionGroupCompleted, timeout=GENEROUS)
+        with pytest.raises(busservo.PortNotFoundError):
             controller.reconnect()
         board.plug_in()
         reconnect(controller)
@@ -208,7 +200,7 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error(nonsense: bytes) -> 
         board.spurious_output(nonsense, per_second=500)
         for _ in range(2):
             began = board.clock.now()
-            with pytest.raises(NoReplyError):
+            with pytest.raises(busservo.NoReplyError):
                 controller.read_battery_voltage()
             # Its own time, and that of the late reply of the one before.
             assert board.clock.now() - began < 3 * SHORT + 0.2
@@ -224,20 +216,21 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
     board.faults = Faults(dropped=1)
     controller = open_controller(board.port, **LIVE)
     with ThreadPoolExecutor(4) as pool, bounded():
-        waiting = [pool.submit(controller.read_battery_voltage) for _ in range(2)]
+        waiting: list[Future[Any]] = []
+        waiting += [pool.submit(controller.read_battery_voltage) for _ in range(2)]
         listening = pool.submit(lambda: list(controller.reports()))
         waiting.append(pool.submit(controller.wait_for, ActionGroupStopped, timeout=GENEROUS))
         await_that(lambda: board.accepted)
         controller.close()
         for each in waiting:
-            with pytest.raises(ClosedError):
+            with pytest.raises(busservo.ClosedError):
                 each.result(GENEROUS)
         assert listening.result(GENEROUS) == []
 
 
 @in_a_loop
 async def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -> None:
-    async with open_async_controller(board.port, **LIVE) as controller:
+    async with busservo.open_async_controller(board.port, **LIVE) as controller:
         for turn in range(20):
             asking = asyncio.ensure_future(controller.read_servo_positions([1, 2]))
             moving = asyncio.ensure_future(controller.move_servos([(1, 500)], 0))
@@ -283,7 +276,7 @@ def test_a_port_by_what_is_plugged_in(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(list_ports, "grep", lambda words: iter([plugged] * ("CH340" in words)))
         with open_controller("hwgrep://CH340", **LIVE) as controller:
             assert controller.read_battery_voltage() == 7500
-        with pytest.raises(PortNotFoundError, match=f"these exist: {plugged.device}"):
+        with pytest.raises(busservo.PortNotFoundError, match=f"these exist: {plugged.device}"):
             open_controller("hwgrep://FTDI")
 
 

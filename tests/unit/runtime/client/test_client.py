@@ -14,29 +14,7 @@ from typing import Any
 import busservo
 import framewire
 import pytest
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupStarted,
-    ActionGroupStop,
-    ActionGroupStopped,
-    AsyncController,
-    BatteryVoltageRead,
-    ClosedError,
-    Controller,
-    DisconnectedError,
-    EncodeError,
-    IncompleteReplyError,
-    Message,
-    NoReplyError,
-    NoReportError,
-    ServoMove,
-    ServoPositions,
-    ServoPositionsRead,
-    TransportError,
-    open_async_controller,
-    open_controller,
-)
+from busservo import ActionGroupCompleted, ActionGroupStopped, Controller, Message, NoReportError
 from busservo.__main__ import main
 
 from tests.in_turn import in_turn
@@ -48,7 +26,7 @@ from tests.programs import ran
 from tests.timeouts import GENEROUS, LIVE, await_that
 
 HEAVY = {"typing", "logging", "threading", "serial", "asyncio"}
-STARTED, STOPPED = ActionGroupStarted(8, 1), ActionGroupStopped()
+STARTED, STOPPED = busservo.ActionGroupStarted(8, 1), ActionGroupStopped()
 COMPLETED = ActionGroupCompleted(8, 1)
 
 
@@ -59,8 +37,8 @@ def test_both_clients_have_the_same_methods_and_defaults() -> None:
     def defaults(opening: Callable[..., Any]) -> dict[str, Any]:
         return {each.name: each.default for each in signature(opening).parameters.values()}
 
-    assert public(Controller) == public(AsyncController)
-    assert defaults(open_controller) == defaults(open_async_controller)
+    assert public(Controller) == public(busservo.AsyncController)
+    assert defaults(busservo.open_controller) == defaults(busservo.open_async_controller)
 
 
 # -------------------------------------------------------------------- commands and questions
@@ -88,27 +66,27 @@ NO_LISTS: list[tuple[Any, str]] = [
 async def test_a_question_that_no_frame_carries_is_refused_before_anything_is_sent(
     controller: Any, line: Any, wrong: Any, problem: str
 ) -> None:
-    with pytest.raises(EncodeError, match=problem):
+    with pytest.raises(busservo.EncodeError, match=problem):
         await controller.read_servo_positions(wrong)
     assert line.received == []
 
 
 def without_some(message: Message) -> list[Message]:
-    assert isinstance(message, ServoPositionsRead)
+    assert isinstance(message, busservo.ServoPositionsRead)
     there = [servo for servo in message.servo_ids if servo not in (3, 100)]
-    return [ServoPositions([(servo, 500) for servo in there])]
+    return [busservo.ServoPositions([(servo, 500) for servo in there])]
 
 
 @both(without_some)
 async def test_what_did_not_arrive_is_named_and_what_did_is_kept(controller: Any) -> None:
-    with pytest.raises(IncompleteReplyError, match=r"servo_ids 3, 100; .*98") as caught:
+    with pytest.raises(busservo.IncompleteReplyError, match=r"servo_ids 3, 100; .*98") as caught:
         await controller.read_servo_positions(range(1, 101))
     assert caught.value.missing == (3, 100)
     assert len(caught.value.arrived) == 98
     assert len(caught.value.replies) == 2
     # As for a protocol whose replies have room for all that can be requested at once.
-    with pytest.raises(IncompleteReplyError) as caught:
-        await controller._ask(ServoPositionsRead([1, 2, 3]), ServoPositions)
+    with pytest.raises(busservo.IncompleteReplyError) as caught:
+        await controller._ask(busservo.ServoPositionsRead([1, 2, 3]), busservo.ServoPositions)
     assert (caught.value.missing, caught.value.arrived) == ((3,), ((1, 500), (2, 500)))
 
 
@@ -116,12 +94,12 @@ async def test_what_did_not_arrive_is_named_and_what_did_is_kept(controller: Any
 async def test_retries_are_off_by_default_and_only_for_questions(
     controller: Any, line: Any
 ) -> None:
-    with pytest.raises(NoReplyError) as late:
+    with pytest.raises(busservo.NoReplyError) as late:
         await controller.read_battery_voltage()
     assert 0.25 <= late.value.waited < 1
     assert len(line.received) == 1
-    with pytest.raises(NoReplyError, match="to 3 requests"):
-        await controller.request(BatteryVoltageRead(), retries=2)
+    with pytest.raises(busservo.NoReplyError, match="to 3 requests"):
+        await controller.request(busservo.BatteryVoltageRead(), retries=2)
     assert len(line.received) == 4
     await controller.move_servos([(1, 500)], 100)
     assert len(line.received) == 5
@@ -131,13 +109,13 @@ async def test_retries_are_off_by_default_and_only_for_questions(
 @both(answered)
 async def test_send_and_request_know_commands_from_questions(controller: Any) -> None:
     with pytest.raises(TypeError, match="is a question"):
-        await controller.send(BatteryVoltageRead())
+        await controller.send(busservo.BatteryVoltageRead())
     with pytest.raises(TypeError, match="is a question"):
-        controller.send_latest(BatteryVoltageRead())
+        controller.send_latest(busservo.BatteryVoltageRead())
     with pytest.raises(TypeError, match="is a command"):
-        await controller.request(ActionGroupStop())
+        await controller.request(busservo.ActionGroupStop())
     with pytest.raises(TypeError, match="is answered by BatteryVoltage"):
-        await controller._ask(BatteryVoltageRead(), ServoPositions)
+        await controller._ask(busservo.BatteryVoltageRead(), busservo.ServoPositions)
     assert await controller.read_battery_voltage() == 7500
 
 
@@ -175,10 +153,10 @@ async def test_the_oldest_reports_go_when_there_are_too_many(controller: Any, li
 
 def of_groups(message: Message) -> list[Message | tuple[float, Message]]:
     """Run any group for two seconds; group 7 is then stopped."""
-    if not isinstance(message, ActionGroupRun):
+    if not isinstance(message, busservo.ActionGroupRun):
         return [*answered(message)]
     done = ActionGroupCompleted(message.group, message.times) if message.group != 7 else STOPPED
-    return [ActionGroupStarted(message.group, message.times), (2.0, done)]
+    return [busservo.ActionGroupStarted(message.group, message.times), (2.0, done)]
 
 
 @both(of_groups)
@@ -209,8 +187,8 @@ NO_WAITS: list[tuple[Any, dict[str, int], str]] = [
         {"grup": 8},
         "none of these has a field 'grup': ActionGroupCompleted has group, times; ActionGroupSt",
     ),
-    (ServoMove, {}, "no message that comes to this end"),
-    ((ActionGroupStopped, ServoMove), {}, "no message that comes to this end"),
+    (busservo.ServoMove, {}, "no message that comes to this end"),
+    ((ActionGroupStopped, busservo.ServoMove), {}, "no message that comes to this end"),
     (Message, {}, "no message that comes to this end"),
     *((each, {}, "is no class of messages") for each in (7, STOPPED, (STOPPED,))),
     ((), {}, "give one"),
@@ -244,7 +222,7 @@ async def test_a_missing_report_is_an_error_that_names_what_came_instead(
     again = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 - it is ours
     assert (str(again), again.instead) == (str(caught.value), caught.value.instead)
     for group in range(10, 16):
-        line.say(ActionGroupStarted(group, 1))
+        line.say(busservo.ActionGroupStarted(group, 1))
     with pytest.raises(NoReportError, match=r"instead: 4 others, .*12.*13.*14.*15, times=1\)$"):
         await controller.wait_for(ActionGroupCompleted, group=8, timeout=3)
 
@@ -279,7 +257,7 @@ async def test_close_waits_until_the_last_byte_is_out(controller: Any, line: Any
     assert line.drained
     assert line.closed
     await controller.close()
-    with pytest.raises(ClosedError, match="open it again"):
+    with pytest.raises(busservo.ClosedError, match="open it again"):
         await controller.stop_action_group()
 
 
@@ -295,16 +273,16 @@ async def test_a_lost_line_says_so_until_it_is_opened_again(
     assert repr(controller).replace("Async", "") == "<Controller on virtual line, open>"
     await controller.stop_action_group()
     end(line)
-    with pytest.raises(DisconnectedError, match=r"plug it in again|nobody there"):
+    with pytest.raises(busservo.DisconnectedError, match=r"plug it in again|nobody there"):
         await controller.stop_action_group()
     assert repr(controller).endswith(", failed>")
-    with pytest.raises(DisconnectedError):
+    with pytest.raises(busservo.DisconnectedError):
         _ = [each async for each in controller.reports()]
     await controller.reconnect()
     assert await controller.read_battery_voltage() == 7500
     await controller.close()
     assert repr(controller).endswith(", closed>")
-    with pytest.raises(ClosedError):
+    with pytest.raises(busservo.ClosedError):
         await controller.reconnect()
 
 
@@ -322,7 +300,7 @@ def test_a_line_that_cannot_be_opened_again_says_so() -> None:
 
 
 def test_errors_are_of_one_family() -> None:
-    error = TransportError("COM7", "it is in use", "close the other program")
+    error = busservo.TransportError("COM7", "it is in use", "close the other program")
     assert isinstance(error, OSError)
     assert str(error) == str(error.again()) == "COM7: it is in use; close the other program"
 
@@ -370,7 +348,7 @@ def test_the_codec_imports_no_client() -> None:
 async def test_statistics_are_shown_and_nothing_is_logged_by_default(
     controller: Any, caplog: pytest.LogCaptureFixture
 ) -> None:
-    sent = await controller.send(ActionGroupStop())
+    sent = await controller.send(busservo.ActionGroupStop())
     assert repr(sent) == "Sent(ActionGroupStop(), delay=0.0000, duration=0.0042)"
     await controller.read_battery_voltage()
     assert repr(controller.counters) == (

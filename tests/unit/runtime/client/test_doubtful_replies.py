@@ -5,16 +5,9 @@ import pickle
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+import busservo
 import pytest
-from busservo import (
-    BatteryVoltage,
-    BatteryVoltageRead,
-    DoubtfulReplyError,
-    Message,
-    NoReplyError,
-    ServoPositions,
-    ServoPositionsRead,
-)
+from busservo import BatteryVoltage, BatteryVoltageRead, DoubtfulReplyError, NoReplyError
 from busservo._exchanges import EXCHANGES
 from framewire.client.exchange import Exchange
 from framewire.client.request import Request
@@ -53,10 +46,10 @@ class Reply(NamedTuple):
 def rising(line: VirtualLine, place: int, late_by: float, said: list[Reply]) -> Answer:
     """Return a board whose servo only rises; the reply at one place comes late."""
 
-    def answer(message: Message) -> Iterator[tuple[float, bytes]]:
-        assert isinstance(message, ServoPositionsRead)
+    def answer(message: busservo.Message) -> Iterator[tuple[float, bytes]]:
+        assert isinstance(message, busservo.ServoPositionsRead)
         position = int(line.now * 1000)
-        reply = ServoPositions([(servo, position) for servo in message.servo_ids]).encode()
+        reply = busservo.ServoPositions([(servo, position) for servo in message.servo_ids]).encode()
         size = len(message.encode()) + len(reply)
         delay = size / 960 + late_by * (len(said) == place)
         said.append(Reply(line.now, size, line.now + delay, position))
@@ -223,5 +216,5 @@ def test_what_is_only_confirmed_is_not_done_twice(monkeypatch: pytest.MonkeyPatc
 def test_a_reply_that_repeats_its_request_confirms_it_alone() -> None:
     asked = Exchange("ask", (), reply=BatteryVoltage)
     told = Exchange("tell", (), reply=BatteryVoltage, echoed=(("voltage_mv", "voltage_mv"),))
-    parts = EXCHANGES[ServoPositionsRead]
+    parts = EXCHANGES[busservo.ServoPositionsRead]
     assert (asked.is_query, told.is_query, parts.is_query) == (True, False, True)

@@ -8,21 +8,9 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
+import busservo
 import pytest
-from busservo import (
-    BatteryVoltageRead,
-    ClosedError,
-    Direction,
-    DisconnectedError,
-    EncodeError,
-    PortAddressError,
-    PortNotFoundError,
-    PortPermissionError,
-    ServoPositions,
-    StreamDecoder,
-    TransportError,
-    open_controller,
-)
+from busservo import DisconnectedError, EncodeError, PortNotFoundError, TransportError
 from busservo._library import CODEC, LINK
 from framewire.codec.noise import Noise
 from framewire.line.hid_devices import HidDevice, hid_devices_at_hand, hid_library
@@ -77,7 +65,7 @@ class Device:
             return -1
         self.written.append(bytes(data))
         assert (len(data), data[0]) == (65, 0)
-        for event in StreamDecoder(Direction.HOST_TO_CONTROLLER).feed(data[1:]):
+        for event in busservo.StreamDecoder(busservo.Direction.HOST_TO_CONTROLLER).feed(data[1:]):
             for answer in [] if isinstance(event, Noise) else answered(event):
                 self.say(answer.encode())
         return len(data)
@@ -172,14 +160,14 @@ def test_the_padding_of_a_report_is_dropped(padding: int, report: str, read: str
 def test_a_reply_that_is_longer_than_a_report_comes_whole() -> None:
     device = Device()
     port = port_on(device)
-    reply = ServoPositions([(each, 0) for each in range(40)]).encode()
+    reply = busservo.ServoPositions([(each, 0) for each in range(40)]).encode()
     device.say(reply)
     device.say(BATTERY)
     assert b"".join(port.read(0.0) for _ in range(3)) == reply + BATTERY
     # Its second half never comes: the next question ends the wait for it.
     device.say(reply[:64])
     assert port.read(0.0) == reply[:64]
-    port.write(BatteryVoltageRead().encode())
+    port.write(busservo.BatteryVoltageRead().encode())
     assert port.read(0.0) == BATTERY
 
 
@@ -205,7 +193,7 @@ def test_a_board_that_is_gone_is_lost() -> None:
     port.close()
     port.close()
     for use in (lambda: port.read(0.1), lambda: port.write(b"UU")):
-        with pytest.raises(ClosedError):
+        with pytest.raises(busservo.ClosedError):
             use()
 
 
@@ -214,7 +202,7 @@ def test_closing_ends_a_read_in_another_thread() -> None:
 
 
 def test_the_same_board_is_opened_again(library: Library) -> None:
-    with open_controller("hid://", **LIVE) as controller:
+    with busservo.open_controller("hid://", **LIVE) as controller:
         library.devices[0].lost = True
         with pytest.raises(DisconnectedError):
             controller.stop_action_group()
@@ -236,8 +224,13 @@ TWO, CHOICE = (
         ([OTHER | {"path": b"1"}], "hid://", PortNotFoundError, "no USB HID device"),
         ([plugged()], "hid://0483:0001", PortNotFoundError, "these exist: hid:///dev/null"),
         ([plugged()], "hid:///dev/zero", PortNotFoundError, "these exist: hid:///dev/null"),
-        (TWO, "hid://0483:5750", PortAddressError, "2 devices are plugged in; choose: " + CHOICE),
-        ([plugged()], "hid:", PortAddressError, "no address of USB HID; write hid://"),
+        (
+            TWO,
+            "hid://0483:5750",
+            busservo.PortAddressError,
+            "2 devices are plugged in; choose: " + CHOICE,
+        ),
+        ([plugged()], "hid:", busservo.PortAddressError, "no address of USB HID; write hid://"),
         ([plugged(path=b"busy")], "hid://", TransportError, "0483:5750 cannot be opened .*udev"),
     ],
 )
@@ -250,7 +243,7 @@ def test_a_board_that_cannot_be_opened_is_reported_with_advice(
 
 def test_permission_comes_with_the_rule_that_gives_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)
-    with pytest.raises(PortPermissionError) as caught:
+    with pytest.raises(busservo.PortPermissionError) as caught:
         open_hid("hid://", LINK, CODEC, library=Library(plugged(path=b"/dev/busy")))
     rule = 'KERNEL=="hidraw*", ATTRS{idVendor}=="0483", ATTRS{idProduct}=="5750", TAG+="uaccess"'
     assert rule in str(caught.value)
@@ -268,7 +261,7 @@ def test_without_the_extra_it_says_how_to_get_it(
         r"\(not seen on hardware yet\); pip install hidapi"
     )
     with pytest.raises(TransportError, match=problem):
-        open_controller("hid://")
+        busservo.open_controller("hid://")
 
 
 def test_the_module_that_leaves_the_device_to_the_kernel_is_preferred(

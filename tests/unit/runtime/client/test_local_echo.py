@@ -75,7 +75,7 @@ def changed(message: Message) -> Incoming:
     yield wire(message), bytes(frame)
 
 
-def virtual(answer: Callable[[Message], Incoming], *, local_echo: bool = True) -> Any:
+def virtual(answer: Callable[[Message], Any], *, local_echo: bool = True) -> Any:
     return client_on(VirtualLine(answer), Controller, local_echo=local_echo)
 
 

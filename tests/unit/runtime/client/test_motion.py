@@ -5,16 +5,9 @@ import math
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupStopped,
-    AsyncMotion,
-    ClosedError,
-    Controller,
-    DisconnectedError,
-    Motion,
-    ServoMove,
-)
+from busservo import ActionGroupStopped, AsyncMotion, ClosedError, DisconnectedError, ServoMove
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both
@@ -66,10 +59,10 @@ async def test_a_line_that_takes_no_time_takes_none_of_a_motion(controller: Any,
 
 
 def test_whatever_sends_it_a_move_is_a_motion() -> None:
-    with client_on(VirtualLine(), Controller) as controller:
-        assert isinstance(controller.move_servos(SIX, 0), Motion)
+    with client_on(VirtualLine(), busservo.Controller) as controller:
+        assert isinstance(controller.move_servos(SIX, 0), busservo.Motion)
         sent = controller.send(ServoMove(250, SIX))
-        assert isinstance(sent, Motion)
+        assert isinstance(sent, busservo.Motion)
         assert repr(sent) == (
             f"Motion({ServoMove(250, SIX)!r}, delay={sent.delay:.4f}, duration=0.0260, lasts=0.25)"
         )
@@ -115,7 +108,7 @@ async def test_a_line_that_is_lost_or_closed_ends_the_wait(controller: Any, line
 
 
 def test_a_motion_is_waited_for_while_others_talk() -> None:
-    with ThreadPoolExecutor() as pool, Controller(LiveLine(), **LIVE) as controller:
+    with ThreadPoolExecutor() as pool, busservo.Controller(LiveLine(), **LIVE) as controller:
         motions = [controller.move_servos([(servo, 800)], 50) for servo in range(1, 5)]
         pending = [pool.submit(motion.wait) for motion in motions]
         assert controller.read_battery_voltage() == 7500

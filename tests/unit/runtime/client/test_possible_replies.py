@@ -4,15 +4,9 @@ import logging
 import math
 from typing import Any, NamedTuple
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupCompleted,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    NoReplyError,
-    ServoMove,
-    ServoPositions,
-)
+from busservo import ActionGroupCompleted, BatteryVoltage, BatteryVoltageRead, NoReplyError
 from framewire.client.session import Session
 
 from tests.in_turn import in_turn
@@ -99,8 +93,8 @@ def test_a_reply_is_the_answer_where_the_wire_can_have_carried_it(name: str) -> 
 
 
 SETTLED = TRIP + REPLY_TIMEOUT
-MOVE, REPORT = ServoMove(100, [(1, 500)]), ActionGroupCompleted(8, 1)
-SIX_MOVED = ServoMove(100, [(servo, 500) for servo in range(1, 7)])
+MOVE, REPORT = busservo.ServoMove(100, [(1, 500)]), ActionGroupCompleted(8, 1)
+SIX_MOVED = busservo.ServoMove(100, [(servo, 500) for servo in range(1, 7)])
 BEFORE = len(SIX_MOVED.encode()) / 960
 HEALTHY = [story.ask(-1.0), story.hear(IN_TIME - 1.0, 7500), story.replied(7500)]
 HELD = [
@@ -249,7 +243,7 @@ def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> 
         (b"\xf0" * 336, "336 bytes came that are no frame: wrong baud rate?"),
         (b"\x00", "1 byte came that is no frame"),
         (ActionGroupCompleted(8, 1).encode(), "1 report came, so the device can be heard"),
-        (ServoPositions([(9, 1)]).encode(), "1 reply came that cannot be the answer"),
+        (busservo.ServoPositions([(9, 1)]).encode(), "1 reply came that cannot be the answer"),
         (b"\x55\x55\x09\x15", "4 bytes came that are no frame"),
     ],
 )

@@ -2,14 +2,8 @@
 
 import math
 
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupStarted,
-    ActionGroupStop,
-    ActionGroupStopped,
-    Message,
-)
+import busservo
+from busservo import ActionGroupCompleted, ActionGroupRun, ActionGroupStopped, Message
 from busservo._library import CODEC, LIBRARY
 from framewire.client.report_filter import Kinds, ReportFilter
 from framewire.client.session import Session
@@ -17,8 +11,8 @@ from framewire.client.session import Session
 from tests.in_turn import in_turn
 from tests.lines.questions import say, session
 
-RUN_8, RUN_9, STOP = ActionGroupRun(8, 1), ActionGroupRun(9, 1), ActionGroupStop()
-STARTED_8 = ActionGroupStarted(8, 1)
+RUN_8, RUN_9, STOP = ActionGroupRun(8, 1), ActionGroupRun(9, 1), busservo.ActionGroupStop()
+STARTED_8 = busservo.ActionGroupStarted(8, 1)
 COMPLETED_8, COMPLETED_9 = ActionGroupCompleted(8, 1), ActionGroupCompleted(9, 1)
 STOPPED = ActionGroupStopped()
 ENDED = (ActionGroupCompleted, ActionGroupStopped)

@@ -10,24 +10,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import busservo
 import pytest
 import serial
-from busservo import (
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ClosedError,
-    DisconnectedError,
-    PortAddressError,
-    PortBusyError,
-    PortNotFoundError,
-    PortPermissionError,
-    TransportError,
-    WriteStuckError,
-    open_async_controller,
-    open_controller,
-    open_transport,
-)
+from busservo import PortAddressError, PortNotFoundError, open_controller, open_transport
 from busservo._library import CODEC, LINK
 from busservo_simulator import VirtualController
 from framewire.line.hid_port import HidPort
@@ -68,9 +54,9 @@ def test_a_session_over_a_port(way: str, talk: Talk, request: pytest.FixtureRequ
         assert await controller.read_battery_voltage() == 7500
         await controller.reconnect()
         assert await controller.read_servo_positions([1, 2]) == ((1, 500), (2, 500))
-        board.report(ActionGroupStopped())
-        stopped = await controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
-        assert stopped == ActionGroupStopped()
+        board.report(busservo.ActionGroupStopped())
+        stopped = await controller.wait_for(busservo.ActionGroupStopped, timeout=GENEROUS)
+        assert stopped == busservo.ActionGroupStopped()
         await controller.close()
         assert controller.closed
 
@@ -111,11 +97,11 @@ def test_a_socket_sends_small_frames_at_once(tcp: VirtualController) -> None:
 
 @in_a_loop
 async def test_a_client_for_asyncio_is_opened_by_awaiting_it(board: VirtualController) -> None:
-    awaited = await open_async_controller(board.port, **LIVE)
+    awaited = await busservo.open_async_controller(board.port, **LIVE)
     assert await awaited.read_servo_positions([3]) == ((3, 500),)
     await awaited.close()
     with pytest.raises(PortNotFoundError):
-        async with open_async_controller(f"{board.port}0000"):
+        async with busservo.open_async_controller(f"{board.port}0000"):
             pass
 
 
@@ -127,7 +113,7 @@ def test_a_port_of_pyserial_that_answers_itself() -> None:
 
 def test_a_port_is_exclusive_by_default(board: VirtualController) -> None:
     with open_controller(board.port, **LIVE) as first:
-        with pytest.raises(PortBusyError, match="it is in use; close the other program"):
+        with pytest.raises(busservo.PortBusyError, match="it is in use; close the other program"):
             open_controller(board.port)
         assert first.read_battery_voltage() == 7500
     with open_controller(board.port, exclusive=False) as one:
@@ -174,9 +160,9 @@ REFUSED_NAMES = {
         ("SOCKET://127.0.0.1:1?logging=error", PortNotFoundError, "there and listening"),
         ("hwgrep://.*&n=99", PortNotFoundError, "in its description, or none that 'n=99' leaves;"),
         (" /dev/ttyUSB0", PortNotFoundError, "its name begins or ends with a blank"),
-        ("rfc2217://127.0.0.1:1", TransportError, "rfc2217://127.0.0.1:1"),
-        ("rfc2217://nowhere", TransportError, "rfc2217://nowhere"),
-        ("cp2110://", TransportError, "cp2110://"),
+        ("rfc2217://127.0.0.1:1", busservo.TransportError, "rfc2217://127.0.0.1:1"),
+        ("rfc2217://nowhere", busservo.TransportError, "rfc2217://nowhere"),
+        ("cp2110://", busservo.TransportError, "cp2110://"),
         ("socket:board:4000", PortNotFoundError, "and an address begins with socket://"),
         ("/", PortAddressError, "it is there, and is no serial port"),
         (__file__, PortAddressError, "it is there, and is no serial port"),
@@ -191,7 +177,7 @@ def test_what_is_no_port_is_refused_with_advice(
 ) -> None:
     with pytest.raises(error, match=advice) as caught:
         open_transport(port)
-    assert isinstance(caught.value, TransportError)
+    assert isinstance(caught.value, busservo.TransportError)
     assert caught.value.port == (str(port) if str(port).strip() else repr(port))
 
 
@@ -267,29 +253,31 @@ def test_an_error_at_opening_comes_with_advice_or_in_its_own_words(
 
     monkeypatch.setattr(serial, "serial_for_url", fail)
     error = serial.SerialException(13, "could not open port /dev/ttyUSB0: Permission denied")
-    with pytest.raises(PortPermissionError, match="dialout"):
+    with pytest.raises(busservo.PortPermissionError, match="dialout"):
         open_controller("/dev/ttyUSB0")
     error = serial.SerialException(5, "could not open port COM7: Input/output error")
-    with pytest.raises(TransportError, match=r"it cannot be opened .*Input/output") as caught:
+    with pytest.raises(
+        busservo.TransportError, match=r"it cannot be opened .*Input/output"
+    ) as caught:
         open_transport("COM7")
-    assert type(caught.value) is TransportError
+    assert type(caught.value) is busservo.TransportError
 
 
 def test_a_transport_on_its_own(board: VirtualController) -> None:
     transport = open_transport(board.port)
     assert transport.name == board.port
     assert transport.read(0.0) == b""
-    transport.write(BatteryVoltageRead().encode())
+    transport.write(busservo.BatteryVoltageRead().encode())
     transport.drain(1)
     data = b""
     while len(data) < 6:
         data += transport.read(GENEROUS)
-    assert data == BatteryVoltage(7500).encode()
+    assert data == busservo.BatteryVoltage(7500).encode()
     transport.close()
     transport.close()
-    with pytest.raises(ClosedError):
+    with pytest.raises(busservo.ClosedError):
         transport.read(1)
-    with pytest.raises(ClosedError):
+    with pytest.raises(busservo.ClosedError):
         transport.write(b"\x55")
 
 
@@ -370,7 +358,9 @@ def by_hid(driver: Driver) -> HidPort:
 
 def test_an_adapter_that_takes_no_more_bytes_is_reported_with_advice() -> None:
     port = driven_by(Driver(serial.SerialTimeoutException("Write timeout")))
-    with pytest.raises(WriteStuckError, match="has taken no bytes for 1 s; unplug and replug"):
+    with pytest.raises(
+        busservo.WriteStuckError, match="has taken no bytes for 1 s; unplug and replug"
+    ):
         port.write(b"UU")
 
 
@@ -418,7 +408,7 @@ def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
                 one.send(bytes(65536))
         monkeypatch.setattr("framewire.line.serial_port._WRITE_TIMEOUT", 0.01)
         port = driven_by(Paused(handle=one.fileno()))
-        with pytest.raises(WriteStuckError, match="has taken no bytes"):
+        with pytest.raises(busservo.WriteStuckError, match="has taken no bytes"):
             port.write(b"UU\x02\x0f")
 
 
@@ -426,14 +416,14 @@ def test_a_pause_in_front_of_an_adapter_that_takes_no_bytes_hides_nothing(
 def test_an_adapter_that_is_gone_is_lost_in_whatever_it_was_at(error: Exception) -> None:
     driver = Driver(error)
     port = driven_by(driver)
-    with pytest.raises(DisconnectedError, match="reconnect"):
+    with pytest.raises(busservo.DisconnectedError, match="reconnect"):
         port.write(b"UU")
-    with pytest.raises(DisconnectedError, match="reconnect"):
+    with pytest.raises(busservo.DisconnectedError, match="reconnect"):
         port.drain(1)
     port.close()
     assert driver.closed
     # Once it is closed at this end, that is what is said.
-    with pytest.raises(ClosedError):
+    with pytest.raises(busservo.ClosedError):
         port.drain(1)
 
 
@@ -466,7 +456,7 @@ def test_a_port_is_closed_even_under_a_read_that_does_not_end(
     port = driven_by(driver)
 
     def read() -> None:
-        with pytest.raises(ClosedError):
+        with pytest.raises(busservo.ClosedError):
             port.read(0.01)
 
     pool = ThreadPoolExecutor()

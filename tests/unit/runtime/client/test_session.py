@@ -3,20 +3,9 @@
 import math
 from collections.abc import Callable
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupStop,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    EncodeError,
-    NoReplyError,
-    ServoMove,
-    ServoPositions,
-    ServoPositionsRead,
-    ServoUnload,
-    TransportError,
-)
+from busservo import BatteryVoltageRead, NoReplyError, ServoMove, ServoPositions, ServoPositionsRead
 from busservo._library import LIBRARY
 from framewire.client.exchange import Exchange
 from framewire.client.request import Request
@@ -42,10 +31,10 @@ from tests.lines.stories import (
     want,
 )
 
-REPORT = ActionGroupCompleted(8, 1)
+REPORT = busservo.ActionGroupCompleted(8, 1)
 FIRST, REST = REPORT.encode()[:4], REPORT.encode()[4:]
-HALF_A_REPLY = BatteryVoltage(7500).encode()[:-1]
-STOP, FALSE_HEADER = ActionGroupStop(), bytes.fromhex("55 55 21 15 0A")
+HALF_A_REPLY = busservo.BatteryVoltage(7500).encode()[:-1]
+STOP, FALSE_HEADER = busservo.ActionGroupStop(), bytes.fromhex("55 55 21 15 0A")
 END = TRIP + REPLY_TIMEOUT
 ONE = ServoPositions([(1, 5)])
 
@@ -174,7 +163,7 @@ def cancelled(line: Session, request: Request) -> float:
 
 
 def reconnected(line: Session, _: Request) -> float:
-    line.fail(TransportError("port", "gone", "look for it"))
+    line.fail(busservo.TransportError("port", "gone", "look for it"))
     line.restart(0.0)
     return 0.1
 
@@ -196,7 +185,7 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply(
     assert line.outgoing(now) == [QUESTION.encode()]
     line.written(second, now)
     say(line, now + 0.02, 2)
-    assert second.reply == BatteryVoltage(2)
+    assert second.reply == busservo.BatteryVoltage(2)
     assert line.counters.unsolicited == 1
 
 
@@ -251,8 +240,12 @@ test_the_latest_command_takes_the_place_of_others = told(
         ],
         "of what names the same servos or fewer": [
             *[want(STOP), send(0.0, STOP)],
-            *(want(ServoUnload(n), latest=True) for n in ([1, 2], [3], [2, 1], [4, 2, 1])),
-            *[send(1.0, ServoUnload([3])), send(2.0, ServoUnload([4, 2, 1])), idle],
+            *(want(busservo.ServoUnload(n), latest=True) for n in ([1, 2], [3], [2, 1], [4, 2, 1])),
+            *[
+                send(1.0, busservo.ServoUnload([3])),
+                send(2.0, busservo.ServoUnload([4, 2, 1])),
+                idle,
+            ],
         ],
     }
 )
@@ -262,16 +255,16 @@ def test_what_cannot_be_asked_or_sent_is_refused() -> None:
     line = session()
     line.submit(ServoPositionsRead(range(84)))
     problem = "85 items are requested at once, and a reply has room for 84"
-    with pytest.raises(EncodeError, match=problem):
+    with pytest.raises(busservo.EncodeError, match=problem):
         line.submit(ServoPositionsRead(range(85)))
     with pytest.raises(TypeError, match="nothing that this end sends"):
-        line.submit(BatteryVoltage(7500))
+        line.submit(busservo.BatteryVoltage(7500))
 
 
 def test_a_lost_line_ends_everything() -> None:
     line = session()
     requests = [questions.ask(line), line.submit(ServoPositionsRead([1]))]
-    error = TransportError("port", "gone", "look for it")
+    error = busservo.TransportError("port", "gone", "look for it")
     line.fail(error)
     assert [request.error for request in requests] == [error, error]
     assert line.idle
@@ -283,7 +276,7 @@ WRONG = [("baud", 0), ("baud", -1), ("baud", math.nan), ("reply_timeout", 0), ("
 @in_turn("name, value", lambda: [*WRONG, ("settle", -1), ("settle", math.nan)])
 def test_invalid_settings_are_refused(name: str, value: float) -> None:
     with pytest.raises(ValueError, match="must be"):
-        session(**{name: value})
+        session("busservo", **{name: value})
 
 
 def test_the_time_for_a_reply_is_that_of_the_largest_that_can_answer() -> None:
