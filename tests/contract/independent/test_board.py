@@ -7,6 +7,7 @@ import ast
 import math
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -76,10 +77,8 @@ def test_a_frame_that_was_cut_off_eats_the_beginning_of_the_next() -> None:
     board = Board()
     board.write(bytes.fromhex("55 55 08 03 01 E8") + 2 * firmware.battery_question(), 0)
     swallowed = bytes.fromhex("55 55 08 03 01 E8 55 55 02 0F")
-    assert [received.frame for received in board.received] == [
-        swallowed,
-        firmware.battery_question(),
-    ]
+    frames = [received.frame for received in board.received]
+    assert frames == [swallowed, firmware.battery_question()]
     assert board.read(0) == firmware.battery_reply(1)
 
 
@@ -87,48 +86,11 @@ def test_each_answer_has_a_number_of_its_own() -> None:
     board = Board(servos=[2])
     for _ in range(2):
         board.write(firmware.battery_question() + firmware.positions_question([1, 2]), 0)
-    assert board.read(0) == b"".join(
-        [
-            firmware.battery_reply(1),
-            firmware.positions_reply([(2, 2)]),
-            firmware.battery_reply(3),
-            firmware.positions_reply([(2, 4)]),
-        ]
+    replies = board.read(0)
+    assert replies == b"".join(
+        firmware.battery_reply(n) + firmware.positions_reply([(2, n + 1)]) for n in (1, 3)
     )
     assert [received.number for received in board.received] == [1, 2, 3, 4]
-
-
-def test_bytes_take_their_time_both_ways() -> None:
-    port = VirtualPort(Board(baud=9600))
-    port.write(firmware.battery_question())
-    times = []
-    while port.read(1):
-        times.append(port.now)
-    assert times == pytest.approx([(4 + number) * BYTE for number in range(1, 7)])
-
-
-def test_an_adapter_hands_over_what_has_come_in_its_time() -> None:
-    port = VirtualPort(Board(baud=9600, latency=0.016))
-    port.write(firmware.battery_question())
-    assert (port.read(1), port.now) == (firmware.battery_reply(1), 0.016)
-
-
-def test_an_adapter_that_gathers_hands_over_a_frame_when_it_is_whole() -> None:
-    port = VirtualPort(Board(baud=9600, gathers=True, faults={1: faults.duplicated()}.get))
-    port.write(firmware.battery_question())
-    assert port.read(1) == firmware.battery_reply(1)
-    assert port.now == pytest.approx(10 * BYTE)
-    assert port.read(1) == firmware.battery_reply(1)
-    assert port.now == pytest.approx(16 * BYTE)
-
-
-def test_a_half_duplex_adapter_gives_back_what_is_sent() -> None:
-    port = VirtualPort(Board(baud=9600, echo=True, thinks=0.01))
-    port.write(firmware.battery_question())
-    data = b""
-    while got := port.read(1):
-        data += got
-    assert data == firmware.battery_question() + firmware.battery_reply(1)
 
 
 REPLY, REPORT = firmware.battery_reply(1), firmware.report(firmware.STOPPED)
@@ -149,6 +111,35 @@ SCRIPTS = {
     "report behind": (faults.followed(REPORT, 0.5, is_report=True), REPLY, REPORT),
     "a pause within": (faults.halted(3, 0.5), REPLY[:3], REPLY[3:]),
 }
+
+
+ASKED = firmware.battery_question()
+# When which bytes are with the host that asks at 0 s.
+ARRIVALS: dict[str, tuple[dict[str, Any], list[tuple[float, bytes]]]] = {
+    "byte by byte": ({}, [((5 + n) * BYTE, REPLY[n : n + 1]) for n in range(6)]),
+    "what has come in its time": ({"latency": 0.016}, [(0.016, REPLY)]),
+    "each frame when it is whole": (
+        {"gathers": True, "faults": {1: faults.duplicated()}.get},
+        [(10 * BYTE, REPLY), (16 * BYTE, REPLY)],
+    ),
+    "what is sent, from a half-duplex adapter": (
+        {"echo": True, "thinks": 0.01},
+        [((1 + n) * BYTE, ASKED[n : n + 1]) for n in range(4)]
+        + [((5 + n) * BYTE + 0.01, REPLY[n : n + 1]) for n in range(6)],
+    ),
+}
+
+
+@in_turn("name", lambda: ARRIVALS)
+def test_bytes_take_their_time_both_ways(name: str) -> None:
+    given, expected = ARRIVALS[name]
+    port = VirtualPort(Board(baud=9600, **given))
+    port.write(ASKED)
+    came = []
+    while data := port.read(1):
+        came.append((port.now, data))
+    assert [data for _, data in came] == [data for _, data in expected]
+    assert [at for at, _ in came] == pytest.approx([at for at, _ in expected])
 
 
 @in_turn("name", lambda: SCRIPTS)

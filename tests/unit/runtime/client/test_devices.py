@@ -189,19 +189,6 @@ def test_all_are_asked_with_asyncio() -> None:
 # ------------------------------------------------------------------ a line with an echo
 
 
-def test_the_echo_is_dropped_where_the_line_is_said_to_have_one() -> None:
-    line = ServoBus(1, 2, echo=True)
-    line.servos[2].dead = True
-    with client(line, local_echo=True) as bus:
-        for count in range(1, 6):
-            assert bus.read_position(1) == 1000 + count
-            bus.move(1, position=5, time_ms=1)
-            with pytest.raises(lxservo.NoReplyError):
-                bus.read_position(2)
-        assert bus.counters.echoes == 15
-        assert bus.counters.noise == 0
-
-
 def test_nothing_answers_a_question_that_has_not_come_back_yet() -> None:
     """On a line of no rate, a reply that comes twice would look like the next one."""
     replies = [frame(1, READ_POSITION, number, 0) for number in range(20)]
