@@ -15,6 +15,7 @@ from tests.contract.independent.conversation import (
     talking,
     wire_time,
 )
+from tests.contract.independent.firmware import COMPLETED, STARTED, STOPPED, report
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
 
@@ -110,6 +111,32 @@ def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind
             positions = controller.read_servo_positions(SIX)
             assert {position for _, position in positions} == {number}
         assert controller.counters.noise == 0
+
+
+# ------------------------------------------------------------------- an echo
+
+
+def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
+    board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
+    with talking(board, local_echo=True, settle=None) as (_, controller):
+
+        def reports() -> list[bytes]:
+            return [each.encode() for each in controller.reports(timeout=0.3)]
+
+        controller.stop_action_group()
+        controller.run_action_group(9, times=1)
+        assert reports() == []
+        assert [controller.read_battery_voltage() for _ in range(3)] == [1, 2, 3]
+        assert {position for _, position in controller.read_servo_positions(SIX)} == {4}
+        controller.move_servos([(1, 500)], time_ms=1000)
+        controller.run_action_group(8, times=1)
+        assert reports() == [report(STARTED, 8, 1), report(COMPLETED, 8, 1)]
+        controller.run_action_group(8, times=0)
+        assert reports() == [report(STARTED, 8, 0)]
+        controller.stop_action_group()
+        assert reports() == [report(STOPPED)]
+        assert controller.counters.noise == 0
+    assert board.refused == []
 
 
 # ------------------------------------------------------------------- a stranger's reply

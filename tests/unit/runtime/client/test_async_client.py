@@ -8,6 +8,7 @@ import warnings
 
 import busservo
 import pytest
+from busservo import ActionGroupStopped, AsyncController, BatteryVoltage
 from framewire.client.base_client import POLL_INTERVAL
 
 from tests.lines.live_line import LiveLine, answered, in_a_loop
@@ -15,13 +16,13 @@ from tests.lines.receiving import unanswered
 from tests.lines.virtual_line import VirtualLine, client, in_virtual_time, run
 from tests.timeouts import GENEROUS, LIVE
 
-STOPPED = busservo.ActionGroupStopped()
+STOPPED = ActionGroupStopped()
 
 
 @in_a_loop
 async def test_a_hundred_tasks_share_a_controller() -> None:
     line = LiveLine()
-    async with busservo.AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
+    async with AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
 
         async def ask(number: int) -> None:
             for _ in range(2):
@@ -52,7 +53,7 @@ async def test_a_cancelled_question_leaves_the_line_usable() -> None:
         await asyncio.sleep(0)
         pending.cancel()
         assert await controller.read_servo_positions([1]) == ((1, 10),)
-        line.say(busservo.BatteryVoltage(7400))  # the late reply of the first
+        line.say(BatteryVoltage(7400))  # the late reply of the first
         assert await controller.read_battery_voltage() == 7500
         assert controller.counters.unsolicited == 1
 
@@ -62,7 +63,7 @@ async def test_unplugged_while_questions_are_under_way() -> None:
     line = VirtualLine()
     async with client(line, **LIVE) as controller:
         asking = [controller.read_battery_voltage() for _ in range(5)]
-        waiting = controller.wait_for(busservo.ActionGroupStopped, timeout=GENEROUS)
+        waiting = controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
         tasks = [asyncio.ensure_future(each) for each in (*asking, waiting)]
         await asyncio.sleep(0.02)
         line.unplug()
@@ -94,7 +95,7 @@ async def test_close_ends_the_waits_of_other_tasks_and_the_reports() -> None:
 
 @in_a_loop
 async def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None:
-    async with busservo.AsyncController(LiveLine(), **LIVE) as controller:
+    async with AsyncController(LiveLine(), **LIVE) as controller:
 
         def elsewhere() -> None:
             with pytest.raises(RuntimeError, match="belongs to another event loop"):
@@ -107,13 +108,13 @@ async def test_a_client_belongs_to_the_loop_in_which_it_was_first_used() -> None
 @in_a_loop
 async def test_a_reply_that_comes_as_its_question_is_cancelled_hurts_nobody() -> None:
     line = LiveLine(unanswered)
-    async with busservo.AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
+    async with AsyncController(line, reply_timeout=GENEROUS, baud=math.inf) as controller:
         task = asyncio.ensure_future(controller.read_battery_voltage())
         while not line.received:
             await asyncio.sleep(0)
         # The loop stands still meanwhile, so that both are there when it goes on: the reply,
         # and then the end of whoever waited for it.
-        line.say(busservo.BatteryVoltage(7500))
+        line.say(BatteryVoltage(7500))
         before = line.reads
         while line.reads < before + 2:
             time.sleep(0.001)
@@ -130,7 +131,7 @@ async def test_a_report_and_the_end_of_a_motion_come_at_their_time_to_the_moment
     line = VirtualLine()
     async with client(line, **LIVE) as controller:
         line.say(STOPPED, delay=3600.25)
-        assert await controller.wait_for(busservo.ActionGroupStopped, timeout=4000) == STOPPED
+        assert await controller.wait_for(ActionGroupStopped, timeout=4000) == STOPPED
         assert line.now == 3600.25
         motion = await controller.move_servos([(1, 500)], 60_000)
         assert await motion.wait()
@@ -143,7 +144,7 @@ async def test_a_transport_without_notification_is_polled() -> None:
     line.on_readable = None  # type: ignore[assignment, method-assign]
     async with client(line, reply_timeout=1) as controller:
         line.say(STOPPED, delay=0.5)
-        await controller.wait_for(busservo.ActionGroupStopped, timeout=1)
+        await controller.wait_for(ActionGroupStopped, timeout=1)
         assert 0.5 <= line.now <= 0.5 + POLL_INTERVAL + 1e-4
         with pytest.raises(busservo.NoReplyError) as late:
             await controller.read_battery_voltage()
@@ -169,13 +170,13 @@ def test_what_a_loop_left_open_is_closed_in_another() -> None:
     line = VirtualLine()
     moves = [busservo.ServoMove(20, [(1, position)]) for position in (1, 2)]
 
-    async def use() -> busservo.AsyncController:
+    async def use() -> AsyncController:
         controller = client(line)
         for each in moves:
             controller.send_latest(each)
         return controller
 
-    async def close(controller: busservo.AsyncController) -> None:
+    async def close(controller: AsyncController) -> None:
         await controller.close()
 
     controller = run(use(), line)

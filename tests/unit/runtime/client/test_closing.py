@@ -12,6 +12,7 @@ from typing import Any
 
 import busservo
 import pytest
+from busservo import AsyncController, ClosedError, Controller, DisconnectedError, ServoUnload
 from busservo_simulator import VirtualController
 from framewire.client.awaited import Awaited as Opening
 
@@ -48,7 +49,7 @@ def close_in_a_hurry(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"framewire.client.{module}.DRAIN_TIMEOUT", 0.02)
 
 
-async def close(controller: busservo.AsyncController) -> None:
+async def close(controller: AsyncController) -> None:
     await controller.close()
 
 
@@ -64,13 +65,13 @@ async def cancelled(task: asyncio.Task[Any]) -> None:
 def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
     draining = Gate()
     line = LiveLine(drain=draining)
-    whoever_closes_second_waits(busservo.Controller(line), draining, line)
+    whoever_closes_second_waits(Controller(line), draining, line)
 
 
 def test_closing_while_closing_does_not_wait_for_itself() -> None:
     """As a handler of signals may, which runs in the middle of anything."""
     line = LiveLine()
-    controller = busservo.Controller(line)
+    controller = Controller(line)
     line.before["drain"] = controller.close
     controller.close()
     assert line.closed
@@ -81,11 +82,11 @@ def test_closing_in_the_middle_of_a_write_does_not_wait_for_itself(
 ) -> None:
     close_in_a_hurry(monkeypatch)
     line = LiveLine()
-    controller = busservo.Controller(line)
+    controller = Controller(line)
     line.before["write"] = controller.close
 
     def send() -> None:
-        with pytest.raises(busservo.ClosedError):
+        with pytest.raises(ClosedError):
             controller.stop_action_group()
 
     # Not in a pool, which would wait for a thread that never ends.
@@ -108,7 +109,7 @@ def test_a_callback_may_close_while_another_thread_does() -> None:
         closed.set()
 
     with ThreadPoolExecutor() as pool:
-        controller = busservo.Controller(line)
+        controller = Controller(line)
         controller.on_report(close_too)
         line.say(STOPPED)
         assert notified.wait(GENEROUS)
@@ -134,27 +135,27 @@ def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
 
 def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: Path) -> None:
     line, trace = LiveLine(), tmp_path / "line.log"
-    controller = busservo.Controller(line, **LIVE, trace=trace)
+    controller = Controller(line, **LIVE, trace=trace)
     assert controller.read_battery_voltage() == 7500
     assert own_threads() == 1
     # The thread that drops the last reference gets the warning, which need not be this one.
     warned: list[str] = []
 
-    def forget(controller: busservo.Controller) -> None:
+    def forget(controller: Controller) -> None:
         def warn(text: str, kind: type[Warning], source: object) -> None:
             assert (kind, source) == (ResourceWarning, controller)
             warned.append(text)
 
-        busservo.Controller.__del__(controller, warn)
+        Controller.__del__(controller, warn)
 
-    controller.__class__ = type("Watched", (busservo.Controller,), {"__del__": forget})
+    controller.__class__ = type("Watched", (Controller,), {"__del__": forget})
     del controller
     await_that(lambda: line.closed and not own_threads())
     assert warned == ["live line was never closed: use the client in a `with`, or call close()"]
     assert trace.read_text().count("\n") == 3
 
 
-class Forgotten(busservo.AsyncController):
+class Forgotten(AsyncController):
     """A client whose warning is kept."""
 
     warned: list[str] | None = None
@@ -203,7 +204,7 @@ class ReadsOn(LiveLine):
     def read(self, timeout: float) -> bytes:
         try:
             return super().read(timeout)
-        except busservo.ClosedError:
+        except ClosedError:
             time.sleep(min(timeout, 0.001))
             return b""
 
@@ -214,7 +215,7 @@ class Touchy(LiveLine):
     def read(self, timeout: float) -> bytes:
         try:
             return super().read(timeout)
-        except busservo.ClosedError:
+        except ClosedError:
             raise ValueError("file descriptor cannot be a negative integer (-1)") from None
 
 
@@ -238,16 +239,16 @@ def test_no_thread_reads_on_where_a_client_is_closed(
 
 
 def test_the_warning_is_a_resource_warning() -> None:
-    controller = busservo.Controller(VirtualLine(), background=False)
+    controller = Controller(VirtualLine(), background=False)
     with pytest.warns(ResourceWarning, match=r"virtual line was never closed: use .* a `with`"):
         controller.__del__()
-    controller = busservo.Controller(VirtualLine(), background=False)
+    controller = Controller(VirtualLine(), background=False)
     controller.close()
     controller.__del__()  # and says nothing
 
 
 def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
-    for kind in (busservo.Controller, busservo.AsyncController):
+    for kind in (Controller, AsyncController):
         with pytest.raises(ValueError, match="reply_timeout"):
             kind(VirtualLine(), reply_timeout=0)
     gc.collect()
@@ -261,7 +262,7 @@ def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
 def test_what_the_port_does_not_take_fails_at_once(talk: Talk, call: str) -> None:
     async def work(controller: Any) -> None:
         began = time.monotonic()
-        with pytest.raises(busservo.DisconnectedError, match="takes no bytes"):
+        with pytest.raises(DisconnectedError, match="takes no bytes"):
             await getattr(controller, call)()
         assert time.monotonic() - began < GENEROUS / 2
 
@@ -271,7 +272,7 @@ def test_what_the_port_does_not_take_fails_at_once(talk: Talk, call: str) -> Non
 @in_a_loop
 async def test_a_command_counts_as_sent_only_when_the_port_has_taken_it() -> None:
     line = LiveLine(write=lambda: time.sleep(0.05))
-    async with busservo.AsyncController(line) as controller:
+    async with AsyncController(line) as controller:
         await controller.stop_action_group()
         assert line.received
 
@@ -298,12 +299,12 @@ def press_ctrl_c() -> None:
 
 def test_close_gives_the_port_back_even_when_it_is_interrupted() -> None:
     line = VirtualLine(read=press_ctrl_c)
-    controller = client_on(line, busservo.Controller, settle=None)
+    controller = client_on(line, Controller, settle=None)
     controller.unload_servos(range(200))
     with pytest.raises(KeyboardInterrupt):
         controller.close()
     assert line.closed
-    with pytest.raises(busservo.ClosedError):
+    with pytest.raises(ClosedError):
         controller.stop_action_group()
 
 
@@ -312,7 +313,7 @@ def test_close_that_is_cancelled_is_done_all_the_same() -> None:
 
     async def work() -> None:
         # The frame is on its way for longer than any machine pauses.
-        controller = busservo.AsyncController(line, baud=60)
+        controller = AsyncController(line, baud=60)
         await controller.unload_servos(range(240))
         with pytest.raises(asyncio.TimeoutError):
             await asyncio.wait_for(controller.close(), 0.02)
@@ -328,7 +329,7 @@ def late(message: busservo.Message) -> list[tuple[float, bytes | busservo.Messag
 
 def test_a_call_that_is_interrupted_leaves_the_line_usable() -> None:
     line = VirtualLine(late, read=press_ctrl_c)
-    with client_on(line, busservo.Controller) as controller:
+    with client_on(line, Controller) as controller:
         with pytest.raises(KeyboardInterrupt):
             controller.read_battery_voltage()
         line.before.clear()
@@ -357,7 +358,7 @@ class Interrupting:
 
 
 def test_ctrl_c_as_the_line_is_given_to_others_leaves_it_usable() -> None:
-    with client_on(VirtualLine(late), busservo.Controller) as controller:
+    with client_on(VirtualLine(late), Controller) as controller:
         whole = controller._lock
         controller._lock = Interrupting(whole)
         with pytest.raises(KeyboardInterrupt):
@@ -378,13 +379,13 @@ def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> 
         return line.clock()
 
     closing = False
-    controller = busservo.Controller(line, background=False, clock=clock)
+    controller = Controller(line, background=False, clock=clock)
     controller.unload_servos(range(200))
-    controller.send_latest(busservo.ServoUnload([7]))
+    controller.send_latest(ServoUnload([7]))
     assert len(line.received) == 1
     closing = True
     controller.close()
-    assert line.received[-1] == busservo.ServoUnload([7])
+    assert line.received[-1] == ServoUnload([7])
 
 
 @in_turn("via", lambda: ["memory", "tcp", *(["pty"] if sys.platform != "win32" else [])])
@@ -392,7 +393,7 @@ def test_nothing_of_the_last_frame_is_cut_off(via: Any) -> None:
     with VirtualController(via, baud=9600) as board:
         transport = board.transport if via == "memory" else busservo.open_transport(board.port)
         began = time.monotonic()
-        with busservo.Controller(transport) as controller:
+        with Controller(transport) as controller:
             controller.unload_servos(range(1, 61))
         assert time.monotonic() - began >= 65 / 960
         await_that(lambda: board.accepted == 1)
@@ -443,7 +444,7 @@ class Counted(LiveLine):
 
 def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
     line = Counted(lambda: time.sleep(0.05))
-    with busservo.Controller(line, **LIVE) as controller, ThreadPoolExecutor(8) as pool:
+    with Controller(line, **LIVE) as controller, ThreadPoolExecutor(8) as pool:
         line.unplug()
         list(pool.map(lambda _: controller.reconnect(), range(8)))
         assert controller.read_battery_voltage() == 7500
@@ -454,7 +455,7 @@ def test_threads_that_reconnect_at_once_open_the_port_once() -> None:
 @in_a_loop
 async def test_tasks_that_reconnect_at_once_open_the_port_once() -> None:
     line = Counted(lambda: time.sleep(0.05))
-    async with busservo.AsyncController(line, **LIVE) as controller:
+    async with AsyncController(line, **LIVE) as controller:
         line.unplug()
         await asyncio.gather(*(controller.reconnect() for _ in range(20)))
         assert await controller.read_battery_voltage() == 7500
@@ -470,7 +471,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back(
     if not patient:
         close_in_a_hurry(monkeypatch)
     opening = Gate()
-    controller = busservo.Controller(Counted(opening))
+    controller = Controller(Counted(opening))
     with ThreadPoolExecutor(2) as pool:
         again = pool.submit(controller.reconnect)
         opening.wait()
@@ -481,7 +482,7 @@ def test_what_is_closed_while_it_is_opened_again_is_given_back(
         assert bool(done) is not patient, "the port may be open"
         closing.result(GENEROUS)
         assert not patient or Counted.open == 0
-        with pytest.raises(busservo.ClosedError):
+        with pytest.raises(ClosedError):
             again.result(GENEROUS)
 
 
@@ -493,7 +494,7 @@ async def test_what_is_closed_while_it_is_opened_again_is_given_back_with_asynci
     if not patient:
         close_in_a_hurry(monkeypatch)
     opening = Gate()
-    controller = busservo.AsyncController(Counted(opening))
+    controller = AsyncController(Counted(opening))
     await controller.stop_action_group()
     again = asyncio.ensure_future(controller.reconnect())
     await opening.reached()
@@ -505,14 +506,14 @@ async def test_what_is_closed_while_it_is_opened_again_is_given_back_with_asynci
     await closing
     assert not patient or Counted.open == 0
     for reconnecting in (again, controller.reconnect()):
-        with pytest.raises(busservo.ClosedError):
+        with pytest.raises(ClosedError):
             await reconnecting
 
 
 @in_a_loop
 async def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
     opening = Gate()
-    async with busservo.AsyncController(Counted(opening), **LIVE) as controller:
+    async with AsyncController(Counted(opening), **LIVE) as controller:
         again = asyncio.ensure_future(controller.reconnect())
         await opening.reached()
         await cancelled(again)
@@ -526,7 +527,7 @@ async def test_opening_again_that_is_cancelled_leaves_no_port_open() -> None:
 def test_reconnecting_from_within_a_callback() -> None:
     line = LiveLine()
     done = threading.Event()
-    with busservo.Controller(line, **LIVE) as controller:
+    with Controller(line, **LIVE) as controller:
 
         def again(_: object) -> None:
             controller.reconnect()
@@ -549,7 +550,7 @@ async def test_a_cancelled_reconnect_that_fails_raises_nowhere() -> None:
 
     errors: list[object] = []
     asyncio.get_running_loop().set_exception_handler(lambda _, about: errors.append(about))
-    async with busservo.AsyncController(LiveLine(reopen=reopen)) as controller:
+    async with AsyncController(LiveLine(reopen=reopen)) as controller:
         again = asyncio.ensure_future(controller.reconnect())
         await opening.reached()
         await cancelled(again)
@@ -604,23 +605,23 @@ async def test_what_cannot_be_drained_is_closed_all_the_same(
 async def test_what_is_still_to_be_sent_when_the_line_is_lost_does_not_hold_up_closing() -> None:
     line = LiveLine()
     # On the wire, both take more than twice as long as anybody waits here.
-    controller = busservo.AsyncController(line, baud=40)
-    controller.send_latest(busservo.ServoUnload(range(250)))
-    controller.send_latest(busservo.ServoUnload(range(240)))
+    controller = AsyncController(line, baud=40)
+    controller.send_latest(ServoUnload(range(250)))
+    controller.send_latest(ServoUnload(range(240)))
     await_that(lambda: len(line.received) == 1)
     closing = asyncio.ensure_future(controller.close())
     await asyncio.sleep(0)
     line.unplug()
     await asyncio.wait_for(closing, GENEROUS)
     assert repr(controller) == "<AsyncController on live line, closed>"
-    assert line.received == [busservo.ServoUnload(range(250))]
+    assert line.received == [ServoUnload(range(250))]
 
 
 @in_a_loop
 async def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as_sent() -> None:
     line = LiveLine()
     now = time.monotonic()
-    async with busservo.AsyncController(line, clock=lambda: now) as controller:
+    async with AsyncController(line, clock=lambda: now) as controller:
         assert repr(controller) == "<AsyncController on live line, open>"
         await controller.unload_servos(range(100))
         pending = asyncio.ensure_future(controller.stop_action_group())
@@ -632,26 +633,26 @@ async def test_a_command_whose_turn_comes_as_the_line_is_lost_is_not_reported_as
         await asyncio.sleep(0)
         line.unplug()
         await_that(lambda: own_threads() == 1)
-        with pytest.raises(busservo.DisconnectedError):
+        with pytest.raises(DisconnectedError):
             await pending
         assert repr(controller) == "<AsyncController on live line, failed>"
         assert controller.counters.sent == 2
-    assert line.received == [busservo.ServoUnload(range(100))]
+    assert line.received == [ServoUnload(range(100))]
 
 
 @in_a_loop
 async def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
     line = LiveLine(write=REFUSING)
-    async with busservo.AsyncController(line) as controller:
+    async with AsyncController(line) as controller:
         received: list[object] = []
         controller.on_report(received.append)
-        controller.send_latest(busservo.ServoUnload([1]))
+        controller.send_latest(ServoUnload([1]))
         # The loop stands still: first it will learn that the write has failed, then of this.
         await_that(lambda: own_threads() == 1)
         line.say(STOPPED)
         before = line.reads
         await_that(lambda: line.reads >= before + 2)
-        with pytest.raises(busservo.DisconnectedError, match="takes no bytes"):
+        with pytest.raises(DisconnectedError, match="takes no bytes"):
             await controller.wait_for(busservo.ActionGroupStopped, timeout=GENEROUS)
         await asyncio.sleep(0)
         assert received == []
@@ -702,10 +703,10 @@ def test_a_client_that_is_forgotten_while_the_port_takes_its_question() -> None:
 
 def test_what_a_loop_that_has_ended_left_unsent_is_sent_by_closing_in_another() -> None:
     line = LiveLine()
-    commands = [busservo.ServoUnload(range(size)) for size in (3, 2, 1)]
+    commands = [ServoUnload(range(size)) for size in (3, 2, 1)]
 
-    async def use() -> busservo.AsyncController:
-        controller = busservo.AsyncController(line)
+    async def use() -> AsyncController:
+        controller = AsyncController(line)
         for each in commands:
             controller.send_latest(each)
         return controller
@@ -723,8 +724,8 @@ def test_a_loop_that_has_ended_with_a_question_under_way_hinders_no_closing() ->
     # That a task of it is never resumed is what is tried here.
     loop.set_exception_handler(lambda *_: None)
 
-    async def ask() -> tuple[busservo.AsyncController, asyncio.Task[int]]:
-        controller = busservo.AsyncController(line, **LIVE)
+    async def ask() -> tuple[AsyncController, asyncio.Task[int]]:
+        controller = AsyncController(line, **LIVE)
         asking = asyncio.ensure_future(controller.read_battery_voltage())
         while not line.received:
             await asyncio.sleep(0.001)
@@ -741,8 +742,8 @@ def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() ->
     draining = Gate()
     line = LiveLine(drain=draining)
 
-    async def begin() -> busservo.AsyncController:
-        controller = busservo.AsyncController(line)
+    async def begin() -> AsyncController:
+        controller = AsyncController(line)
         await controller.stop_action_group()
         asyncio.ensure_future(controller.close())  # noqa: RUF006 - the client keeps it
         await draining.reached()
@@ -766,7 +767,7 @@ async def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
         return line
 
     async def open_it() -> None:
-        await Opening(open_late, busservo.AsyncController)
+        await Opening(open_late, AsyncController)
 
     opening = asyncio.ensure_future(open_it())
     await gate.reached()

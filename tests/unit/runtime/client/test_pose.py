@@ -8,6 +8,7 @@ from typing import Any
 
 import busservo
 import pytest
+from busservo import Controller, EncodeError, ServoMove, ServoPosition, ServoPositions
 from busservo._exchanges import LIMITS, POSE
 from busservo_simulator import VirtualController
 
@@ -23,27 +24,27 @@ from tests.timeouts import LIVE
 
 Positions = list[tuple[int, int]]
 
-OFF = busservo.ServoPosition.POSITION_ABSENT
+OFF = ServoPosition.POSITION_ABSENT
 
 
 def virtual(**given: Any) -> tuple[VirtualController, Any]:
     """Return a board in virtual time, and a function that makes a client of it."""
     board = virtual_board(**{"servos": range(1, 7), **given})
-    return board, partial(client_at, board, busservo.Controller, settle=None)
+    return board, partial(client_at, board, Controller, settle=None)
 
 
-def moves(line: VirtualLine) -> list[busservo.ServoMove]:
-    return [each for each in line.received if isinstance(each, busservo.ServoMove)]
+def moves(line: VirtualLine) -> list[ServoMove]:
+    return [each for each in line.received if isinstance(each, ServoMove)]
 
 
 def client_of(line: VirtualLine, **given: Any) -> Any:
-    return client_on(line, busservo.Controller, settle=None, **given)
+    return client_on(line, Controller, settle=None, **given)
 
 
 def test_the_pose_of_the_protocol() -> None:
     assert (POSE.read, POSE.move, POSE.release) == (
         busservo.ServoPositionsRead,
-        busservo.ServoMove,
+        ServoMove,
         busservo.ServoUnload,
     )
     assert POSE.ids == range(1, 254)
@@ -63,7 +64,7 @@ def test_the_pose_of_the_protocol() -> None:
 def test_a_position_stays_raw_and_has_its_meaning_beside_it(
     position: int, signed: int, absent: bool
 ) -> None:
-    [read] = busservo.ServoPositions([(4, position)]).positions
+    [read] = ServoPositions([(4, position)]).positions
     assert (read.position, read.signed_position, read.absent) == (position, signed, absent)
     assert read == (4, position)
     assert repr(read) == f"ServoPosition(servo_id=4, position={position})"
@@ -97,7 +98,7 @@ def test_all_servos_are_requested_in_as_many_parts_as_replies_need() -> None:
 
 
 def test_silence_while_looking_for_servos_is_an_error() -> None:
-    answered = busservo.ServoPositions([(1, 500)])
+    answered = ServoPositions([(1, 500)])
     line = VirtualLine(lambda _: [] if line.received[1:] else [answered])
     with client_of(line) as controller, pytest.raises(busservo.NoReplyError):
         controller.present_servos(range(1, 100))
@@ -107,7 +108,7 @@ def test_servo_ids_are_checked_before_anything_is_sent() -> None:
     line = VirtualLine()
     with client_of(line) as controller:
         for wrong in ([300], ["1"], 5, []):
-            with pytest.raises(busservo.EncodeError):
+            with pytest.raises(EncodeError):
                 controller.present_servos(wrong)
     assert line.received == []
 
@@ -117,7 +118,7 @@ def test_servo_ids_are_checked_before_anything_is_sent() -> None:
 
 def answering(positions: Positions) -> VirtualLine:
     """Return a line to a board that answers every question about positions alike."""
-    reply = [busservo.ServoPositions(positions)]
+    reply = [ServoPositions(positions)]
     return VirtualLine(lambda it: reply if isinstance(it, busservo.ServoPositionsRead) else [])
 
 
@@ -136,7 +137,7 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
 def test_more_than_one_frame_moves_are_held_by_none() -> None:
     line = answering([(number, 500) for number in range(84)])
     problem = r"84 items is outside 1\.\.83"
-    with client_of(line) as controller, pytest.raises(busservo.EncodeError, match=problem):
+    with client_of(line) as controller, pytest.raises(EncodeError, match=problem):
         controller.hold_servos(range(84))
     assert moves(line) == []
 
@@ -156,9 +157,9 @@ def test_what_is_at_its_stop_is_held_and_replayed_inside_the_limits(
     line = answering(read)
     with client_of(line, limits=limits) as controller:
         controller.hold_servos([number for number, _ in read], time_ms=40)
-        pose = busservo.ServoPositions([*read, (9, OFF)]).positions
+        pose = ServoPositions([*read, (9, OFF)]).positions
         assert controller.targets_of(pose) == targets
-    assert moves(line) == [busservo.ServoMove(time_ms=40, targets=targets)]
+    assert moves(line) == [ServoMove(time_ms=40, targets=targets)]
 
 
 @in_turn(
@@ -179,7 +180,7 @@ def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
         with pytest.raises(busservo.LimitError) as refused:
             controller.hold_servos([1, 2])
         with pytest.raises(busservo.LimitError):
-            controller.targets_of(busservo.ServoPositions(read).positions)
+            controller.targets_of(ServoPositions(read).positions)
     assert str(refused.value).startswith("positions[1].position: ")
     assert expected in str(refused.value)
     assert moves(line) == []
@@ -192,7 +193,7 @@ def test_the_same_at_a_port(talk: Talk) -> None:
         await controller.hold_servos([1, 2])
         with pytest.raises(busservo.AbsentError):
             await controller.hold_servos([1, 7])
-        pose = [busservo.ServoPosition(1, OFF), busservo.ServoPosition(2, 65531)]
+        pose = [ServoPosition(1, OFF), ServoPosition(2, 65531)]
         assert controller.targets_of(pose) == [(2, 0)]
 
     with VirtualController("tcp", servos=[1, 2, 3]) as board:
