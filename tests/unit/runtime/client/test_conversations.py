@@ -7,6 +7,7 @@ tests/world/test_conversations_on_lines.py has a few over pseudo-terminals and T
 import asyncio
 import math
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
@@ -16,8 +17,9 @@ from busservo_simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
-from tests.lines.conversation import Ledger, converse, converse_async
+from tests.lines.conversation import FAULTS, Ledger, converse, converse_async
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 
@@ -129,3 +131,19 @@ def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
             controller.read_battery_voltage()
         assert caught.value.waited <= 1
         assert line.now <= 1
+
+
+@in_turn("seed", lambda: range(4))
+def test_a_hundred_tasks_share_a_line_with_faults(seed: int) -> None:
+    board, ledger, clock = virtual(replace(FAULTS["mixed"], seed=seed))
+
+    async def work() -> None:
+        async with client_at(board, AsyncController, baud=math.inf, settle=None) as controller:
+            talk = partial(converse_async, controller, ledger, now=clock.now, bound=math.inf)
+            await asyncio.gather(*(talk(seed=each, count=1) for each in range(100)))
+            received = [report async for report in controller.reports(timeout=1)]
+            assert received == ledger.reported
+
+    with board:
+        run_virtual(work(), clock)
+        assert ledger.right >= 40
