@@ -81,6 +81,8 @@ def test_a_dead_servo_delays_no_question_to_another() -> None:
                 bus.read_position(2)
             assert took(line, lambda: bus.read_position(1)) < 3 * TRIP
             assert took(line, lambda: bus.read_position(3)) < 3 * TRIP
+        with pytest.raises(lxservo.NoReplyError, match="to 3 requests"):
+            bus.request(lxservo.PositionRead(2), retries=2)
 
 
 def test_others_are_asked_while_a_dead_servo_is_still_waited_for() -> None:

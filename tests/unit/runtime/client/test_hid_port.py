@@ -197,6 +197,19 @@ def test_a_board_that_is_gone_is_lost() -> None:
             use()
 
 
+def test_what_fails_as_it_is_closed_is_closed() -> None:
+    device = Device()
+    port = port_on(device)
+
+    def write(_: bytes) -> int:
+        port.close()
+        raise OSError("gone")
+
+    device.write = write  # type: ignore[method-assign]
+    with pytest.raises(busservo.ClosedError):
+        port.write(b"UU")
+
+
 def test_closing_ends_a_read_in_another_thread() -> None:
     closing_ends_a_read(port_on(Device()))
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import busservo
 import pytest
@@ -354,6 +354,25 @@ def driven_by(driver: Driver) -> SerialPort:
 
 def by_hid(driver: Driver) -> HidPort:
     return HidPort("hid://", driver, 64, lambda: by_hid(driver), CODEC)
+
+
+class Trickling(Driver):
+    """A port at which more bytes arrive while it is read."""
+
+    arriving: ClassVar[list[int]] = []
+
+    @property
+    def in_waiting(self) -> int:  # type: ignore[override]
+        return self.arriving.pop(0)
+
+    def read(self, size: int) -> bytes:
+        return b"U" * size
+
+
+def test_what_arrives_during_a_read_is_read_as_well() -> None:
+    Trickling.arriving = [3, 3, 2, 0]
+    assert driven_by(Trickling()).read(0.01) == b"UUUUU"
+    assert Trickling.arriving == []
 
 
 def test_an_adapter_that_takes_no_more_bytes_is_reported_with_advice() -> None:

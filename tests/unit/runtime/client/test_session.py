@@ -10,6 +10,7 @@ from busservo._library import LIBRARY
 from framewire.client.exchange import Exchange
 from framewire.client.request import Request
 from framewire.client.session import Session
+from framewire.codec.gap import GAP
 
 from tests.in_turn import in_turn
 from tests.lines import questions
@@ -199,6 +200,16 @@ def test_the_next_question_of_a_kind_waits_no_longer_than_twice_the_reply_time()
     assert at == pytest.approx(4 / 960 + 2 * (REPLY_TIMEOUT + 6 / 960))
     assert line.outgoing(at - 0.001) == []
     assert line.outgoing(at) == [QUESTION.encode()]
+
+
+def test_a_reader_may_sleep_until_what_has_begun_can_be_complete_and_no_longer() -> None:
+    line = session()
+    assert line.resting_until(1.0) == 1.0
+    say(line, 1.0, FIRST)
+    assert line.resting_until(1.0) == pytest.approx(1.0 + line.wire_time.least(len(REST) - 1))
+    questions.ask(line, 1.0, ServoPositionsRead(range(84)))
+    assert line.resting_until(1.0) == expires(line) == pytest.approx(1.0 + GAP)
+    assert line.resting_until(2.0) == 2.0
 
 
 def test_questions_are_sent_one_at_a_time_in_order() -> None:
