@@ -201,7 +201,7 @@ def test_what_fails_as_it_is_closed_is_closed() -> None:
     device = Device()
     port = port_on(device)
 
-    def write(_: bytes) -> int:
+    def write(data: bytes) -> int:
         port.close()
         raise OSError("gone")
 
