@@ -1,11 +1,14 @@
 """Commands called in this process, as a shell calls them."""
 
 import io
+import json
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from unittest import mock
+
+import busservo.__main__
 
 
 class Ended(NamedTuple):
@@ -34,6 +37,18 @@ def called(
     ):
         status = main(words)
     return Ended(status, *(each.text for each in streams))
+
+
+def run(*words: object, given: bytes | str = b"", main: Any = busservo.__main__.main) -> Ended:
+    """Call `busservo`, or the command of another library."""
+    return called(main, *map(str, words), given=given)
+
+
+def records(*words: object, **how: Any) -> list[Any]:
+    """Return what `busservo` prints as lines of JSON; it has to end well."""
+    ended = run(*words, **how)
+    assert ended.status == 0, ended.err
+    return [json.loads(line) for line in ended.out.splitlines()]
 
 
 class Terminal(io.StringIO):

@@ -90,7 +90,8 @@ _READER = {"NAME": "Reader", "EMAIL": "reader@example.org", "DATE": "2026-01-01T
 _GIT = {
     **{f"GIT_{who}_{what}": _READER[what] for who in ("AUTHOR", "COMMITTER") for what in _READER},
     **dict.fromkeys(["GIT_CONFIG_GLOBAL", "GIT_CONFIG_SYSTEM"], os.devnull),
-    "GIT_PAGER": "cat", "COLUMNS": "80",
+    "GIT_PAGER": "cat",
+    "COLUMNS": "80",
 }
 # What each of them is made of, by the folder at the top.
 _GENERATED = {"spec", "codegen", "generated"}

@@ -12,9 +12,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 # Protocols of which each kind of frame, or what is odd in it, is one of another as well.
-ALIKE = {
-    *("crsf", "dynamixel1", "ibus", "mavlink1", "mhz19", "msp", "sbus", "tfmini", "visca")
-}
+ALIKE = {*("crsf", "dynamixel1", "ibus", "mavlink1", "mhz19", "msp", "sbus", "tfmini", "visca")}
 _PARAM = type(pytest.param())
 
 

@@ -1,14 +1,14 @@
 """No wrong value over pseudo-terminals, TCP and memory, in real time."""
 
-from __future__ import annotations
-
 import asyncio
 import math
 import sys
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import AbstractAsyncContextManager, contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo import AsyncController, Controller, open_async_controller, open_controller
@@ -26,13 +26,7 @@ from tests.lines.conversation import (
     reports_received,
     reports_received_async,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from contextlib import AbstractAsyncContextManager
-    from pathlib import Path
-
-    from tests.timeouts import Line
+from tests.timeouts import Line
 
 __all__ = ["no_board_refuses_anything"]
 

@@ -5,6 +5,7 @@ import shutil
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -70,7 +71,7 @@ ENVIRONMENTS = [
 
 @pytest.mark.parametrize("environment", ENVIRONMENTS)
 def test_the_environment_makes_no_difference(environment: str) -> None:
-    variables = dict(each.split("=") for each in environment.split())
+    variables: Any = dict(each.split("=") for each in environment.split())
     assert digests(**variables) == expected()
 
 

@@ -1,20 +1,15 @@
 """Noisy lines, and the events of reference and vectors, for comparisons with a page."""
 
-from __future__ import annotations
-
 import random
+from collections.abc import Iterable
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from framegen.language.values import Direction
 from framegen.model.codec import encode
+from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import settings
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
 
 # What a line said: the kind of the event, its bytes in hex, and the message or the reason.
 Event = list[Any]
@@ -23,10 +18,8 @@ Event = list[Any]
 def reference_events(model: Model, data: bytes, way: Direction | None) -> list[Event]:
     """Return the reference's events for `data` with silence after it; both ways without `way`."""
     line = ReferenceDecoder(model, model.directions if way is None else [way])
-    return [
-        [event.kind, event.data.hex(), event.message.name if event.message else event.reason]
-        for event in line.decode(data)
-    ]
+    events = line.decode(data)
+    return [[e.kind, e.data.hex(), e.message.name if e.message else e.reason] for e in events]
 
 
 def joined(events: Iterable[Event]) -> list[Event]:
@@ -46,11 +39,8 @@ def noisy_lines(model: Model, seed: int, number: int) -> list[bytes]:
     """
     chance = random.Random(seed)  # noqa: S311 - the same noise in every run
     messages = model.messages.values()
-    frames = [
-        encode(message, example.values)
-        for message in messages
-        for example in message.message.examples
-    ]
+    examples = [(message, each) for message in messages for each in message.message.examples]
+    frames = [encode(message, each.values) for message, each in examples]
     headers = [frame.header for frame in model.envelopes.values()]
     ids = [number for message in messages for number in message.ids if number < 0x100]
     near = [*b"".join(headers), *ids, 0, 1, 2, 3, 5, 99, 255]

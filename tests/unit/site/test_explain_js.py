@@ -76,8 +76,10 @@ def _value(row: Row) -> Any:
 def frames_for(model: Model, name: str) -> list[bytes]:
     """Return documented frames, changed ones, frames of look-alikes, and noise."""
     chance = random.Random(name)  # noqa: S311 - the same frames in every run
-    said = [each for key in ("messages", "lookalikes") for each in model.plain.said[key].values()]
-    documented = [bytes.fromhex(example["hex"]) for each in said for example in each["examples"]]
+    facts = model.protocol
+    examples = [each.examples for each in facts.messages.values()]
+    examples += [each.examples for each in facts.lookalikes.values()]
+    documented = [bytes.fromhex(each.hex) for some in examples for each in some]
     # Legal both ways; and of a length that no such message has.
     by_hand = ["55 55 05 06 08 01 00", "55 55 09 03 01 E8 03 01 20 03"] * (name == "busservo")
     found = [b"", *map(bytes.fromhex, by_hand), *documented]

@@ -206,8 +206,14 @@ def test_a_question_that_no_reply_has_room_for_is_not_sent(
 # ---------------------------------------------------------------------------- where one begins
 
 # The message that the encoder begins with: it asks, and with as little as possible.
-FIRST = {"busservo": "BatteryVoltageRead", "lxservo": "MoveRead", "dynamixel1": "Ping"}
-FIRST |= {"learm": "VersionRead", "modbus": "CoilsRead", "ubx": "NavPvtPoll", "sbus": "Channels"}
+FIRST = {
+    "busservo": "BatteryVoltageRead",
+    "lxservo": "MoveRead",
+    "dynamixel1": "Ping",
+    "modbus": "CoilsRead",
+    "ubx": "NavPvtPoll",
+    "sbus": "Channels",
+}
 
 
 @in_turn("name", lambda: FIRST)

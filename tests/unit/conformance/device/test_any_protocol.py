@@ -256,7 +256,7 @@ def late(_model: Model, answer: Answer) -> Answer:
 CHECKED = ["dynamixel1", "mhz19", "modbus", "msp", "lxservo", "pumps"]
 ADDRESSED = ["dynamixel1", "modbus", "lxservo", "pumps"]
 # Without a checksum, on a bus, with one, and with frames of two kinds.
-FEW = ["learm", "lxservo", "msp", "pumps"]
+FEW = ["lxservo", "msp", "pumps"]
 MUTANTS: list[tuple[str, Mutant, list[str], str]] = [
     ("its replies have a wrong end", replies_changed(_flipped), CHECKED, "no frame"),
     ("it says another address", replies_changed(_from_another), ADDRESSED, "wrong reply"),
@@ -280,7 +280,7 @@ def test_a_mutant_is_found_and_called_by_its_name(mutant: Mutant, name: str, kin
     assert kind in {found for _, found in done.faults}
 
 
-@in_turn("name", lambda: ["learm", *(name for name in CHECKED if name != "modbus")])
+@in_turn("name", lambda: [name for name in CHECKED if name != "modbus"])
 def test_a_device_that_loses_what_follows_malformed_bytes_is_found(name: str) -> None:
     model = model_of(SPECS[name])
     done = on(name, deaf_behind_malformed(model, by_the_reference(model)), "--malformed")

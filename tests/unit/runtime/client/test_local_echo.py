@@ -19,7 +19,6 @@ from busservo import (
     TransportError,
 )
 from busservo._exchanges import EXCHANGES
-from busservo._library import LIBRARY
 from framewire.client.local_echo import LocalEcho
 from framewire.client.request import Request
 from hypothesis import given

@@ -6,7 +6,6 @@ from collections.abc import Callable
 import busservo
 import pytest
 from busservo import BatteryVoltageRead, NoReplyError, ServoMove, ServoPositions, ServoPositionsRead
-from busservo._library import LIBRARY
 from framewire.client.exchange import Exchange
 from framewire.client.request import Request
 from framewire.client.session import Session
@@ -303,4 +302,4 @@ def test_the_time_for_a_reply_is_that_of_the_largest_that_can_answer() -> None:
         # More than fits in one reply: there is no such frame, and the largest stands for it.
         (echoed, 200, largest),
     ):
-        assert exchange.reply_size(ServoPositionsRead(range(asked)), LIBRARY.codec) == size
+        assert exchange.reply_size(ServoPositionsRead(range(asked))) == size

@@ -13,9 +13,10 @@ from framegen.cases.invalid import invalid_frames
 from framegen.cases.valid import valid_frames
 from framegen.cli import main as framegen_main
 from framegen.explain import explain
-from framegen.model.data import model_data
 from framegen.model.model import Model
+from framegen.model.protocol import protocol_of
 from framewire.explain.text import as_json, as_text
+from framewire.protocol import form
 
 from tests.commands import records, run
 from tests.factories import (
@@ -118,7 +119,8 @@ def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model
         for name, said in carried["messages"].items()
     }
     added = ("comment", "form", "members")
-    assert {key: value for key, value in carried.items() if key not in added} == model_data(model)
+    kept = {key: value for key, value in carried.items() if key not in added}
+    assert kept == form.data_of(protocol_of(model))
 
 
 # ---------------------------------------------------------------------------- docs

@@ -75,7 +75,7 @@ def test_the_library_and_the_generator_recognise_each_example(spec: Any) -> None
         codec = handed_by(made.__name__).codec
         for each in model.spec.lookalikes.values():
             for example in each.examples:
-                found = recognise(model.plain, example.hex)
+                found = recognise(model.protocol, example.hex)
                 assert found is not None
                 assert found.lookalike.title == codec.recognise(example.hex) == each.title
                 assert codec.recognise(example.hex[:-1]) is None
@@ -164,7 +164,7 @@ def test_a_look_alike_is_recognised_by_any_checksum(
 ) -> None:
     frame = proven_frame(header, parameters, spare=spare)
     assert proven.recognise(times * frame) == f"By {header}"
-    found = recognise(proven_model.plain, frame)
+    found = recognise(proven_model.protocol, frame)
     assert found is not None
     assert found.lookalike.title == f"By {header}"
     # Any bit of what it covers, or of the checksum itself.
@@ -173,7 +173,7 @@ def test_a_look_alike_is_recognised_by_any_checksum(
     place = [*covered][at % len(covered)]
     wrong = frame[:place] + bytes([frame[place] ^ 0x10]) + frame[place + 1 :]
     assert proven.recognise(wrong) is None
-    assert recognise(proven_model.plain, wrong) is None
+    assert recognise(proven_model.protocol, wrong) is None
 
 
 def test_headers_of_a_look_alike_that_claim_much_are_not_summed_again_and_again(

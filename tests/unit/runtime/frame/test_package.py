@@ -220,7 +220,7 @@ def test_annotations_are_what_they_say() -> None:
 # --- Documentation -------------------------------------------------------------------------------
 
 NO_TYPES = {"MESSAGES", "PROTOCOL_VERSION", "__version__", *UNIONS}
-# The examples of the clients need a controller: tests/unit/runtime/client/test_examples.py has one.
+# The examples of the clients need a controller: tests/unit/runtime/client/test_library.py has one.
 ELSEWHERE = {"busservo.__main__", "busservo._controller", "busservo._async_controller"}
 
 

@@ -9,6 +9,7 @@ import pyarrow as pa
 import pytest
 from busservo import tables
 from framegen.model.slots import Field, Items, Number, Packed, Text
+from framewire.explain import checksum
 from pyarrow.types import is_list, is_struct
 
 from tests.factories import DEMO, data_of, files_of, library
@@ -36,7 +37,7 @@ def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:
         frame = bytearray(plain[:begin] + middle + plain[-3:])
         for at, size in ((29, 2), (58, 2)):
             frame[at : at + size] = plain[at : at + size]
-        sealed = envelope.sealed(bytes(frame), [3])
+        sealed = checksum.sealed(envelope, bytes(frame), [3])
         (row,) = rows_in_tables(made, sealed, made.Direction.ASKER_TO_TELLER)
         assert row.fields == fields_of(made.decode(sealed, made.Direction.ASKER_TO_TELLER))
 

@@ -45,7 +45,6 @@ VECTORISED: dict[str, dict[str, str | None]] = {
     "crsf": {"controller": None, "receiver": None, "any": None},
     "dynamixel1": {"controller": None, "actuator": NO_ID, "any": SEVERAL},
     "ibus": {"changer": NO_HEADER, "radio": NO_HEADER, "any": NO_HEADER},
-    "learm": {"host": None, "controller": None, "any": None},
     "mavlink1": {"ground": UNSENT, "vehicle": UNSENT, "any": UNSENT},
     "mhz19": {"host": NO_LENGTH, "sensor": NO_LENGTH, "any": SEVERAL},
     "modbus": {"client": NO_HEADER, "device": NO_HEADER, "any": NO_HEADER},

@@ -14,6 +14,7 @@ from busservo import BatteryVoltage, recordings
 from busservo._library import CODEC
 from framegen.language.values import Direction
 from framewire.command import statistics_sheet
+from framewire.explain.words import scaled
 from framewire.tables.by_entry import events_by_entry
 from framewire.tables.stats import statistics
 from framewire.tables.stats.timeline import Clockwork, Intervals, Moments, Timeline
@@ -161,7 +162,7 @@ def test_what_is_drawn_is_in_the_larger_unit(libraries: Libraries) -> None:
     # As whole numbers, values are those on the wire.
     (altitude,) = (each for each in found.ranges if each.quantity.path == "altitude")
     assert (altitude.lowest, altitude.highest) == (1234, 1234)
-    assert altitude.quantity.slot.scaled(1234) == 234
+    assert scaled(altitude.quantity.slot.scale, 1234) == 234
 
 
 def test_where_nothing_is_measured_other_numbers_are_drawn_first_those_of_the_device() -> None:
