@@ -43,7 +43,7 @@ import lxservo
 import lxservo.__main__
 from busservo import open_async_controller, open_controller
 from busservo_simulator import ActionGroup, Step, VirtualController
-from busservo_simulator.clock import RealClock
+from framewire.simulator.clock import RealClock
 from lxservo import open_controller as open_servos
 from lxservo_simulator import VirtualBus
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from framewire.simulator.clock import RealClock, VirtualClock
+
 from busservo_simulator.action_group import ActionGroup, Step
 from busservo_simulator.board import Board
-from busservo_simulator.clock import RealClock, VirtualClock
 from busservo_simulator.faults import Faults
 from busservo_simulator.servo import Servo
 from busservo_simulator.virtual_controller import VirtualController

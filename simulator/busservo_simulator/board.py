@@ -16,11 +16,11 @@ from busservo import (
 )
 from busservo._library import LINK
 from busservo.device import Device
+from framewire.simulator.event_log import EventLog
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
 from busservo_simulator.board_fault_injector import BoardFaultInjector
-from busservo_simulator.event_log import EventLog
 from busservo_simulator.faults import Faults
 from busservo_simulator.performance import Performance
 from busservo_simulator.servo import Servo
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
         ServoPositionsRead,
         ServoUnload,
     )
+    from framewire.simulator.line_faults import LineFaults
 
     from busservo_simulator.action_group import ActionGroup
-    from busservo_simulator.line_faults import LineFaults
 
 # On the servo bus, the number that every servo listens to.
 EVERY_SERVO = 254
@@ -75,7 +75,7 @@ class Board(Device):
         self.speeds: dict[int, int] = {}
         self.battery = Battery(battery_mv, self._travelling)
         self.start_report = start_report
-        self.event_log = EventLog()
+        self.event_log = EventLog("busservo_simulator")
         self.heard = 0
         self.led_stays_on = False
         self.beeps = 0

@@ -13,14 +13,14 @@ from busservo import (
     ServoPositions,
 )
 from busservo._envelopes import FRAME_ENVELOPE
-
-from busservo_simulator.fault_injector import FaultInjector
+from framewire.simulator.fault_injector import FaultInjector
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from framewire.simulator.virtual_device import Report
+
     from busservo_simulator.faults import Faults
-    from busservo_simulator.virtual_device import Report
 
 REPLIES = (BatteryVoltage, ServoPositions)
 # Where the count of servos stands in the reply that has one: behind header, length and command.

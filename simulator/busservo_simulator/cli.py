@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo_simulator import command
-from busservo_simulator.command import Simulator, via
+from framewire.simulator import command
+from framewire.simulator.command import Simulator, via
+from framewire.simulator.line_options import faults_of, pace
+
 from busservo_simulator.faults import Faults
-from busservo_simulator.line_options import faults_of, pace
 from busservo_simulator.options import PROGRAM, add_arguments, parser_of
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from busservo_simulator.line_faults import LineFaults, chance, described
+from framewire.simulator.line_faults import LineFaults, chance, described
 
 
 @dataclass(frozen=True, slots=True)

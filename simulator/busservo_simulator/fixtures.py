@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from framewire.simulator.clock import VirtualClock
 
-from busservo_simulator.clock import VirtualClock
 from busservo_simulator.virtual_controller import VirtualController
 
 if TYPE_CHECKING:

@@ -6,9 +6,7 @@ from typing import TYPE_CHECKING
 
 from busservo import __version__
 from busservo._library import LINK
-
-from busservo_simulator.faults import Faults
-from busservo_simulator.line_options import (
+from framewire.simulator.line_options import (
     add_fault_arguments,
     add_line_arguments,
     add_output_arguments,
@@ -17,7 +15,9 @@ from busservo_simulator.line_options import (
     parser_named,
     servos,
 )
-from busservo_simulator.tcp_end import LOOPBACK
+from framewire.simulator.tcp_end import LOOPBACK
+
+from busservo_simulator.faults import Faults
 
 if TYPE_CHECKING:
     import argparse

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from framewire.simulator.tcp_end import LOOPBACK
+from framewire.simulator.virtual_line import VirtualLine
+
 from busservo_simulator.board import DEFAULT_SERVOS, Board
-from busservo_simulator.tcp_end import LOOPBACK
-from busservo_simulator.virtual_line import VirtualLine
 
 if TYPE_CHECKING:
     import os
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
 
     from busservo.device import Report
     from framewire.codec.rejects import Rejects
+    from framewire.simulator.clock import Clock
 
     from busservo_simulator.action_group import ActionGroup
     from busservo_simulator.battery import Battery
-    from busservo_simulator.clock import Clock
     from busservo_simulator.faults import Faults
     from busservo_simulator.servo import Servo
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import lxservo
-from busservo_simulator.event_log import EventLog
-from busservo_simulator.fault_injector import FaultInjector
-from busservo_simulator.line_faults import LineFaults
+from framewire.simulator.event_log import EventLog
+from framewire.simulator.fault_injector import FaultInjector
+from framewire.simulator.line_faults import LineFaults
 from lxservo import (
     LastMove,
     Led,
@@ -88,7 +88,7 @@ class ServoBus(Device):
         super().__init__()
         self.now = 0.0
         self.all = [BusServo(servo_id, lambda: self.now) for servo_id in servos]
-        self.event_log = EventLog()
+        self.event_log = EventLog("lxservo_simulator")
         self.heard = 0
         self._blackout_until = 0.0
 

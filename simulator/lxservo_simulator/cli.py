@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo_simulator import command
-from busservo_simulator.command import Simulator, via
-from busservo_simulator.line_faults import LineFaults
-from busservo_simulator.line_options import faults_of, pace
+from framewire.simulator import command
+from framewire.simulator.command import Simulator, via
+from framewire.simulator.line_faults import LineFaults
+from framewire.simulator.line_options import faults_of, pace
 
 from lxservo_simulator.options import PROGRAM, add_arguments, parser_of
 

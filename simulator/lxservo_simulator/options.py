@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from busservo_simulator.line_faults import LineFaults
-from busservo_simulator.line_options import (
+from framewire.simulator.line_faults import LineFaults
+from framewire.simulator.line_options import (
     add_fault_arguments,
     add_line_arguments,
     add_output_arguments,
@@ -13,7 +13,7 @@ from busservo_simulator.line_options import (
     parser_named,
     servos,
 )
-from busservo_simulator.tcp_end import LOOPBACK
+from framewire.simulator.tcp_end import LOOPBACK
 from lxservo import __version__
 from lxservo._library import LINK
 

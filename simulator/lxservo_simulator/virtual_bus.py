@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from busservo_simulator.tcp_end import LOOPBACK
-from busservo_simulator.virtual_line import VirtualLine
+from framewire.simulator.tcp_end import LOOPBACK
+from framewire.simulator.virtual_line import VirtualLine
 
 from lxservo_simulator.bus import DEFAULT_SERVOS, ServoBus
 
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable
 
-    from busservo_simulator.clock import Clock
-    from busservo_simulator.line_faults import LineFaults
+    from framewire.simulator.clock import Clock
+    from framewire.simulator.line_faults import LineFaults
 
     from lxservo_simulator.servo import BusServo
 

@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from busservo_simulator.virtual_loop import run_virtual
+from framewire.simulator.virtual_loop import run_virtual
 
 from tests.characterised.texts import lines, outcome, told
 from tests.characterised.values import by_message, frames_of

@@ -4,7 +4,7 @@ import asyncio
 from random import Random
 
 import lxservo
-from busservo_simulator.virtual_loop import run_virtual
+from framewire.simulator.virtual_loop import run_virtual
 
 from tests.lines.growth import Growth
 from tests.lines.servo_bus import ServoBus

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from busservo_simulator import VirtualClock
-from busservo_simulator.virtual_loop import VirtualLoop
+from framewire.simulator.virtual_loop import VirtualLoop
 
 from tests.handed import handed_by
 

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from busservo import AsyncController, ClosedError, DisconnectedError, Message
 from busservo_simulator import VirtualClock
-from busservo_simulator.virtual_loop import run_virtual
+from framewire.simulator.virtual_loop import run_virtual
 
 from tests.lines.receiving import Receiving, unanswered
 from tests.lines.timed_line import TimedLine

@@ -53,6 +53,7 @@ COMMON_LAYERS = [
     {"client"},
     {"tables"},
     {"command"},
+    {"simulator"},
 ]
 TABLES_LAYERS = [
     {"extra"},

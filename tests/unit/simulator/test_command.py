@@ -17,12 +17,13 @@ from busservo import (
     ServoPositionsRead,
     open_transport,
 )
-from busservo_simulator import Faults, line_options
+from busservo_simulator import Faults
 from busservo_simulator.cli import _board, main
 from busservo_simulator.faults import CHANCES
-from busservo_simulator.line_options import faults_of
 from busservo_simulator.options import PROGRAM, parser_of
-from busservo_simulator.servo_list import parse_servos
+from framewire.simulator import line_options
+from framewire.simulator.line_options import faults_of
+from framewire.simulator.servo_list import parse_servos
 
 from tests.in_turn import in_turn
 from tests.lines.hosts import Host

@@ -18,10 +18,10 @@ from busservo import (
     strategies,
 )
 from busservo_simulator import Board, Faults, VirtualClock, VirtualController
-from busservo_simulator.channel import Channel
 from busservo_simulator.faults import CHANCES
-from busservo_simulator.line import Line
 from framewire.line.link_errors import ClosedError, DisconnectedError, PortNotFoundError
+from framewire.simulator.channel import Channel
+from framewire.simulator.line import Line
 from hypothesis import given
 from hypothesis import strategies as st
 

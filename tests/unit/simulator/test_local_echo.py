@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from busservo import ActionGroupStop, BatteryVoltage, BatteryVoltageRead, ServoMove
 from busservo_simulator import Board, Faults
-from busservo_simulator.line import Line
+from framewire.simulator.line import Line
 
 from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of

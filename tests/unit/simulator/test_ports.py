@@ -25,9 +25,9 @@ from busservo import (
     open_transport,
 )
 from busservo_simulator import VirtualClock, VirtualController
-from busservo_simulator.tcp_end import TcpEnd
-from busservo_simulator.waker import Waker
 from framewire.line.link_errors import TransportError
+from framewire.simulator.tcp_end import TcpEnd
+from framewire.simulator.waker import Waker
 
 from tests.in_turn import in_turn
 from tests.lines.hosts import Host

@@ -10,7 +10,7 @@ import lxservo
 import pytest
 import serial
 from busservo_simulator import VirtualClock
-from busservo_simulator.line_faults import LineFaults
+from framewire.simulator.line_faults import LineFaults
 from lxservo_simulator import VirtualBus
 from lxservo_simulator.cli import main
 

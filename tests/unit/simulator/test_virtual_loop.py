@@ -8,7 +8,7 @@ import time
 import pytest
 from busservo import AsyncController
 from busservo_simulator import VirtualClock, VirtualController
-from busservo_simulator.virtual_loop import VirtualLoop, run_virtual
+from framewire.simulator.virtual_loop import VirtualLoop, run_virtual
 
 from tests.lines.at_board import client_at
 

@@ -19,8 +19,8 @@ from busservo import (
     strategies,
 )
 from busservo_simulator import Board, VirtualController
-from busservo_simulator.line import Line
-from busservo_simulator.uart import sampled
+from framewire.simulator.line import Line
+from framewire.simulator.uart import sampled
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -29,7 +29,7 @@ from tests.lines.hosts import Host
 from tests.timeouts import await_that
 
 if sys.platform != "win32":
-    from busservo_simulator.pty_rate import read_rate, set_rate
+    from framewire.simulator.pty_rate import read_rate, set_rate
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -206,7 +206,7 @@ def test_an_unknown_rate_is_taken_for_the_right_one(
         raise OSError("no such call")
 
     with VirtualController("pty", baud=96000) as board:
-        monkeypatch.setattr("busservo_simulator.pty_rate.fcntl.ioctl", refuse)
+        monkeypatch.setattr("framewire.simulator.pty_rate.fcntl.ioctl", refuse)
         assert board._end.host_baud is None
         set_rate(board._end._host_end, 12345)  # type: ignore[attr-defined]
         monkeypatch.undo()
@@ -216,9 +216,9 @@ def test_an_unknown_rate_is_taken_for_the_right_one(
 @needs_pty
 def test_a_rate_kept_as_a_number_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     kept: list[Any] = [0, 0, 0, 0, 12345, 12345, []]
-    monkeypatch.setattr("busservo_simulator.pty_rate.sys.platform", "darwin")
-    monkeypatch.setattr("busservo_simulator.pty_rate.termios.tcgetattr", lambda _end: kept)
-    monkeypatch.setattr("busservo_simulator.pty_rate.termios.tcsetattr", lambda *_: None)
+    monkeypatch.setattr("framewire.simulator.pty_rate.sys.platform", "darwin")
+    monkeypatch.setattr("framewire.simulator.pty_rate.termios.tcgetattr", lambda _end: kept)
+    monkeypatch.setattr("framewire.simulator.pty_rate.termios.tcsetattr", lambda *_: None)
     assert read_rate(0) == 12345
     set_rate(0, 54321)
     assert read_rate(0) == 54321

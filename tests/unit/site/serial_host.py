@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from tests.timeouts import GENEROUS
 
 if TYPE_CHECKING:
-    from busservo_simulator.virtual_line import VirtualLine
+    from framewire.simulator.virtual_line import VirtualLine
     from playwright.sync_api import BrowserContext
     from playwright.sync_api import Page as Tab
 

@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 from busservo_simulator import VirtualClock
-from busservo_simulator.virtual_loop import run_virtual
 from framegen.checks import client_name
 from framegen.comparison import surface
 from framegen.compile import Compiled
@@ -17,6 +16,7 @@ from framegen.language.spec import Spec
 from framegen.render import render, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
+from framewire.simulator.virtual_loop import run_virtual
 
 from tests.factories import (
     BUSSERVO,

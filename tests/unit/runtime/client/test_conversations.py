@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from busservo import AsyncController, Controller, NoReplyError
 from busservo_simulator import Faults, VirtualClock, VirtualController
-from busservo_simulator.virtual_loop import run_virtual
+from framewire.simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -8,12 +8,12 @@ from operator import itemgetter
 from random import Random
 from typing import TYPE_CHECKING
 
-from busservo_simulator.channel import Channel
-from busservo_simulator.uart import BITS_PER_BYTE, sampled
+from .channel import Channel
+from .uart import BITS_PER_BYTE, sampled
 
 if TYPE_CHECKING:
-    from busservo_simulator.line_faults import LineFaults
-    from busservo_simulator.virtual_device import Report, VirtualDevice
+    from .line_faults import LineFaults
+    from .virtual_device import Report, VirtualDevice
 
 # How long a frame waits for another one with which to come at once.
 COALESCING = 0.02

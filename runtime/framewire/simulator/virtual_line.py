@@ -5,11 +5,11 @@ from __future__ import annotations
 from threading import Condition, Thread
 from typing import TYPE_CHECKING, Literal
 
-from busservo_simulator.clock import RealClock, VirtualClock
-from busservo_simulator.line import Line
-from busservo_simulator.memory_end import MemoryEnd
-from busservo_simulator.pty_end import PtyEnd
-from busservo_simulator.tcp_end import LOOPBACK, TcpEnd
+from .clock import RealClock, VirtualClock
+from .line import Line
+from .memory_end import MemoryEnd
+from .pty_end import PtyEnd
+from .tcp_end import LOOPBACK, TcpEnd
 
 if TYPE_CHECKING:
     import os
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from busservo_simulator.clock import Clock
-    from busservo_simulator.event_log import EventLog
-    from busservo_simulator.line_faults import LineFaults
-    from busservo_simulator.port_end import PortEnd
-    from busservo_simulator.virtual_device import VirtualDevice
+    from .clock import Clock
+    from .event_log import EventLog
+    from .line_faults import LineFaults
+    from .port_end import PortEnd
+    from .virtual_device import VirtualDevice
 
 # A paced line takes no more than this ahead, and then makes the host wait, as a port does.
 AHEAD = 4096

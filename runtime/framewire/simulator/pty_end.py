@@ -8,11 +8,11 @@ import select
 import sys
 from pathlib import Path
 
-from busservo_simulator.backlog import Backlog
-from busservo_simulator.waker import Waker
+from .backlog import Backlog
+from .waker import Waker
 
 if sys.platform != "win32":
-    from busservo_simulator.pty_rate import read_rate, set_rate
+    from .pty_rate import read_rate, set_rate
 
 CHUNK = 4096
 

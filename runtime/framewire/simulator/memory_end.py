@@ -5,19 +5,19 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from busservo_simulator.clock import RealClock, VirtualClock
+from .clock import RealClock, VirtualClock
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from threading import Condition
     from types import ModuleType
 
-    from busservo_simulator.clock import Clock
-    from busservo_simulator.line import Line
+    from .clock import Clock
+    from .line import Line
 
 
 class MemoryEnd:
-    """Both ends at once: a transport for `busservo.Controller`, and the board's port.
+    """Both ends at once: a transport for a client, and the board's port.
 
     Reads and writes advance the board, since there is no thread that does.
     """

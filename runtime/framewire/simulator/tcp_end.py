@@ -7,8 +7,8 @@ import errno
 import select
 import socket
 
-from busservo_simulator.backlog import Backlog
-from busservo_simulator.waker import Waker
+from .backlog import Backlog
+from .waker import Waker
 
 CHUNK = 4096
 # More than a connection holds of what a host sent before it left.

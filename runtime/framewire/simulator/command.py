@@ -10,18 +10,17 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from framewire.command import console
-from framewire.frame.pluralize import pluralize
-
-from busservo_simulator.line_options import completion
-from busservo_simulator.tcp_end import LOOPBACK
+from ..command import console
+from ..frame.pluralize import pluralize
+from .line_options import completion
+from .tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Iterator, Sequence
 
-    from busservo_simulator.line_faults import LineFaults
-    from busservo_simulator.virtual_line import VirtualLine
+    from .line_faults import LineFaults
+    from .virtual_line import VirtualLine
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import ModuleType
 
-    from busservo_simulator.event_log import EventLog
-    from busservo_simulator.fault_injector import FaultInjector
-    from busservo_simulator.line_faults import LineFaults
+    from .event_log import EventLog
+    from .fault_injector import FaultInjector
+    from .line_faults import LineFaults
 
 
 class Report(Protocol):

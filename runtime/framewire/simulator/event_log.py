@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-import logging
 from collections import deque
 from typing import TYPE_CHECKING
+
+from ..line.log import Log
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-LOGGER = logging.getLogger("busservo_simulator")
 KEPT = 10_000
 
 
 class EventLog:
-    """The last lines, oldest first; each goes to the log of the same name too, at INFO."""
+    """The last lines, oldest first; each goes to the log of the simulator's package, at INFO."""
 
-    def __init__(self) -> None:
+    def __init__(self, package: str) -> None:
+        self._logger = Log(package)()
         self._lines: deque[str] = deque(maxlen=KEPT)
         self.listener: Callable[[str], None] | None = None
 
@@ -24,7 +25,7 @@ class EventLog:
         """Add a line: when, in seconds since the board was switched on, who, and what."""
         line = f"{moment:10.3f}  {who:8}  {what}"
         self._lines.append(line)
-        LOGGER.info("%s", line)
+        self._logger.info("%s", line)
         if self.listener is not None:
             self.listener(line)
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from busservo_simulator.line_faults import LineFaults
-    from busservo_simulator.virtual_device import Report
+    from .line_faults import LineFaults
+    from .virtual_device import Report
 
 
 class Sending(NamedTuple):

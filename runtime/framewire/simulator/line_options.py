@@ -7,11 +7,10 @@ import math
 import re
 from typing import TYPE_CHECKING, TypeVar
 
-from framewire.command import console, shell_completion
-
-from busservo_simulator.line_faults import LineFaults, described
-from busservo_simulator.servo_list import parse_servos
-from busservo_simulator.tcp_end import LOOPBACK
+from ..command import console, shell_completion
+from .line_faults import LineFaults, described
+from .servo_list import parse_servos
+from .tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
     from collections.abc import Callable
