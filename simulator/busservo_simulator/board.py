@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import busservo
 from busservo import (
     ActionGroupCompleted,
     ActionGroupSpeed,
@@ -14,9 +13,9 @@ from busservo import (
     ServoPosition,
     ServoPositions,
 )
-from busservo._library import LINK
+from busservo._library import LIBRARY
 from busservo.device import Device
-from framewire.simulator.event_log import EventLog
+from framewire.simulator.virtual_device import VirtualDevice
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
         ActionGroupStop,
         BatteryVoltageRead,
         Message,
-        Noise,
         ServoMove,
         ServoPositionsRead,
         ServoUnload,
@@ -49,7 +47,7 @@ DEFAULT_SERVOS = range(1, 7)
 MOST_POSITIONS = ServoPositions.SHAPE.items.counts[-1] if ServoPositions.SHAPE.items else 0
 
 
-class Board(Device):
+class Board(VirtualDevice, Device):
     """A board that has been switched on at time 0 and lives through `advance_to`.
 
     Where the vendor's document is silent it does nothing: a servo that is not there and an action
@@ -57,8 +55,8 @@ class Board(Device):
     speed of 0 % is ignored.
     """
 
-    baud = LINK.baud
-    errors = busservo
+    library = LIBRARY
+    name = "board"
 
     def __init__(
         self,
@@ -69,18 +67,14 @@ class Board(Device):
         start_report: bool = True,
     ) -> None:
         super().__init__()
-        self.now = 0.0
         self.servos = {servo_id: Servo(servo_id, lambda: self.now) for servo_id in servos}
         self.groups = dict(stored_groups() if groups is None else groups)
         self.speeds: dict[int, int] = {}
         self.battery = Battery(battery_mv, self._travelling)
         self.start_report = start_report
-        self.event_log = EventLog("busservo_simulator")
-        self.heard = 0
         self.led_stays_on = False
         self.beeps = 0
         self._performance: Performance | None = None
-        self._blackout_until = 0.0
 
     # ---------------------------------------------------------------- time
 
@@ -109,7 +103,7 @@ class Board(Device):
     def _go_on(self, performance: Performance) -> None:
         if performance.ended:
             self._performance = None
-            self._log("group", f"{performance.number} has ended, {performance.times} times run")
+            self.log("group", f"{performance.number} has ended, {performance.times} times run")
             self.send(ActionGroupCompleted(performance.number, performance.times))
             return
         seconds = performance.due
@@ -118,24 +112,17 @@ class Board(Device):
 
     # ---------------------------------------------------------------- what the host can do
 
-    def hear(self, data: bytes) -> None:
-        """Take in bytes that arrived now, unless the board is still starting."""
-        if self.now >= self._blackout_until:
-            self.accept(data)
-
-    def accepted(self, message: Message) -> None:
+    def log_message(self, message: Message) -> None:
         """Blink LED2 once for a message."""
-        self.heard += 1
         self.led_stays_on = False
-        self._log("LED2", f"blinks: {message!r}")
+        self.log("LED2", f"blinks: {message!r}")
 
-    def rejected(self, noise: Noise) -> None:
+    def log_noise(self, reason: str, shown: str) -> None:
         """Keep LED2 on and beep twice; the host gets no reply."""
         self.led_stays_on = True
         self.beeps += 2
-        shown = noise.data[:16].hex(" ").upper() + (" ..." if len(noise.data) > 16 else "")
-        self._log("LED2", "stays on")
-        self._log("buzzer", f"DiDi: {noise.reason.value}, {shown}")
+        self.log("LED2", "stays on")
+        self.log("buzzer", f"DiDi: {reason}, {shown}")
 
     def on_servo_move(self, message: ServoMove) -> None:
         """Move the servos."""
@@ -150,7 +137,7 @@ class Board(Device):
     def on_servo_positions_read(self, message: ServoPositionsRead) -> ServoPositions | None:
         """Return the present servos, in the order requested; None if no reply can hold them."""
         if len(message.servo_ids) > MOST_POSITIONS:
-            self._log("board", f"{len(message.servo_ids)} servos fit in no reply: silence")
+            self.log("board", f"{len(message.servo_ids)} servos fit in no reply: silence")
             return None
         there = (self.servos.get(servo_id) for servo_id in message.servo_ids)
         return ServoPositions(
@@ -172,7 +159,7 @@ class Board(Device):
     def on_action_group_speed(self, message: ActionGroupSpeed) -> None:
         """Change the time that the next steps of a group take."""
         if not message.percent:
-            self._log("group", f"{message.group}: a speed of 0 % is ignored")
+            self.log("group", f"{message.group}: a speed of 0 % is ignored")
             return
         every = message.group == ActionGroupSpeed.GROUP_ALL
         for number in self.groups if every else [message.group]:
@@ -184,9 +171,9 @@ class Board(Device):
         """Start a stored group, as the handset or the button on the board can too."""
         group = self.groups.get(number)
         if group is None:
-            self._log("group", f"{number} is not stored: silence")
+            self.log("group", f"{number} is not stored: silence")
             return
-        self._log("group", f"{number} starts, {times or 'unlimited'} times")
+        self.log("group", f"{number} starts, {times or 'unlimited'} times")
         if told:
             self.send(ActionGroupStarted(number, times))
         self._performance = Performance(number, group, times, self.now)
@@ -196,17 +183,15 @@ class Board(Device):
         """Stop the group that runs. Servos complete the step that they are at."""
         if self._performance is None:
             return
-        self._log("group", f"{self._performance.number} is stopped")
+        self.log("group", f"{self._performance.number} is stopped")
         self._performance = None
         self.send(ActionGroupStopped())
 
     def reboot(self, seconds: float) -> None:
         """Switch it off and on: no input for `seconds`, speeds forgotten, and no group runs."""
-        self._log("board", f"restarts, for {seconds:g} s")
+        super().reboot(seconds)
         self._performance = None
         self.speeds.clear()
-        self.restart()
-        self._blackout_until = self.now + seconds
 
     def injector(self, faults: LineFaults | None) -> BoardFaultInjector:
         """Return what applies faults to its line. Raises TypeError for those of another line."""
@@ -228,6 +213,3 @@ class Board(Device):
     def _reported(self, servo: Servo) -> tuple[int, int]:
         absent = ServoPosition.POSITION_ABSENT
         return servo.servo_id, absent if servo.off else servo.position
-
-    def _log(self, who: str, what: str) -> None:
-        self.event_log.add(self.now, who, what)

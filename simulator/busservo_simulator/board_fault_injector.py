@@ -8,21 +8,19 @@ from busservo import (
     ActionGroupCompleted,
     ActionGroupStarted,
     ActionGroupStopped,
-    BatteryVoltage,
     ServoPosition,
     ServoPositions,
 )
-from busservo._envelopes import FRAME_ENVELOPE
+from busservo._library import LIBRARY
 from framewire.simulator.fault_injector import FaultInjector
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from framewire.simulator.virtual_device import Report
+    from framewire.simulator.fault_injector import Report
 
     from busservo_simulator.faults import Faults
 
-REPLIES = (BatteryVoltage, ServoPositions)
 # Where the count of servos stands in the reply that has one: behind header, length and command.
 COUNT_AT = 4
 
@@ -31,7 +29,7 @@ class BoardFaultInjector(FaultInjector):
     """One run of faults, repeatable by their seed."""
 
     def __init__(self, faults: Faults) -> None:
-        super().__init__(faults, REPLIES, FRAME_ENVELOPE.header)
+        super().__init__(faults, LIBRARY)
         self._kinds = faults
 
     def reports(self, report: Report) -> Iterator[Report]:

@@ -2,55 +2,83 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
-from framewire.simulator import command
-from framewire.simulator.command import Simulator, via
-from framewire.simulator.line_options import faults_of, pace
+from busservo._library import LIBRARY
+from framewire.simulator.command import Simulator
+from framewire.simulator.line_options import up_to
+from framewire.simulator.numbered import Numbered
 
 from busservo_simulator.faults import Faults
-from busservo_simulator.options import PROGRAM, add_arguments, parser_of
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
+
+    from framewire.simulator.virtual_line import LineSettings
 
     from busservo_simulator.virtual_controller import VirtualController
 
-# What `busservo simulate` asks for.
-__all__ = ["add_arguments", "main"]
+_SERVOS = Numbered("servo", highest=253)
 
 
-def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
-    """Run the command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
+def _declare(board: Any) -> None:
+    _SERVOS.add(
+        board,
+        "servos",
+        default=range(1, 7),
+        text="the servos that it has, as in 1-6,9 (default: 1-6)",
+    )
+    _SERVOS.add(
+        board, "missing", text="those of them that are not plugged in: replies leave them out"
+    )
+    _SERVOS.add(
+        board, "off", text="those of them that are off: replies give 65535 as their position"
+    )
+    board.add_argument(
+        "--battery",
+        type=up_to(65535, "voltage of a battery in mV"),
+        default=7500,
+        metavar="MV",
+        help="the voltage of its battery in mV while nothing moves (default: 7500)",
+    )
+    board.add_argument(
+        "--no-start-report", action="store_true", help="does not report that an action group starts"
+    )
 
-    `program` is how the command was called: it is a verb of another one, too. With --quiet, nothing
-    follows the name of the port, so its reader may leave.
-    """
-    return command.main(_SIMULATOR, argv, program)
 
-
-def _board(arguments: argparse.Namespace) -> VirtualController:
+def _board(
+    via: Literal["pty", "tcp"], line: LineSettings, arguments: argparse.Namespace
+) -> VirtualController:
     from busservo_simulator.virtual_controller import VirtualController  # noqa: PLC0415 - --help is to be quick
 
     board = VirtualController(
-        via(arguments),
+        via,
         servos=arguments.servos,
         battery_mv=arguments.battery,
         start_report=not arguments.no_start_report,
-        baud=pace(arguments),
-        local_echo=arguments.local_echo,
-        faults=faults_of(arguments, Faults),
-        link=arguments.link,
-        host=arguments.host,
-        tcp_port=arguments.tcp or 0,
+        **line,
     )
-    for attribute in ("missing", "off"):
-        for servo_id in getattr(arguments, attribute):
-            if servo_id not in board.servos:
-                raise ValueError(f"--{attribute} {servo_id}: there is no such servo; see --servos")
-            setattr(board.servos[servo_id], attribute, True)
+    for option in ("missing", "off"):
+        _SERVOS.mark(option, arguments, board.servos)
     return board
 
 
-_SIMULATOR = Simulator(PROGRAM, parser_of, Faults, _board)
+SIMULATOR = Simulator(
+    "busservo-simulator",
+    LIBRARY,
+    Faults,
+    description="A virtual bus servo controller: talk to it as to a real one.",
+    noun="a board",
+    examples=(
+        ("--servos 1-6,9 --off 9", "seven servos, the last of them off"),
+        ("--fault noise=0.2 --fault dropped=0.1 --seed 7", ""),
+        ("--fault late=0.05 --late-by 3 --fault duplicated=0.05", ""),
+    ),
+    declare=_declare,
+    make=_board,
+    notes="""\
+A host that sets another rate on the pty than the board's reads garbage, and is read as garbage.
+TCP has no rate that could be wrong. Mono's SerialPort opens no pty: have it talk to --tcp.""",
+)
+# What `busservo simulate` asks for.
+add_arguments, main = SIMULATOR.add_arguments, SIMULATOR.main

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import lxservo
-from framewire.simulator.event_log import EventLog
-from framewire.simulator.fault_injector import FaultInjector
-from framewire.simulator.line_faults import LineFaults
+from framewire.simulator.virtual_device import VirtualDevice
 from lxservo import (
     LastMove,
     Led,
@@ -25,7 +22,7 @@ from lxservo import (
     Voltage,
     VoltageLimits,
 )
-from lxservo._library import LINK
+from lxservo._library import LIBRARY
 from lxservo.device import Device
 
 from lxservo_simulator.servo import BusServo
@@ -38,14 +35,12 @@ if TYPE_CHECKING:
         LedErrorsWrite,
         LedRead,
         LedWrite,
-        Message,
         ModeRead,
         ModeWrite,
         MovePrepare,
         MoveRead,
         MoveStart,
         MoveStop,
-        Noise,
         OffsetAdjust,
         OffsetRead,
         OffsetSave,
@@ -68,72 +63,32 @@ if TYPE_CHECKING:
 
 EVERY_SERVO = Move.SERVO_ID_ALL
 DEFAULT_SERVOS = range(1, 7)
-REPLIES = (
-    *(LastMove, PreparedMove, ServoId, Offset, PositionLimits, VoltageLimits, TemperatureLimit),
-    *(Temperature, Voltage, Position, Mode, Torque, Led, LedErrors),
-)
 
 
-class ServoBus(Device):
+class ServoBus(VirtualDevice, Device):
     """Servos on one wire, switched on at time 0.
 
     Where the vendor's document is silent it does nothing. Two servos of one number both answer, as
     they do on a wire, one frame behind the other.
     """
 
-    baud = LINK.baud
-    errors = lxservo
+    library = LIBRARY
+    name = "bus"
 
     def __init__(self, servos: Iterable[int] = DEFAULT_SERVOS) -> None:
         super().__init__()
-        self.now = 0.0
         self.all = [BusServo(servo_id, lambda: self.now) for servo_id in servos]
-        self.event_log = EventLog("lxservo_simulator")
-        self.heard = 0
-        self._blackout_until = 0.0
 
     @property
     def servos(self) -> dict[int, BusServo]:
         """The servos by the numbers that they have now; of several with one number, the first."""
         return {servo.servo_id: servo for servo in reversed(self.all)}
 
-    # ---------------------------------------------------------------- time and line
-
-    @property
-    def next_event(self) -> float | None:
-        """None: nothing happens by itself that a host would see."""
-        return None
-
-    def advance_to(self, moment: float) -> None:
-        """Advance to a moment."""
-        self.now = max(self.now, moment)
-
-    def hear(self, data: bytes) -> None:
-        """Take in bytes that arrived now, unless the servos are still starting."""
-        if self.now >= self._blackout_until:
-            self.accept(data)
-
     def reboot(self, seconds: float) -> None:
         """Switch them off and on: for so many seconds they take nothing in."""
-        self._log("bus", f"restarts, for {seconds:g} s")
-        self.restart()
+        super().reboot(seconds)
         for servo in self.all:
             servo.power_on()
-        self._blackout_until = self.now + seconds
-
-    def injector(self, faults: LineFaults | None) -> FaultInjector:
-        """Return what applies faults to the line."""
-        return FaultInjector(faults or LineFaults(), REPLIES, b"\x55\x55")
-
-    def accepted(self, message: Message) -> None:
-        """Count a message, and log it."""
-        self.heard += 1
-        self._log("bus", repr(message))
-
-    def rejected(self, noise: Noise) -> None:
-        """Log what is no frame; servos are silent then."""
-        shown = noise.data[:16].hex(" ").upper() + (" ..." if len(noise.data) > 16 else "")
-        self._log("bus", f"{noise.reason.value}: {shown}")
 
     # ---------------------------------------------------------------- what a host tells them
 
@@ -225,7 +180,7 @@ class ServoBus(Device):
         for servo in self._called(message.servo_id):
             self.send(ServoId(servo.servo_id, servo.servo_id))
             if every and len(self.all) > 1:
-                self._log("bus", f"servo {servo.servo_id} answers a question to all")
+                self.log("bus", f"servo {servo.servo_id} answers a question to all")
 
     def on_offset_read(self, message: OffsetRead) -> None:
         """Answer with the shift."""
@@ -292,6 +247,3 @@ class ServoBus(Device):
             return
         for servo in self._called(servo_id):
             self.send(reply(servo))
-
-    def _log(self, who: str, what: str) -> None:
-        self.event_log.add(self.now, who, what)

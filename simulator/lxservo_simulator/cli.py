@@ -2,52 +2,56 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
-from framewire.simulator import command
-from framewire.simulator.command import Simulator, via
+from framewire.simulator.command import Simulator
 from framewire.simulator.line_faults import LineFaults
-from framewire.simulator.line_options import faults_of, pace
-
-from lxservo_simulator.options import PROGRAM, add_arguments, parser_of
+from framewire.simulator.numbered import Numbered
+from lxservo._library import LIBRARY
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
+
+    from framewire.simulator.virtual_line import LineSettings
 
     from lxservo_simulator.virtual_bus import VirtualBus
 
-# What `lxservo simulate` asks for.
-__all__ = ["add_arguments", "main"]
+_SERVOS = Numbered("servo", highest=253)
 
 
-def main(argv: Sequence[str] | None = None, *, program: str = PROGRAM) -> int:
-    """Run the command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
+def _declare(bus: Any) -> None:
+    _SERVOS.add(
+        bus,
+        "servos",
+        default=range(1, 7),
+        text="the numbers of the servos, as in 1-3,7 (default: 1-6)",
+    )
+    _SERVOS.add(bus, "dead", text="those of them that neither answer nor move")
 
-    `program` is how the command was called. With --quiet, nothing follows the name of the port, so
-    its reader may leave.
-    """
-    return command.main(_SIMULATOR, argv, program)
 
-
-def _bus(arguments: argparse.Namespace) -> VirtualBus:
+def _bus(
+    via: Literal["pty", "tcp"], line: LineSettings, arguments: argparse.Namespace
+) -> VirtualBus:
     from lxservo_simulator.virtual_bus import VirtualBus  # noqa: PLC0415 - --help is to be quick
 
-    bus = VirtualBus(
-        via(arguments),
-        servos=arguments.servos,
-        baud=pace(arguments),
-        local_echo=arguments.local_echo,
-        faults=faults_of(arguments, LineFaults),
-        link=arguments.link,
-        host=arguments.host,
-        tcp_port=arguments.tcp or 0,
-    )
-    for servo_id in arguments.dead:
-        if servo_id not in bus.servos:
-            raise ValueError(f"--dead {servo_id}: there is no such servo; see --servos")
-        bus.servos[servo_id].dead = True
+    bus = VirtualBus(via, servos=arguments.servos, **line)
+    _SERVOS.mark("dead", arguments, bus.servos)
     return bus
 
 
-_SIMULATOR = Simulator(PROGRAM, parser_of, LineFaults, _bus)
+SIMULATOR = Simulator(
+    "lxservo-simulator",
+    LIBRARY,
+    LineFaults,
+    description="A virtual bus of LX-16A servos: talk to it as to real ones.",
+    noun="servos",
+    examples=(
+        ("--servos 1-3,7 --dead 3", "four servos, one of which does not answer"),
+        ("--local-echo", "a wire that both ends share, without an adapter"),
+        ("--fault noise=0.2 --fault dropped=0.1 --seed 7", ""),
+    ),
+    declare=_declare,
+    make=_bus,
+)
+# What `lxservo simulate` asks for.
+add_arguments, main = SIMULATOR.add_arguments, SIMULATOR.main

@@ -8,57 +8,128 @@ import sys
 import threading
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from ..command import console
+from ..command import console, shell_completion
 from ..frame.pluralize import pluralize
-from .line_options import completion
+from .line_options import (
+    add_fault_arguments,
+    add_line_arguments,
+    add_output_arguments,
+    completion,
+    line_of,
+    listed_faults,
+    via,
+)
 from .tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Iterator, Sequence
 
+    from ..client.library import Library
     from .line_faults import LineFaults
-    from .virtual_line import VirtualLine
+    from .virtual_line import LineSettings, VirtualLine
+
+
+# The lines of every help in front of a simulator's own: arguments, and what they give.
+_EXAMPLES = (
+    ("", "{noun} behind a pty, whose name is printed first"),
+    ("--link COM7", "the same, by a name that you choose"),
+    ("--tcp 4000", f"{{noun}} at socket://{LOOPBACK}:4000, on any system"),
+    ("--baud inf", "quicker than the real line: bytes take no time"),
+)
+_AT_WORK = (
+    "What happens is printed line by line: the seconds since the start, who, and what. "
+    "Ctrl-C ends it."
+)
 
 
 @dataclass(frozen=True)
 class Simulator:
-    """A command: its name, its parser by the name it was called by, its faults, and its device."""
+    """The command of a simulator.
+
+    `faults` are those that may happen to its line. `description` says what it is for, `noun` what
+    it puts behind a port, `examples` are arguments with what they give, and `notes` are further
+    sentences of the help. `declare` adds the options that say what the device is, and `make` makes
+    it: at what kind of port, at which line, by these options.
+    """
 
     name: str
-    parser_of: Callable[[str], argparse.ArgumentParser]
+    library: Library
     faults: type[LineFaults]
-    make: Callable[[argparse.Namespace], VirtualLine]
+    description: str
+    noun: str
+    examples: tuple[tuple[str, str], ...]
+    declare: Callable[[Any], None]
+    make: Callable[[Literal["pty", "tcp"], LineSettings, argparse.Namespace], VirtualLine]
+    notes: str = ""
+
+    def main(self, argv: Sequence[str] | None = None, *, program: str = "") -> int:
+        """Run a command line. 0: ended by Ctrl-C; 2: usage error; 141: its output has no reader.
+
+        `program` is how the command was called, if not by its name: it is a verb of another one,
+        too. With --quiet, nothing follows the name of the port, so its reader may leave.
+        """
+        called = program or self.name
+        return console.run(called, lambda: self._run_or_complain(argv, called))
+
+    def parser(self, program: str = "") -> argparse.ArgumentParser:
+        """Return the parser of the command, under the name that it was called by."""
+        called = program or self.name
+        parser = console.Parser(
+            prog=called, description=self.description, epilog=self._epilog(called)
+        )
+        self.add_arguments(parser)
+        if called == self.name:
+            shell_completion.add_option(parser)
+        return parser
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the options of the command."""
+        add_line_arguments(parser, self.library.link.baud)
+        self.declare(parser.add_argument_group("what it is"))
+        add_fault_arguments(parser, self.faults)
+        add_output_arguments(parser, f"{self.name} {self.library.version}")
+
+    def made_of(self, arguments: argparse.Namespace) -> VirtualLine:
+        """Return the device at its line. Raises ValueError for what cannot be."""
+        return self.make(via(arguments), line_of(arguments, self.faults), arguments)
+
+    def _epilog(self, program: str) -> str:
+        examples = [
+            f"  {program} {words:<27}{what.format(noun=self.noun)}".rstrip()
+            for words, what in (*_EXAMPLES, *self.examples)
+        ]
+        paced = f"at {self.library.link.baud} baud, unless --baud says otherwise."
+        return "\n".join(
+            [
+                "examples:",
+                *examples,
+                "\nfaults, each by its chance from 0 to 1:",
+                listed_faults(self.faults),
+                f"\nBytes take as long as on the real line, {paced}",
+                *filter(None, [self.notes]),
+                f"\n{_AT_WORK}\n",
+            ]
+        )
+
+    def _run_or_complain(self, argv: Sequence[str] | None, program: str) -> int:
+        arguments = self.parser(program).parse_args(argv)
+        try:
+            shell = getattr(arguments, "print_completion", None)
+            if shell is not None:
+                print(completion(self.parser(), shell, self.faults))
+                return console.DONE
+            return _run(self.made_of(arguments), arguments, program)
+        except ValueError as error:
+            console.complain(program, str(error))
+            return console.UNUSABLE
 
 
-def main(simulator: Simulator, argv: Sequence[str] | None, program: str) -> int:
-    """Run a command line. 0: ended by Ctrl-C; 2: usage error; 141: the reader of its output left.
-
-    With --quiet, nothing follows the name of the port, so its reader may leave.
-    """
-    return console.run(program, lambda: _run_or_tell(simulator, argv, program))
-
-
-def _run_or_tell(simulator: Simulator, argv: Sequence[str] | None, program: str) -> int:
-    arguments = simulator.parser_of(program).parse_args(argv)
-    try:
-        shell = getattr(arguments, "print_completion", None)
-        if shell is not None:
-            print(completion(simulator.parser_of(simulator.name), shell, simulator.faults))
-            return console.DONE
-        return _run(simulator.make, arguments, program)
-    except ValueError as error:
-        console.complain(program, str(error))
-        return console.UNUSABLE
-
-
-def _run(
-    make: Callable[[argparse.Namespace], VirtualLine], arguments: argparse.Namespace, program: str
-) -> int:
-    """Serve what `make` makes until a signal ends it. Raises ValueError for what cannot be."""
-    with _ended_by_signals() as ended, _opened(make(arguments), arguments) as line:
+def _run(device: VirtualLine, arguments: argparse.Namespace, program: str) -> int:
+    """Serve a device until a signal ends it. Raises ValueError for what cannot be opened."""
+    with _ended_by_signals() as ended, _opened(device, arguments) as line:
         log = line.log
         named = threading.Event()
         if not arguments.quiet:
@@ -77,15 +148,6 @@ def _run(
         totals = f"{pluralize(line.accepted, 'message')}, {line.rejected} rejected"
         print(totals, file=sys.stderr)
     return console.READER_GONE if gone else console.DONE
-
-
-def via(arguments: argparse.Namespace) -> Literal["pty", "tcp"]:
-    """Return what kind of port is asked for. Raises ValueError for a link without a pty."""
-    if arguments.tcp is None and sys.platform != "win32":
-        return "pty"
-    if arguments.link is not None:
-        raise ValueError("--link names a pty, and there is none with --tcp")
-    return "tcp"
 
 
 def _reader_has_gone() -> bool:

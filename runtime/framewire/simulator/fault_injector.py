@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from random import Random
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from ..client.library import Library
     from .line_faults import LineFaults
-    from .virtual_device import Report
+
+
+class Report(Protocol):
+    """What a device sends."""
+
+    def encode(self) -> bytes:
+        """Return its frame."""
+        ...
 
 
 class Sending(NamedTuple):
@@ -21,15 +29,13 @@ class Sending(NamedTuple):
 
 
 class FaultInjector:
-    """One run of faults, repeatable by their seed; `replies` are what answers a question.
+    """One run of faults, repeatable by their seed, on the line of a library."""
 
-    `header` is what no noise holds.
-    """
-
-    def __init__(self, faults: LineFaults, replies: tuple[type, ...], header: bytes) -> None:
+    def __init__(self, faults: LineFaults, library: Library) -> None:
         self.faults = faults
-        self._replies = replies
-        self._header = header
+        # What answers a question, and what no noise holds.
+        self._replies = tuple(library.answers)
+        self._headers = sorted(library.codec.heads.telling)
         self._random = Random(faults.seed)  # noqa: S311 - to be repeated, not to be secret
 
     def reports(self, report: Report) -> Iterator[Report]:
@@ -106,4 +112,6 @@ class FaultInjector:
     def _noise(self) -> bytes:
         """Return up to eight bytes without a header; a single byte of one may be among them."""
         data = self._random.randbytes(self._random.randrange(1, 9))
-        return data.replace(self._header, self._header[:-1] + b"\xaa")
+        for header in self._headers:
+            data = data.replace(header, header[:-1] + bytes([header[-1] ^ 0xFF]))
+        return data

@@ -9,11 +9,12 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from .channel import Channel
-from .uart import BITS_PER_BYTE, sampled
+from .uart import sampled
 
 if TYPE_CHECKING:
+    from .fault_injector import Report
     from .line_faults import LineFaults
-    from .virtual_device import Report, VirtualDevice
+    from .virtual_device import VirtualDevice
 
 # How long a frame waits for another one with which to come at once.
 COALESCING = 0.02
@@ -39,9 +40,10 @@ class Line:
         self.board = board
         self.hung_up = False
         self.local_echo = local_echo
-        self.baud = board.baud if baud is None or math.isinf(baud) else baud
+        self._link = board.library.link
+        self.baud = self._link.baud if baud is None or math.isinf(baud) else baud
         self._host_baud = self.baud
-        seconds_per_byte = 0.0 if baud is None else BITS_PER_BYTE / baud
+        seconds_per_byte = 0.0 if baud is None else self._link.bits_per_byte / baud
         self._to_board = Channel(seconds_per_byte)
         self._to_host = Channel(seconds_per_byte)
         self._injector = board.injector(faults)
@@ -97,7 +99,7 @@ class Line:
         if self.hung_up or not data:
             return
         if self.local_echo:
-            self._to_host.put(data, moment, BITS_PER_BYTE / self._host_baud)
+            self._to_host.put(data, moment, self._link.bits_per_byte / self._host_baud)
         read, seconds_per_byte = self._sampled(data, self._host_baud, self.baud)
         for pause, piece in self._injector.hearing(read):
             start = max(moment, self._to_board.free_at) + pause if pause else moment
@@ -205,7 +207,8 @@ class Line:
 
     def _sampled(self, data: bytes, sent_at: float, read_at: float) -> tuple[bytes, float]:
         """Return the bytes that are read for those sent, and the seconds that each takes."""
+        bits = self._link.bits_per_byte
         if sent_at == read_at:
-            return data, BITS_PER_BYTE / read_at
-        read = sampled(data, sent_at, read_at, self._phase)
-        return read, len(data) * BITS_PER_BYTE / sent_at / max(1, len(read))
+            return data, bits / read_at
+        read = sampled(data, sent_at, read_at, self._link, self._phase)
+        return read, len(data) * bits / sent_at / max(1, len(read))

@@ -5,18 +5,19 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from typing import TYPE_CHECKING, TypeVar
+import sys
+from typing import TYPE_CHECKING, Literal, TypeVar
 
-from ..command import console, shell_completion
+from ..command import shell_completion
 from .line_faults import LineFaults, described
-from .servo_list import parse_servos
 from .tcp_end import LOOPBACK
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-# The highest TCP port, and the most millivolts that a frame carries.
-_MOST = 65535
+    from .virtual_line import LineSettings
+
+_HIGHEST_PORT = 65535
 _Faults = TypeVar("_Faults", bound=LineFaults)
 
 
@@ -33,7 +34,7 @@ def add_line_arguments(parser: argparse.ArgumentParser, baud: int) -> None:
         "--tcp",
         nargs="?",
         const=0,
-        type=_tcp_port,
+        type=up_to(_HIGHEST_PORT, "TCP port"),
         metavar="PORT",
         help="a TCP port instead of a pty (default: any free one); always so on Windows",
     )
@@ -92,23 +93,6 @@ def add_output_arguments(parser: argparse.ArgumentParser, version: str) -> None:
     parser.add_argument("--version", action="version", version=version)
 
 
-def parser_named(
-    program: str,
-    own: str,
-    description: str,
-    examples: str,
-    declare: Callable[[argparse.ArgumentParser], None],
-) -> argparse.ArgumentParser:
-    """Return the parser of a command, under the name that it was called by instead of its own."""
-    parser = console.Parser(
-        prog=program, description=description, epilog=examples.replace(own, program)
-    )
-    declare(parser)
-    if program == own:
-        shell_completion.add_option(parser)
-    return parser
-
-
 def faults_of(arguments: argparse.Namespace, kind: type[_Faults]) -> _Faults:
     """Return the faults that the arguments choose."""
     durations = {name: getattr(arguments, name) for name in described(kind, "seconds")}
@@ -130,33 +114,38 @@ def completion(parser: argparse.ArgumentParser, shell: str, kind: type[LineFault
         raise ValueError(str(error)) from None
 
 
-def servos(text: str) -> list[int]:
-    """Read a list of servos, as `1-6,9`. Raises ArgumentTypeError."""
-    try:
-        return parse_servos(text)
-    except ValueError:
-        known = "servos are numbered 0 to 253, as in 1-6,9"
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} names no servos: {known}") from None
+def up_to(highest: int, what: str) -> Callable[[str], int]:
+    """Return the argument type of a whole number from 0 to `highest`, which is some `what`."""
+
+    def read(text: str) -> int:
+        if re.fullmatch("[0-9]{1,9}", text) is None or int(text) > highest:
+            raise argparse.ArgumentTypeError(
+                f"{text[:40]!r} is no {what}: write one from 0 to {highest}"
+            )
+        return int(text)
+
+    return read
 
 
-def millivolts(text: str) -> int:
-    """Read a voltage in mV. Raises ArgumentTypeError."""
-    return _number(text, "voltage of a battery in mV")
+def via(arguments: argparse.Namespace) -> Literal["pty", "tcp"]:
+    """Return what kind of port is asked for. Raises ValueError for a link without a pty."""
+    if arguments.tcp is None and sys.platform != "win32":
+        return "pty"
+    if arguments.link is not None:
+        raise ValueError("--link names a pty, and there is none with --tcp")
+    return "tcp"
 
 
-def _tcp_port(text: str) -> int:
-    return _number(text, "TCP port")
-
-
-def _number(text: str, what: str) -> int:
-    if re.fullmatch("[0-9]{1,5}", text) is None or int(text) > _MOST:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} is no {what}: write one from 0 to {_MOST}")
-    return int(text)
-
-
-def pace(arguments: argparse.Namespace) -> float | None:
-    """Return the baud at which bytes take their time; None where they take none."""
-    return None if math.isinf(arguments.baud) else arguments.baud
+def line_of(arguments: argparse.Namespace, kind: type[LineFaults]) -> LineSettings:
+    """Return the line that the arguments choose, with its faults; it is paced, unless at inf."""
+    return {
+        "baud": None if math.isinf(arguments.baud) else arguments.baud,
+        "local_echo": arguments.local_echo,
+        "faults": faults_of(arguments, kind),
+        "link": arguments.link,
+        "host": arguments.host,
+        "tcp_port": arguments.tcp or 0,
+    }
 
 
 def _baud(text: str) -> float:

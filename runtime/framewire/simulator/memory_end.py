@@ -10,7 +10,6 @@ from .clock import RealClock, VirtualClock
 if TYPE_CHECKING:
     from collections.abc import Callable
     from threading import Condition
-    from types import ModuleType
 
     from .clock import Clock
     from .line import Line
@@ -31,10 +30,9 @@ class MemoryEnd:
         since: float,
         live: Callable[[], None],
         changed: Condition,
-        errors: ModuleType,
     ) -> None:
         # Those of the library whose client uses it.
-        self._errors = errors
+        self._errors = line.board.errors
         self._line = line
         self._clock = clock
         self._since = since

@@ -6,16 +6,20 @@ Not for Windows.
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import sys
-import termios
 from array import array
 
-_STANDARD: dict[int, int] = {
-    getattr(termios, name): int(name[1:])
-    for name in dir(termios)
-    if name[0] == "B" and name[1:].isdecimal()
-}
+# Windows has no terminals of this kind; where modules are only imported, this one may be, too.
+_STANDARD: dict[int, int] = {}
+if sys.platform != "win32":
+    import fcntl
+    import termios
+
+    _STANDARD |= {
+        getattr(termios, name): int(name[1:])
+        for name in dir(termios)
+        if name[0] == "B" and name[1:].isdecimal()
+    }
 _CONSTANTS = {rate: constant for constant, rate in _STANDARD.items()}
 _INPUT, _OUTPUT = 4, 5
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from threading import Condition, Thread
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypedDict
 
 from .clock import RealClock, VirtualClock
 from .line import Line
@@ -13,12 +14,15 @@ from .tcp_end import LOOPBACK, TcpEnd
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterator
     from types import TracebackType
 
     from typing_extensions import Self
 
+    from ..codec.rejects import Rejects
     from .clock import Clock
     from .event_log import EventLog
+    from .fault_injector import Report
     from .line_faults import LineFaults
     from .port_end import PortEnd
     from .virtual_device import VirtualDevice
@@ -27,6 +31,18 @@ if TYPE_CHECKING:
 AHEAD = 4096
 # A system wakes a thread this much later than requested; the rest of a wait is spent polling.
 OVERSLEEP = 0.0001
+
+
+class LineSettings(TypedDict, total=False):
+    """What a VirtualLine can be given by name."""
+
+    baud: float | None
+    local_echo: bool
+    clock: Clock | None
+    faults: LineFaults | None
+    link: str | os.PathLike[str] | None
+    host: str
+    tcp_port: int
 
 
 class VirtualLine:
@@ -79,9 +95,7 @@ class VirtualLine:
             return TcpEnd(host, tcp_port)
         if via != "memory":
             raise ValueError(f"via is {via!r}: it is 'memory', 'pty' or 'tcp'")
-        self._transport = MemoryEnd(
-            self._line, self.clock, self._since, self._live, self._changed, self._device.errors
-        )
+        self._transport = MemoryEnd(self._line, self.clock, self._since, self._live, self._changed)
         return self._transport
 
     def __enter__(self) -> Self:
@@ -146,10 +160,15 @@ class VirtualLine:
         return self._device.heard
 
     @property
+    def rejects(self) -> Rejects:
+        """The device's counts of rejected input, by reason."""
+        self._nudge()
+        return self._device.rejects
+
+    @property
     def rejected(self) -> int:
         """How much input the device rejected."""
-        self._nudge()
-        return self._device.rejects.total
+        return self.rejects.total
 
     @property
     def log(self) -> EventLog:
@@ -183,10 +202,13 @@ class VirtualLine:
 
     def reboot(self, seconds: float = 1.0) -> None:
         """Switch the board off and on: for so many seconds it receives and sends nothing."""
-        with self._changed:
-            self._live()
+        with self._now():
             self._line.reboot(seconds)
-        self._nudge()
+
+    def report(self, report: Report) -> None:
+        """Send a message of the device's own accord."""
+        with self._now():
+            self._device.send(report)
 
     def unplug(self) -> None:
         """Pull the cable out. The board lives on."""
@@ -230,6 +252,14 @@ class VirtualLine:
         """Return when something happens next, on the clock; None while nothing will."""
         event = None if self._closing else self._line.next_event
         return None if event is None else self._since + event
+
+    @contextmanager
+    def _now(self) -> Iterator[None]:
+        """Advance to now, for something that happens to the device; then go on."""
+        with self._changed:
+            self._live()
+            yield
+        self._nudge()
 
     def _nudge(self) -> None:
         """Advance to now, and let the thread recalculate how long to wait."""

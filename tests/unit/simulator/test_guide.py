@@ -23,9 +23,8 @@ from busservo import (
 )
 from busservo_simulator import ActionGroup, Step
 from busservo_simulator.board import Board
-from busservo_simulator.cli import _board
+from busservo_simulator.cli import SIMULATOR
 from busservo_simulator.faults import CHANCES, TO_BOARD
-from busservo_simulator.options import PROGRAM, parser_of
 
 from tests.in_turn import in_turn
 from tests.timeouts import LIVE
@@ -64,7 +63,7 @@ SHOWN = [pytest.param(block, marks=list(marks(block))) for block in BLOCKS]
 
 @in_turn("words", lambda: COMMANDS)
 def test_a_command_puts_a_board_behind_a_port(words: str) -> None:
-    with _board(parser_of(PROGRAM).parse_args(words.split())) as board:
+    with SIMULATOR.made_of(SIMULATOR.parser().parse_args(words.split())) as board:
         assert board.port
 
 
@@ -133,25 +132,6 @@ def test_the_guide_says_what_each_message_has_the_board_send() -> None:
 def test_every_message_has_led2_blink_once(messages: list[Message]) -> None:
     log = re.findall(r"LED2 +(.*?)(?::|$)", str(board_after(messages).event_log), re.MULTILINE)
     assert log == len(messages) * ["blinks"]
-
-
-def test_servos_arrive_together_and_go_limp_until_the_next_move() -> None:
-    move = ServoMove(time_ms=500, targets=[(1, 700), (2, 510)])
-    assert all(board_after([move], 0.49).servos[each].travelling for each in (1, 2))
-    assert not any(board_after([move], 0.5).servos[each].travelling for each in (1, 2))
-    limp = [move, ServoUnload([1])]
-    assert [board_after(each).servos[1].loaded for each in (limp, [*limp, move])] == [False, True]
-
-
-def test_a_speed_is_that_of_the_steps_to_come_until_a_restart() -> None:
-    half = ActionGroupSpeed(group=8, percent=50)
-    for before, end in (([RUN], 10), ([half, RUN], 20), ([RUN, half], 19.9)):
-        assert "ActionGroupCompleted" not in sent_by(board_after(before, end - 0.01))
-        assert "ActionGroupCompleted" in sent_by(board_after(before, end + 0.01))
-    board = board_after([half, ActionGroupSpeed(group=8, percent=0)])
-    assert board.speeds == {8: 50}
-    board.reboot(1)
-    assert board.speeds == {}
 
 
 def test_a_stopped_group_completes_its_step() -> None:

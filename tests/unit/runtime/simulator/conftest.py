@@ -1,0 +1,56 @@
+"""Boards for tests, by each kind of port."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import ExitStack
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo import open_transport
+from busservo._library import LINK
+from busservo_simulator import VirtualController
+
+from tests.lines.at_board import virtual_board
+from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
+from tests.lines.hosts import Host, host_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+__all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
+
+WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
+
+
+@pytest.fixture
+def board() -> Iterator[VirtualController]:
+    """Yield a board whose time goes on when somebody waits for it, and never by itself."""
+    with virtual_board() as board:
+        yield board
+
+
+@pytest.fixture
+def host(board: VirtualController) -> Host:
+    """Return a host of that board."""
+    return host_of(board)
+
+
+def host_at(board: VirtualController, baud: float = LINK.baud) -> Host:
+    """Return a host that has opened the port of a board, or its transport."""
+    memory = board.port == "virtual board"
+    return Host(board.open() if memory else open_transport(board.port, baud=baud))
+
+
+@pytest.fixture(params=WAYS)
+def connect(request: pytest.FixtureRequest) -> Iterator[Callable[..., tuple[Any, Host]]]:
+    """Yield a function that makes a board on real time, and a host that has opened its port."""
+    with ExitStack() as boards, ExitStack() as hosts:
+
+        def make(**options: Any) -> tuple[VirtualController, Host]:
+            board = boards.enter_context(VirtualController(request.param, **options))
+            host = host_at(board, options.get("baud") or LINK.baud)
+            hosts.callback(host.hang_up)
+            return board, host
+
+        yield make

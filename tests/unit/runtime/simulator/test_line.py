@@ -1,0 +1,251 @@
+"""The line: how long bytes take, what comes of faults, echoes and rates, and that nothing fails."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from busservo import (
+    ActionGroupStarted,
+    ActionGroupStop,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    Direction,
+    ServoMove,
+    ServoPositions,
+    ServoPositionsRead,
+    strategies,
+)
+from busservo_simulator import Board, Faults, VirtualController
+from busservo_simulator.faults import CHANCES
+from framewire.simulator.line import Line
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.in_turn import in_turn
+from tests.lines.at_board import virtual_board
+from tests.lines.hosts import Host, host_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    Connect = Callable[..., tuple[Any, Host]]
+    Chunks = list[tuple[bytes, float]]
+
+HOST = Direction.HOST_TO_CONTROLLER
+VOLTAGE = BatteryVoltage(7500)
+ASK, REPLY = BatteryVoltageRead().encode(), VOLTAGE.encode()
+MOVE = ServoMove(0, [(1, 500)]).encode()
+SIX = ServoPositions([(servo_id, 500) for servo_id in range(1, 7)]).encode()
+
+
+def test_reading_six_servos_takes_as_long_as_the_wire_needs() -> None:
+    with virtual_board(baud=9600) as board:
+        host = host_of(board)
+        for _ in range(100):
+            assert host.ask(ServoPositionsRead(range(1, 7)))
+        assert board.clock.now() == pytest.approx(100 * 34 / 960)
+
+
+def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, host: Host) -> None:
+    board.spurious_output(b"\x55", per_second=100)
+    host.say(BatteryVoltageRead())
+    assert host.receive(1.0) is None
+    assert set(host.bytes) == {0x55}
+    assert len(host.bytes) == pytest.approx(100, abs=2)
+    board.spurious_output(None)
+    assert board.accepted == 0
+    assert host.ask(BatteryVoltageRead()) == VOLTAGE
+
+
+def test_a_board_that_floods_reports_still_answers(board: VirtualController, host: Host) -> None:
+    started = ActionGroupStarted(8, 1)
+    board.spurious_output(started.encode(), per_second=1000, ignore_input=False)
+    host.say(BatteryVoltageRead())
+    received = [host.receive() for _ in range(50)]
+    assert (received.count(VOLTAGE), received.count(started)) == (1, 49)
+
+
+def test_raw_bytes_can_be_sent(board: VirtualController, host: Host) -> None:
+    board.send_bytes(REPLY[:3])
+    board.send_bytes(REPLY[3:])
+    assert host.receive() == VOLTAGE
+
+
+def test_bytes_sent_to_an_unplugged_host_are_lost(board: VirtualController) -> None:
+    line = Line(Board())
+    line.cut()
+    line.send(b"UU", 0.0)
+    line.mend()
+    assert line.read(1.0) == []
+    board.unplug()
+    board.send_bytes(REPLY)
+    board.plug_in()
+    again = Host(board.open())
+    assert again.ask(BatteryVoltageRead()) == VOLTAGE
+    assert again.transport.read(1.0) == b""
+    assert len(board.board.event_log) == len([*board.board.event_log]) > 0
+
+
+# -------------------------------------------------------------------- whatever arrives
+
+FAULTS = st.builds(
+    Faults,
+    seed=st.integers(0, 99),
+    **dict.fromkeys(CHANCES, st.floats(0, 0.5)) | {"hang_up": st.floats(0, 0.05)},
+)
+FRAMES = strategies.messages(HOST).map(lambda message: message.encode())
+CHUNKS = st.lists(st.tuples(st.binary(max_size=40) | FRAMES, st.floats(0, 2)), max_size=20)
+RATES = st.sampled_from([None, 300, 9601, 921600])
+
+
+def carried(line: Line, chunks: Chunks, host_baud: float | None) -> list[bytes]:
+    """Return what a host receives that writes these bytes, with a pause behind each."""
+    line.host_baud = host_baud
+    received, moment = [], 0.0
+    for data, pause in chunks:
+        line.write(data, moment)
+        received += line.read(moment)
+        moment += pause
+        received += line.read(moment)
+    return received + line.read(moment + 100)
+
+
+@given(CHUNKS, FAULTS, st.sampled_from([None, 9600]), RATES, st.booleans())
+@pytest.mark.garbage
+def test_nothing_that_arrives_can_make_the_board_fail(
+    chunks: Chunks, faults: Faults, baud: float | None, host_baud: float | None, local_echo: bool
+) -> None:
+    line = Line(Board(range(256)), baud=baud, local_echo=local_echo, faults=faults)
+    carried(line, chunks, host_baud)
+    assert line.in_transit == 0
+
+
+@given(CHUNKS, FAULTS, RATES)
+@pytest.mark.garbage
+def test_the_same_seed_and_the_same_traffic_give_the_same_bytes(
+    chunks: Chunks, faults: Faults, host_baud: float | None
+) -> None:
+    once, again = (carried(Line(Board(), faults=faults), chunks, host_baud) for _ in range(2))
+    assert once == again
+
+
+@given(st.lists(FRAMES), st.integers(1, 40), st.booleans())
+def test_legal_traffic_is_never_refused(frames: list[bytes], size: int, slow: bool) -> None:
+    line = Line(Board(), baud=9600 if slow else None)
+    data = b"".join(frames)
+    for at in range(0, len(data), size):
+        line.write(data[at : at + size], 0.0)
+    line.read(len(data) / 960 + 1)
+    assert (line.board.heard, line.board.rejects.total) == (len(frames), 0)
+
+
+@pytest.mark.garbage
+@given(st.lists(FRAMES), st.integers(0, 99))
+def test_no_noise_on_the_way_to_the_board_costs_a_frame(frames: list[bytes], seed: int) -> None:
+    line = Line(Board(), faults=Faults(seed=seed, noise_to_board=0.5, splits_to_board=0.5))
+    for frame in frames:
+        line.write(frame, 0.0)
+    line.read(len(frames) + 1)
+    assert line.board.heard == len(frames)
+
+
+@given(FRAMES, st.floats(0, 5), st.integers(1, 10))
+def test_how_often_one_looks_makes_no_difference(frame: bytes, until: float, looks: int) -> None:
+    def run(moments: Iterable[float]) -> tuple[bytes, list[int], int]:
+        board = Board()
+        line = Line(board)
+        line.write(frame, 0.0)
+        data = b"".join(piece for moment in moments for piece in line.read(moment))
+        return data, [servo.position for servo in board.servos.values()], board.battery.voltage_mv
+
+    assert run([until]) == run([*(until * look / looks for look in range(looks)), until])
+
+
+# -------------------------------------------------------------------- an adapter that echoes
+
+
+@pytest.mark.garbage
+def test_what_is_sent_comes_back_frame_or_not_in_front_of_the_reply(connect: Connect) -> None:
+    board, host = connect(local_echo=True)
+    for written in ([ASK], [MOVE, ASK], [b"\x00\x55"]):
+        for data in written:
+            host.transport.write(data)
+        expected = b"".join(written) + REPLY * (ASK in written)
+        assert host.collect(len(expected)) == expected
+    assert (board.accepted, board.rejects.total) == (3, 1)
+
+
+def test_an_echo_is_paced_as_what_is_sent() -> None:
+    with virtual_board(baud=9600, local_echo=True) as board:
+        host = host_of(board)
+        for data, received, end in ((MOVE, MOVE, 10), (ASK, ASK + REPLY, 20)):
+            host.transport.write(data)
+            assert host.collect(10) == received
+            assert board.clock.now() == pytest.approx(end / 960)
+
+
+def test_it_is_the_adapter_that_echoes_whatever_the_board_does() -> None:
+    faults = Faults(dropped=1, bit_flips=1, lost_bytes=1, late=1)
+    with virtual_board(local_echo=True, faults=faults) as board:
+        host = host_of(board)
+        board.reboot(1.0)
+        for data in (ASK, MOVE, ActionGroupStop().encode()):
+            host.transport.write(data)
+            assert host.collect(len(data)) == data
+        board.unplug()
+        board.plug_in()
+        assert board.open().read(0.1) == b""
+
+
+def test_there_is_no_echo_by_default(connect: Connect) -> None:
+    _, host = connect()
+    host.transport.write(MOVE)
+    host.transport.write(ASK)
+    assert host.collect(len(REPLY)) == REPLY
+
+
+@pytest.mark.garbage
+def test_an_adapter_gives_back_what_was_sent_at_whatever_rate() -> None:
+    line = Line(Board(), baud=9600, local_echo=True)
+    line.host_baud = 115200
+    line.write(MOVE, 0.0)
+    assert b"".join(line.read(10.01 / 11520)) == MOVE
+    line.read(1.0)
+    assert line.board.heard == 0
+
+
+# -------------------------------------------------------------------- a host at another rate
+
+
+def read_at(host_baud: float, seed: int = 0, baud: float | None = 9600) -> tuple[bytes, float]:
+    """Return the bytes that a host reads of a report of six servos, and when the last has come."""
+    line = Line(Board(), baud=baud)
+    line.faults = Faults(seed=seed)
+    line.host_baud = host_baud
+    assert line.host_baud == host_baud
+    line.send(SIX, 0.0)
+    data, end = b"", 0.0
+    while (event := line.next_event) is not None:
+        end = event
+        data += b"".join(line.read(event))
+    return data, end
+
+
+def test_garbage_takes_as_long_as_what_was_sent() -> None:
+    for host_baud in (9600, 19200, 38400, 115200, 4800):
+        data, end = read_at(host_baud)
+        assert (data == SIX) == (host_baud == 9600)
+        assert end == pytest.approx(len(SIX) / 960)
+    assert read_at(115200, baud=None)[1] == 0.0
+
+
+def test_the_seed_says_which_garbage() -> None:
+    # Of every second bit one is looked at, at its very edge.
+    assert read_at(4800, seed=1) == read_at(4800, seed=1)
+    assert len({read_at(4800, seed) for seed in range(9)}) > 1
+
+
+@in_turn("baud, rate", lambda: [(None, 9600), (float("inf"), 9600), (4800.0, 4800.0)])
+def test_a_board_without_a_rate_has_that_of_the_protocol(baud: float | None, rate: float) -> None:
+    assert Line(Board(), baud=baud).baud == rate

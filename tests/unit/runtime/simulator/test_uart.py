@@ -1,0 +1,85 @@
+"""What a UART reads of bytes that were sent at another rate than its own."""
+
+from __future__ import annotations
+
+from random import Random
+
+from busservo import BatteryVoltageRead, Direction, StreamDecoder, strategies
+from busservo._library import LINK
+from framewire.line.link import Link
+from framewire.simulator.uart import sampled
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.in_turn import in_turn
+
+ASK = BatteryVoltageRead().encode()
+RATES = st.sampled_from([300, 1200, 2400, 4800, 14400, 19200, 38400, 57600, 115200, 921600])
+FORMS = [
+    LINK,
+    Link(baud=9600, data_bits=7, parity="even", stop_bits=2),
+    *(Link(baud=9600, parity=each) for each in ("odd", "mark", "space")),
+]
+
+
+def read_by(data: bytes, sent_at: float, read_at: float, seed: int = 1, link: Link = LINK) -> bytes:
+    return sampled(data, sent_at, read_at, link, Random(seed))  # noqa: S311 - to be repeated
+
+
+@in_turn(
+    "sent_at, read_at, read",
+    lambda: [
+        (9600, 9600, "55 55 02 0f"),
+        # 3 % off is read all the same, and so the other way round.
+        (9600, 9900, "55 55 02 0f"),
+        (9900, 9600, "55 55 02 0f"),
+        # 55 is 0101..., so that half of its bits at twice the rate are 0011... again and again.
+        (9600, 19200, "66 66 66 86 00 fe 80"),
+        # To a reader that is much faster, each low stretch is a break.
+        (9600, 115200, "00 " * 13 + "00"),
+        (38400, 9600, "48"),
+        # Too short to be a start bit.
+        (921600, 9600, ""),
+    ],
+)
+def test_a_byte_is_sampled_bit_by_bit(sent_at: int, read_at: int, read: str) -> None:
+    assert read_by(ASK, sent_at, read_at).hex(" ") == read
+
+
+@in_turn(
+    "parity, lows",
+    lambda: [("none", 0), ("even", 1), ("odd", 2), ("mark", 0), ("space", 3)],
+)
+def test_parity_is_a_bit_behind_those_of_the_byte(parity: str, lows: int) -> None:
+    # C5 has four ones, and 83 three. Behind the highest of them, a reader that is twice as fast
+    # takes a parity of 0 for a start bit: one more byte.
+    link = Link(baud=9600, parity=parity)
+    more = [len(read_by(bytes([byte]), 9600, 19200, link=link)) - 1 for byte in (0xC5, 0x83)]
+    assert more == [lows & 1, lows >> 1]
+
+
+@given(st.binary(), st.floats(0.97, 1.03), st.integers(), st.sampled_from(FORMS))
+def test_a_reader_that_is_a_little_off_reads_what_was_sent(
+    data: bytes, ratio: float, seed: int, link: Link
+) -> None:
+    data = bytes(byte % (1 << link.data_bits) for byte in data)
+    assert read_by(data, 9600 * ratio, 9600, seed, link) == data
+
+
+@given(st.binary(max_size=60), RATES, st.integers())
+def test_a_read_at_another_rate_is_no_longer_than_can_fit(
+    data: bytes, rate: int, seed: int
+) -> None:
+    # A byte needs a falling edge and, until the next, ten bits of the reader's; one sent has five
+    # such edges at most.
+    read = read_by(data, rate, 9600, seed)
+    assert len(read) <= min(5 * len(data), len(data) * 9600 / rate * 10 / 9.4 + 1)
+
+
+@given(RATES, st.sampled_from(Direction), st.data())
+def test_garbage_holds_no_message(rate: int, direction: Direction, data: st.DataObject) -> None:
+    sent = data.draw(st.lists(strategies.messages(direction), min_size=1, max_size=3))
+    burst = b"".join(message.encode() for message in sent)
+    for sent_at, read_at in ((rate, 9600), (9600, rate)):
+        read = read_by(burst, sent_at, read_at)
+        assert not [each for each in StreamDecoder(direction).feed(read) if each in sent]
