@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
@@ -26,7 +26,7 @@ from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host, host_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable
 
 NOD = ActionGroup([Step(300, {1: 600}), Step(200, {1: 400})])
 
@@ -38,90 +38,69 @@ def positions(host: Host, *servo_ids: int) -> list[tuple[int, int]]:
     return [(servo_id, position) for servo_id, position in reply.positions]
 
 
+def done(board: VirtualController, steps: Iterable[Any]) -> Host:
+    """Send a board messages, wait so many seconds, or do something; return the host."""
+    host = host_of(board)
+    for step in steps:
+        if callable(step):
+            step(board)
+        elif isinstance(step, float):
+            board.advance(step)
+        else:
+            host.say(step)
+    return host
+
+
 # -------------------------------------------------------------------- servos
 
-
-def test_servos_begin_at_the_centre_and_hold(board: VirtualController, host: Host) -> None:
-    assert positions(host, 1, 6) == [(1, 500), (6, 500)]
-    assert all(servo.loaded for servo in board.servos.values())
+TO_800 = ServoMove(1000, [(1, 800), (2, 100)])
 
 
-def test_a_servo_travels_to_its_target_in_the_given_time(
+@in_turn(
+    "steps, there",
+    lambda: [
+        ([], {1: 500, 6: 500}),
+        ([TO_800, 0.5], {1: 650, 2: 300, 3: 500}),
+        ([TO_800, 1.0], {1: 800, 2: 100, 3: 500}),
+        # To a new target it travels from where it is.
+        ([TO_800, 0.5, ServoMove(1000, [(1, 550)]), 0.5], {1: 600}),
+        # No faster than it can, and no further.
+        ([ServoMove(0, [(1, 1000)])], {1: 500}),
+        ([ServoMove(0, [(1, 1000)]), 0.1], {1: 656}),
+        *(([ServoMove(500, [(1, to)]), 1.0], {1: min(to, 1000)}) for to in (0, 1001, 65535)),
+        ([TO_800, 0.5, ServoUnload([1]), 1.0], {1: 650, 2: 100}),
+        ([TO_800, ServoUnload([1]), lambda board: board.servos[1].turn_by_hand(1200)], {1: 1000}),
+        ([ServoMove(500, [(254, 700)]), 1.0], dict.fromkeys(range(1, 7), 700)),
+    ],
+)
+def test_a_servo_is_where_it_was_sent(steps: list[Any], there: dict[int, int]) -> None:
+    with virtual_board() as board:
+        assert positions(done(board, steps), *there, 77) == [*there.items()]
+        assert [board.servos[each].position for each in there] == [*there.values()]
+
+
+def test_a_servo_holds_until_it_is_unloaded_and_from_the_next_move_on(
     board: VirtualController, host: Host
 ) -> None:
-    host.say(ServoMove(1000, [(1, 800), (2, 100)]))
-    board.advance(0.5)
-    assert positions(host, 1, 2, 3) == [(1, 650), (2, 300), (3, 500)]
-    board.advance(0.5)
-    assert positions(host, 1, 2, 3) == [(1, 800), (2, 100), (3, 500)]
-
-
-def test_a_new_target_is_travelled_to_from_where_the_servo_is(
-    board: VirtualController, host: Host
-) -> None:
-    host.say(ServoMove(1000, [(1, 800)]))
-    board.advance(0.5)
-    host.say(ServoMove(1000, [(1, 550)]))
-    board.advance(0.5)
-    assert positions(host, 1) == [(1, 600)]
-
-
-def test_no_servo_is_faster_than_it_can(board: VirtualController, host: Host) -> None:
-    host.say(ServoMove(0, [(1, 1000)]))
-    assert 500 < board.servos[1].position + 1 < 1000
-    board.advance(0.1)
-    assert board.servos[1].position == 656
-    board.advance(0.3)
-    assert board.servos[1].position == 1000
-
-
-@pytest.mark.parametrize(("requested", "reached"), [(65535, 1000), (1001, 1000), (0, 0)])
-def test_a_servo_goes_no_further_than_it_can(
-    board: VirtualController, host: Host, requested: int, reached: int
-) -> None:
-    host.say(ServoMove(500, [(1, requested)]))
-    board.advance(1)
-    assert board.servos[1].position == reached
-
-
-def test_an_unloaded_servo_stops_and_can_be_turned_by_hand(
-    board: VirtualController, host: Host
-) -> None:
-    host.say(ServoMove(1000, [(1, 800)]))
-    board.advance(0.5)
-    host.say(ServoUnload([1]))
-    board.advance(1)
-    assert (board.servos[1].loaded, board.servos[1].position) == (False, 650)
-    board.servos[1].turn_by_hand(200)
-    assert positions(host, 1) == [(1, 200)]
-    host.say(ServoMove(0, [(1, 200)]))
-    assert board.servos[1].loaded
-
-
-def test_a_servo_that_holds_cannot_be_turned_by_hand(board: VirtualController) -> None:
+    servo = board.servos[1]
     with pytest.raises(ValueError, match="unload it first"):
-        board.servos[1].turn_by_hand(200)
+        servo.turn_by_hand(200)
+    shown = [repr(servo)]
+    for message in (ServoUnload([254]), ServoMove(0, [(1, 500)])):
+        host.say(message)
+        shown.append(repr(servo))
+    states = ["holding", "limp", "holding"]
+    assert shown == [f"Servo(1, {state}, position=500)" for state in states]
+    assert [each.loaded for each in board.servos.values()] == [True, *[False] * 5]
 
 
-def test_number_254_is_every_servo(board: VirtualController, host: Host) -> None:
-    host.say(ServoMove(500, [(254, 700)]), ServoUnload([254]))
-    board.advance(1)
-    assert not any(servo.loaded for servo in board.servos.values())
-
-
-def test_a_servo_that_is_missing_is_left_out(board: VirtualController, host: Host) -> None:
-    board.servos[2].missing = True
-    assert positions(host, 1, 2, 3, 77) == [(1, 500), (3, 500)]
-    assert positions(host, 2) == []
-
-
-def test_a_servo_that_is_off_is_reported_as_65535_and_does_not_move(
+def test_a_servo_that_is_off_is_reported_as_65535_and_one_that_is_missing_not_at_all(
     board: VirtualController, host: Host
 ) -> None:
-    board.servos[2].off = True
-    host.say(ServoMove(100, [(2, 900)]))
-    board.advance(1)
-    assert positions(host, 1, 2) == [(1, 500), (2, 65535)]
+    board.servos[2].off = board.servos[4].missing = True
+    done(board, [ServoMove(100, [(2, 900)]), 1.0])
+    assert positions(host, 1, 2, 3, 4, 77) == [(1, 500), (2, 65535), (3, 500)]
+    assert positions(host, 4) == []
     board.servos[2].off = False
     assert positions(host, 2) == [(2, 500)]
 
@@ -135,96 +114,61 @@ def test_a_read_that_no_reply_could_hold_is_met_with_silence(
     assert "85 servos fit in no reply: silence" in str(board.log)
 
 
-def test_a_servo_says_what_it_does(board: VirtualController, host: Host) -> None:
-    assert repr(board.servos[1]) == "Servo(1, holding, position=500)"
-    host.say(ServoUnload([1]))
-    assert repr(board.servos[1]) == "Servo(1, limp, position=500)"
-
-
 # -------------------------------------------------------------------- action groups
 
+RUN, RUN_ON = ActionGroupRun(5, 1), ActionGroupRun(5, 0)
+STARTED, COMPLETED = ActionGroupStarted(5, 1), ActionGroupCompleted(5, 1)
+STARTED_ON, STOPPED = ActionGroupStarted(5, 0), ActionGroupStopped()
 
-Nodding = tuple[VirtualController, Host]
+
+def press(group: int | None) -> Any:
+    return lambda board: board.press_button(group)
 
 
-@pytest.fixture
-def nodding() -> Iterator[Nodding]:
-    """Yield a board that knows group 5, and its host."""
+@in_turn(
+    "steps, reports, seconds",
+    lambda: [
+        ([RUN], [STARTED, COMPLETED], 0.5),
+        ([ActionGroupRun(5, 2)], [ActionGroupStarted(5, 2), ActionGroupCompleted(5, 2)], 1.0),
+        # The speed of one group or of all; from the next step on; and none of 0 %.
+        ([ActionGroupSpeed(5, 200), RUN], [STARTED, COMPLETED], 0.25),
+        ([ActionGroupSpeed(ActionGroupSpeed.GROUP_ALL, 200), RUN], [STARTED, COMPLETED], 0.25),
+        ([ActionGroupSpeed(4, 200), RUN], [STARTED, COMPLETED], 0.5),
+        ([RUN, ActionGroupSpeed(5, 50)], [STARTED, COMPLETED], 0.3 + 0.4),
+        ([ActionGroupSpeed(5, 0), RUN], [STARTED, COMPLETED], 0.5),
+        # Without end, until it is stopped or replaced.
+        ([RUN_ON, 100.0, ActionGroupStop(), ActionGroupStop()], [STARTED_ON, STOPPED], 100.0),
+        ([RUN_ON, RUN], [STARTED_ON, STARTED, COMPLETED], 0.5),
+        ([ActionGroupRun(77, 1)], [], 0.0),
+        ([press(5), press(None)], [STARTED, STOPPED], 0.0),
+        # A restart forgets speeds, groups and half a frame.
+        (
+            [ActionGroupSpeed(5, 200), RUN_ON, lambda board: board.reboot(2.0), 2.0, RUN],
+            [STARTED_ON, STARTED, COMPLETED],
+            2.5,
+        ),
+    ],
+)
+def test_a_group_reports_what_it_does(steps: list[Any], reports: list[Any], seconds: float) -> None:
     with virtual_board(groups={5: NOD}) as board:
-        yield board, host_of(board)
+        host = done(board, steps)
+        for report in reports:
+            assert host.receive() == report
+        assert board.clock.now() == pytest.approx(seconds)
+        assert host.receive() is None
+        assert ("77 is not stored: silence" in str(board.log)) == (not reports)
 
 
-def test_a_group_starts_runs_and_ends_with_a_report_each(nodding: Nodding) -> None:
-    board, host = nodding
-    assert host.ask(ActionGroupRun(5, 2)) == ActionGroupStarted(5, 2)
-    board.advance(0.15)
-    assert board.servos[1].position == 550
-    board.advance(0.25)
-    assert board.servos[1].position == 500
-    assert host.receive() == ActionGroupCompleted(5, 2)
-    assert board.clock.now() == pytest.approx(1.0)
-    assert board.servos[1].position == 400
-
-
-def test_a_group_without_end_runs_until_it_is_stopped(nodding: Nodding) -> None:
-    _board, host = nodding
-    assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
-    assert host.receive(timeout=100) is None
-    assert host.ask(ActionGroupStop()) == ActionGroupStopped()
-    assert host.ask(ActionGroupStop()) is None
-
-
-@pytest.mark.parametrize("group", [5, ActionGroupSpeed.GROUP_ALL])
-def test_the_speed_changes_how_long_a_group_takes(nodding: Nodding, group: int) -> None:
-    board, host = nodding
-    host.say(ActionGroupSpeed(group, 200), ActionGroupRun(5, 1))
-    assert host.receive() == ActionGroupStarted(5, 1)
-    assert host.receive() == ActionGroupCompleted(5, 1)
-    assert board.clock.now() == pytest.approx(0.25)
-
-
-def test_a_speed_set_meanwhile_holds_from_the_next_step(nodding: Nodding) -> None:
-    board, host = nodding
-    host.ask(ActionGroupRun(5, 1))
-    host.say(ActionGroupSpeed(5, 50))
-    assert host.receive() == ActionGroupCompleted(5, 1)
-    assert board.clock.now() == pytest.approx(0.3 + 0.4)
-
-
-def test_a_speed_of_nothing_is_ignored(nodding: Nodding) -> None:
-    board, host = nodding
-    host.say(ActionGroupSpeed(5, 0), ActionGroupRun(5, 1))
-    host.receive()
-    assert host.receive() == ActionGroupCompleted(5, 1)
-    assert board.clock.now() == pytest.approx(0.5)
+@in_turn("seconds, position", lambda: [(0.15, 550), (0.3, 600), (0.4, 500), (0.5, 400)])
+def test_a_group_moves_servos(seconds: float, position: int) -> None:
+    with virtual_board(groups={5: NOD}) as board:
+        done(board, [RUN, seconds])
+        assert board.servos[1].position == position
 
 
 def test_the_report_that_a_group_starts_can_be_left_out() -> None:
     with virtual_board(groups={5: NOD}, start_report=False) as board:
-        assert host_of(board).ask(ActionGroupRun(5, 1)) == ActionGroupCompleted(5, 1)
-
-
-def test_a_group_that_is_not_stored_is_met_with_silence(
-    board: VirtualController, host: Host
-) -> None:
-    assert host.ask(ActionGroupRun(77, 1)) is None
-    assert "77 is not stored: silence" in str(board.log)
-
-
-def test_a_group_replaces_the_one_that_runs(nodding: Nodding) -> None:
-    _board, host = nodding
-    assert host.ask(ActionGroupRun(5, 0)) == ActionGroupStarted(5, 0)
-    assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
-    assert host.receive() == ActionGroupCompleted(5, 1)
-    assert host.receive() is None
-
-
-def test_the_button_on_the_board_is_reported_too(nodding: Nodding) -> None:
-    board, host = nodding
-    board.press_button(5)
-    assert host.receive() == ActionGroupStarted(5, 1)
-    board.press_button(None)
-    assert host.receive() == ActionGroupStopped()
+        assert host_of(board).ask(RUN) == COMPLETED
 
 
 def test_groups_come_with_the_board(board: VirtualController, host: Host) -> None:
@@ -240,38 +184,29 @@ def test_an_action_group_without_steps_is_refused() -> None:
 
 # -------------------------------------------------------------------- battery
 
-
-def voltage(host: Host) -> int:
-    """Return the board's reply about its battery."""
-    reply = host.ask(BatteryVoltageRead())
-    assert isinstance(reply, BatteryVoltage)
-    return reply.voltage_mv
+BOTH = ServoMove(1000, [(1, 800), (2, 800)])
+LONG = 500 * 3600.0
 
 
-def test_the_battery_sags_while_servos_travel_and_recovers(
-    board: VirtualController, host: Host
+@in_turn(
+    "begin, steps, voltage_mv",
+    lambda: [
+        (7500, [], 7500),
+        # It sags while servos travel, and recovers.
+        (7500, [BOTH, 0.5], 7450),
+        (7500, [BOTH, 1.5], 7500),
+        # It runs down, but not below empty, or where it began.
+        (7500, [3600.0], 7440),
+        *((begin, [], begin) for begin in (0, 4700, 6000, 65535)),
+        *((begin, [LONG], min(begin, 6000)) for begin in (0, 4700, 6000, 7500)),
+        (65535, [LONG], 35535),
+    ],
+)
+def test_the_battery_has_the_voltage_of_the_moment(
+    begin: int, steps: list[Any], voltage_mv: int
 ) -> None:
-    assert voltage(host) == 7500
-    host.say(ServoMove(1000, [(1, 800), (2, 800)]))
-    board.advance(0.5)
-    assert voltage(host) == 7450
-    board.advance(1)
-    assert voltage(host) == 7500
-
-
-def test_the_battery_runs_down_but_not_below_empty(board: VirtualController, host: Host) -> None:
-    board.advance(3600)
-    assert voltage(host) == 7440
-    board.advance(100 * 3600)
-    assert voltage(host) == 6000
-
-
-@in_turn("asked_for", lambda: [0, 4700, 6000, 65535])
-def test_a_battery_begins_where_it_is_asked_to(asked_for: int) -> None:
-    with virtual_board(battery_mv=asked_for) as board:
-        assert voltage(host_of(board)) == asked_for
-        board.advance(500 * 3600)
-        assert voltage(host_of(board)) == (asked_for if asked_for <= 6000 else 35535)
+    with virtual_board(battery_mv=begin) as board:
+        assert done(board, steps).ask(BatteryVoltageRead()) == BatteryVoltage(voltage_mv)
 
 
 # -------------------------------------------------------------------- LED, buzzer, restart
@@ -296,22 +231,14 @@ def test_right_frames_blink_and_wrong_ones_beep(board: VirtualController, host: 
 def test_a_wrong_frame_is_met_with_silence(board: VirtualController, host: Host) -> None:
     host.transport.write(bytes.fromhex("55 55 04 0F 4C 1D"))
     assert host.receive() is None
-    assert voltage(host) == 7500
+    assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
 
 
-def test_a_board_that_restarts_receives_nothing_and_forgets_speeds_and_groups(
-    nodding: Nodding,
-) -> None:
-    board, host = nodding
-    host.say(ActionGroupSpeed(5, 200))
-    host.ask(ActionGroupRun(5, 0))
+def test_a_board_that_restarts_receives_nothing(board: VirtualController, host: Host) -> None:
     host.transport.write(b"\x55\x55\x08\x03")
     board.reboot(2.0)
-    assert host.ask(BatteryVoltageRead()) is None or board.clock.now() >= 2.0
-    board.advance(2)
-    assert voltage(host) == 7500
-    begun = board.clock.now()
-    assert host.ask(ActionGroupRun(5, 1)) == ActionGroupStarted(5, 1)
-    assert host.receive() == ActionGroupCompleted(5, 1)
-    assert board.clock.now() - begun == pytest.approx(0.5)
-    assert board.rejects.total == 0
+    host.say(BatteryVoltageRead())
+    assert host.receive(1.9) is None
+    board.advance(0.1)
+    assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
+    assert (board.accepted, board.rejects.total) == (1, 0)

@@ -7,7 +7,13 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import open_transport
+from busservo import (
+    ActionGroupStopped,
+    BatteryVoltage,
+    BatteryVoltageRead,
+    ServoPositions,
+    open_transport,
+)
 from busservo._library import LINK
 from busservo_simulator import VirtualController
 
@@ -20,6 +26,9 @@ if TYPE_CHECKING:
 
 __all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
 
+# A question, its reply, and reports of the board's own.
+ASK, VOLTAGE, STOPPED = BatteryVoltageRead(), BatteryVoltage(7500), ActionGroupStopped()
+SIX = ServoPositions([(servo_id, 500) for servo_id in range(1, 7)])
 WAYS = ["memory", "tcp"] if sys.platform == "win32" else ["memory", "tcp", "pty"]
 
 

@@ -9,13 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import (
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ServoPositions,
-    ServoPositionsRead,
-    open_transport,
-)
+from busservo import BatteryVoltage, ServoPositions, ServoPositionsRead, open_transport
 from busservo_simulator.cli import SIMULATOR
 from busservo_simulator.faults import CHANCES
 from lxservo_simulator.cli import SIMULATOR as BUS
@@ -24,6 +18,7 @@ from tests.in_turn import in_turn
 from tests.lines.hosts import Host
 from tests.programs import ran
 from tests.timeouts import GENEROUS
+from tests.unit.runtime.simulator.conftest import ASK, VOLTAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -36,7 +31,6 @@ if TYPE_CHECKING:
 
 ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
 BOARD = [sys.executable, "-m", "busservo_simulator"]
-ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
 not_windows = pytest.mark.skipif(sys.platform == "win32", reason="no pty and no SIGINT there")
 
 

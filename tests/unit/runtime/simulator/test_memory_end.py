@@ -7,23 +7,17 @@ import time
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo import (
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ServoMove,
-)
+from busservo import ServoMove
 from busservo_simulator import VirtualController
 from framewire.line.link_errors import ClosedError, DisconnectedError, PortNotFoundError
 
 from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host
 from tests.timeouts import GENEROUS
+from tests.unit.runtime.simulator.conftest import ASK, STOPPED, VOLTAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
 
 
 def test_drain_waits_for_what_is_on_the_wire_and_no_longer_than_told() -> None:
@@ -55,9 +49,9 @@ def reading(read: Callable[[], object]) -> tuple[threading.Thread, list[object]]
 def test_a_read_in_another_thread_gets_a_report_at_once() -> None:
     with VirtualController() as board:
         reader, found = reading(Host(board.transport).receive)
-        board.report(ActionGroupStopped())
+        board.report(STOPPED)
         reader.join(GENEROUS)
-        assert found == [ActionGroupStopped()]
+        assert found == [STOPPED]
 
 
 def test_a_read_without_bytes_ends_in_time() -> None:

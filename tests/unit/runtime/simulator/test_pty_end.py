@@ -6,16 +6,14 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead
 from busservo_simulator import VirtualController
 
-from tests.unit.runtime.simulator.conftest import host_at
+from tests.unit.runtime.simulator.conftest import ASK, VOLTAGE, host_at
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
-ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
 
 
 @pytest.mark.parametrize("left_behind", [False, True])

@@ -7,19 +7,13 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import (
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ServoPositions,
-    open_transport,
-)
+from busservo import open_transport
 from busservo_simulator import VirtualController
 
 from tests.in_turn import in_turn
 from tests.lines.hosts import Host
 from tests.timeouts import await_that
-from tests.unit.runtime.simulator.conftest import host_at
+from tests.unit.runtime.simulator.conftest import ASK, SIX, STOPPED, VOLTAGE, host_at
 
 if sys.platform != "win32":
     from framewire.simulator.pty_rate import read_rate, set_rate
@@ -31,8 +25,6 @@ if TYPE_CHECKING:
 needs_pty = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 # Elsewhere pyserial sets such a rate in a way that no pty takes.
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="an odd rate, on a pty")
-ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
-SIX = ServoPositions([(servo_id, 500) for servo_id in range(1, 7)])
 
 
 @pytest.fixture(params=[None, 9600, 57600, pytest.param(96000, marks=on_linux)])
@@ -84,7 +76,7 @@ def test_a_host_that_sets_no_rate_is_at_the_right_one(board: VirtualController) 
 @needs_pty
 def test_a_rate_stays_until_another_is_set(board: VirtualController) -> None:
     host_at(board, 38400).hang_up()
-    board.report(ActionGroupStopped())
+    board.report(STOPPED)
     await_that(lambda: "the host is at 38400 baud" in str(board.log))
     host = host_at(board, right(board))
     assert host.ask(ASK) == VOLTAGE

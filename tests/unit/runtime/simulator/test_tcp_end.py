@@ -8,18 +8,15 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import ActionGroupStopped, BatteryVoltage, BatteryVoltageRead
 from busservo_simulator import VirtualController
 from framewire.simulator.tcp_end import TcpEnd
 
 from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
-from tests.unit.runtime.simulator.conftest import host_at
+from tests.unit.runtime.simulator.conftest import ASK, STOPPED, VOLTAGE, host_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-
-ASK, VOLTAGE, STOPPED = BatteryVoltageRead(), BatteryVoltage(7500), ActionGroupStopped()
 
 
 @pytest.fixture

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import time
+from contextlib import nullcontext
+from typing import Any
 
 import pytest
 from busservo import AsyncController
 from busservo_simulator import VirtualClock, VirtualController
 from framewire.simulator.virtual_loop import VirtualLoop, run_virtual
 
+from tests.in_turn import in_turn
 from tests.lines.at_board import client_at
 
 
@@ -23,72 +26,54 @@ def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
 
     async def main() -> str:
         await asyncio.gather(sleep("late", 86_400), sleep("soon", 0.5), sleep("at once", 0))
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(asyncio.sleep(20), 10)
         return "done"
 
     assert run_virtual(main(), clock) == "done"
     assert woken == [("at once", 0.0), ("soon", 0.5), ("late", 86_400.0)]
-
-
-def test_a_deadline_is_kept_in_virtual_time() -> None:
-    clock = VirtualClock()
-
-    async def main() -> None:
-        with pytest.raises(asyncio.TimeoutError):
-            await asyncio.wait_for(asyncio.sleep(20), 10)
-
-    run_virtual(main(), clock)
-    assert clock.now() == 10
+    assert clock.now() == 86_410.0
 
 
 def test_time_stands_still_while_a_thread_works() -> None:
     clock = VirtualClock()
 
-    def slow() -> int:
-        time.sleep(0.05)
-        return 7
-
-    async def main() -> int:
+    async def main() -> None:
         alarm = asyncio.ensure_future(asyncio.sleep(1))
-        found = await asyncio.to_thread(slow)
+        await asyncio.to_thread(time.sleep, 0.05)
         assert clock.now() == 0
         await alarm
-        return found
 
-    assert run_virtual(main(), clock) == 7
+    run_virtual(main(), clock)
     assert clock.now() == 1
 
 
-def test_a_wait_that_nothing_can_end_is_an_error() -> None:
+@in_turn(
+    "last, error",
+    lambda: [
+        (lambda: asyncio.sleep(1), None),
+        (lambda: asyncio.Event().wait(), "every task waits, and for nothing that will ever"),
+    ],
+)
+def test_what_still_waits_at_the_end_is_cancelled(last: Any, error: str | None) -> None:
     ended: list[str] = []
 
-    async def main() -> None:
+    async def until_cancelled(waiting: Any) -> None:
         try:
-            await asyncio.Event().wait()
+            await waiting
         finally:
-            ended.append("cancelled")
-
-    with pytest.raises(RuntimeError, match="every task waits, and for nothing that will ever"):
-        run_virtual(main(), VirtualClock())
-    assert ended == ["cancelled"]
-
-
-def test_what_still_runs_at_the_end_is_cancelled() -> None:
-    ended: list[str] = []
-
-    async def other() -> None:
-        try:
-            await asyncio.sleep(100)
-        finally:
-            ended.append("cancelled")
+            ended.append("ended")
 
     async def main() -> None:
-        asyncio.ensure_future(other())  # noqa: RUF006 - it is to be left behind
-        await asyncio.sleep(1)
+        other = asyncio.sleep(100) if error is None else asyncio.Event().wait()
+        asyncio.ensure_future(until_cancelled(other))  # noqa: RUF006 - it is to be left behind
+        await until_cancelled(last())
 
     clock = VirtualClock()
-    run_virtual(main(), clock)
-    assert ended == ["cancelled"]
-    assert clock.now() == 1
+    with pytest.raises(RuntimeError, match=error) if error else nullcontext():
+        run_virtual(main(), clock)
+    assert ended == ["ended"] * 2
+    assert clock.now() == (0 if error else 1)
 
 
 def test_a_board_speaks_at_its_own_time() -> None:
@@ -111,16 +96,7 @@ def test_a_board_that_is_gone_no_longer_moves_the_time() -> None:
     clock = VirtualClock()
     with VirtualController(clock=clock) as board:
         board.spurious_output(b"x")
-
-    async def main() -> None:
-        await asyncio.sleep(10)
-
-    run_virtual(main(), clock)
-    assert clock.now() == 10
-
-
-def test_a_loop_may_be_made_by_hand() -> None:
-    loop = VirtualLoop(VirtualClock())
-    loop.run_until_complete(asyncio.sleep(5))
-    assert loop.time() == loop.clock.now() == 5
+    loop = VirtualLoop(clock)  # which may be made by hand
+    loop.run_until_complete(asyncio.sleep(10))
+    assert loop.time() == loop.clock.now() == 10
     loop.close()
