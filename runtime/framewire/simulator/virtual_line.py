@@ -267,17 +267,23 @@ class VirtualLine:
             self._live()
             self._end.wake()
 
+    @property
+    def _listening(self) -> bool:
+        """Whether more of the host is taken in."""
+        return not self._paced or self._line.in_transit < AHEAD
+
     def _serve(self) -> None:
         while not self._closing:
             with self._changed:
-                listening = not self._paced or self._line.in_transit < AHEAD
-                data = self._end.receive() if listening else b""
+                data = self._end.receive() if self._listening else b""
                 if data:
                     self._line.host_baud = self._end.host_baud
                     self._line.write(data, self._moment)
                 self._live()
                 event = self._line.next_event
                 left = None if event is None else max(0.0, event - self._moment - OVERSLEEP)
+                # As it is now: where this thread was late, nothing is on its way any more.
+                listening = self._listening
             if isinstance(self.clock, VirtualClock):
                 left = None  # whoever moves the clock wakes this thread
             self._end.wait(left, listening=listening)

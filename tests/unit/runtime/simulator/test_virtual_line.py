@@ -99,6 +99,16 @@ def test_a_fast_writer_is_slowed_to_the_line(connect: Connect) -> None:
     assert (board.accepted, board.rejects.total) == (501, 0)
 
 
+def test_a_host_is_listened_to_again_once_the_line_is_empty(
+    connect: Connect, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("framewire.simulator.virtual_line.AHEAD", 1)
+    _, host = connect(baud=96000)
+    host.say(ServoMove(0, [(1, 500)]))
+    time.sleep(0.05)
+    assert host.ask(ASK) == VOLTAGE
+
+
 def test_a_cable_can_be_pulled_and_put_back(connect: Connect) -> None:
     board, host = connect()
     assert host.ask(ASK) == VOLTAGE
