@@ -13,9 +13,9 @@ from typing import Any
 
 import busservo
 from busservo import BatteryVoltage, Controller, IncompleteReplyError, Message, ServoPosition
+from busservo._library import LIBRARY
 from busservo_simulator import Faults, VirtualController
-from busservo_simulator.board_fault_injector import REPLIES
-from busservo_simulator.virtual_device import Report
+from framewire.simulator.fault_injector import Report
 
 from tests.lines.both_clients import Awaited, done_at_once, moment, until
 from tests.timeouts import GENEROUS
@@ -58,7 +58,7 @@ class Numbering:
 
         def noted(report: Report) -> Iterator[Report]:
             for sent in reports(report):
-                if not isinstance(sent, REPLIES):
+                if not isinstance(sent, tuple(LIBRARY.answers)):
                     self.reported.append(sent)
                 yield sent
 

@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 
 import lxservo
 import pytest
-from busservo_simulator.virtual_loop import run_virtual
+from framewire.simulator.virtual_loop import run_virtual
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -259,8 +259,8 @@ def test_simulate_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    for module in ("cli", "command"):
-        monkeypatch.delitem(sys.modules, f"busservo_simulator.{module}", raising=False)
+    for module in ("busservo_simulator.cli", "framewire.simulator.command"):
+        monkeypatch.delitem(sys.modules, module, raising=False)
     monkeypatch.setitem(sys.modules, "signal", None)
     with pytest.raises(ModuleNotFoundError, match="signal"):
         simulate.hand_over([], PROGRAM)
