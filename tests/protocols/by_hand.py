@@ -198,6 +198,7 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
     "visca": {
         "PowerSet": lambda values: _camera("81 01 04 00", values),
         "ZoomTo": lambda values: _camera("81 01 04 47", values),
+        "Turn": lambda values: _camera("81 01 06 01", values),
         "PowerRead": lambda values: _camera("81 09 04 00", values),
         "ZoomRead": lambda values: _camera("81 09 04 47", values),
         "AimRead": lambda values: _camera("81 09 06 12", values),

@@ -49,6 +49,7 @@ _MODBUS: dict[str, tuple[str, dict[str, str]]] = {
     "CoilWritten": ("bit_message.WriteSingleCoilResponse", _BIT),
     "RegisterWrite": ("register_message.WriteSingleRegisterRequest", _REGISTER),
     "RegisterWritten": ("register_message.WriteSingleRegisterResponse", _REGISTER),
+    "CoilsWrite": ("bit_message.WriteMultipleCoilsRequest", {"start": "address", "coils": "bits"}),
     "RegistersWrite": (
         "register_message.WriteMultipleRegistersRequest",
         {"start": "address", **_LIST},
@@ -61,6 +62,7 @@ _SAID: dict[str, Callable[[Values], Values]] = dict.fromkeys(_MODBUS, as_is) | {
     "Coils": _whole("coils"),
     "CoilWrite": _COIL,
     "CoilWritten": _COIL,
+    "CoilsWrite": lambda values: _in_memory(_whole("coils")(values)),
     "RegistersWritten": lambda values: _in_memory(
         values | {"quantity": max(1, values["quantity"] % 123)}
     ),
@@ -110,7 +112,8 @@ class Pymodbus(Peer):
         made, names = self._class(message)
         assert type(found) is made
         ours = {name: _ours(layout, name, getattr(found, its)) for name, its in names.items()}
-        return {"unit": unit} | ours
+        counted = {"quantity": found.count} if message == "CoilsWrite" else {}
+        return {"unit": unit} | ours | counted
 
 
 def _theirs(name: str, value: Any) -> Any:
