@@ -139,6 +139,11 @@ CASES = {
         | {"look-alike": (UNKNOWN, "not recognised", AT_WHICH)},
     ),
     "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),
+    "a report and nothing else": Case(
+        Faults(dropped=1.0),
+        NO_REPLY | failed(rate=("nothing came at all", "TX goes to RX")),
+        before=lambda board: board.report(ActionGroupStarted(3, 1)),
+    ),
     "another edition": Case(
         before=sending("55 55 03 63 01"),
         expected=failed(
