@@ -103,19 +103,22 @@ REFUSALS = (RecordingError, Unusable, UsageError, ValueError)
 def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) -> None:
     content, data = FORMS[name]
 
-    def scanned(content: bytes) -> int:
-        (tmp_path / "line").write_bytes(content)
-        return sum(in_tables(piece.read_batches()) for piece in tables.scan(tmp_path / "line"))
+    file = tmp_path / "line"
+    file.write_bytes(content)
 
+    def scanned(_: bytes) -> int:
+        return sum(in_tables(piece.read_batches()) for piece in tables.scan(file))
+
+    readers = {**READERS, "recordings.read of a file": lambda _: joined(recordings.read(file))}
     counts = {**COUNTS, "tables.scan": scanned}
     if data is None:
-        readers: list[Callable[[bytes], object]] = [*READERS.values(), *counts.values()]
-        for reader in readers:
+        every: list[Callable[[bytes], object]] = [*readers.values(), *counts.values()]
+        for reader in every:
             with pytest.raises(REFUSALS, match=r"line [12]\b|no hex|no time"):
                 reader(content)
         return
-    found = {reader: read(content) for reader, read in READERS.items()}
-    assert found == dict.fromkeys(READERS, data)
+    found = {name: read(content) for name, read in readers.items()}
+    assert found == dict.fromkeys(readers, data)
     sizes = {each: count(content) for each, count in counts.items()}
     assert sizes == dict.fromkeys(counts, len(data))
 

@@ -103,6 +103,17 @@ def test_what_is_vectorised_stays_so(libraries: Libraries, name: str) -> None:
 
 
 @each_way
+def test_tables_hold_every_example(libraries: Libraries, name: str, way: Direction | None) -> None:
+    made, messages = libraries[name], model_of(name).messages.values()
+    sent = [each.message for each in messages if way in (None, each.direction)]
+    line = b"".join(example.hex for message in sent for example in message.examples)
+    direction = None if way is None else direction_of(made, way)
+    for behind in (b"", filler(name)):
+        expected = rows_of_decoder(made, line + behind, direction)
+        assert rows_in_tables(made, line + behind, direction) == expected
+
+
+@each_way
 @few_each
 @given(data=st.data())
 def test_tables_hold_what_the_decoder_finds(

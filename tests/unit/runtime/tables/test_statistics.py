@@ -232,6 +232,17 @@ def test_gaps_are_the_same_however_they_come(between: list[float], size: int, ti
     assert middle[0] * 0.98 - 1e-6 <= found.median <= middle[-1] * 1.02 + 1e-6
 
 
+def test_the_median_of_many_gaps_counts_all_of_them() -> None:
+    found = Intervals()
+    now = 0.0
+    for gap, count in ((0.001, 5000), (1.5, 1000), (1.5, 1000)):
+        seconds = np.linspace(now + gap, now + gap * count, count, dtype=np.float64)
+        found.add(moments(seconds))
+        now = float(seconds[-1])
+    assert found.median is not None
+    assert abs(found.median / 0.001 - 1) < 0.01
+
+
 def test_from_one_recording_to_the_next_is_no_gap() -> None:
     found = Intervals()
     found.add(moments(np.array([0.0, 1.0])))

@@ -151,6 +151,9 @@ CASES = {
             look_alike=("a frame of command 99 came", "send a report in"),
         ),
     ),
+    "the beginning of another length": Case(
+        before=sending("55 55 06 0F"), expected=failed(silence=(f"4 {NO_FRAME}", SEE_RATE))
+    ),
     "another length": Case(
         before=sending("55 55 06 0F 4C 1D 00 00"),
         expected=failed(
