@@ -109,7 +109,8 @@ def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) ->
     def scanned(_: bytes) -> int:
         return sum(in_tables(piece.read_batches()) for piece in tables.scan(file))
 
-    readers = {**READERS, "recordings.read of a file": lambda _: joined(recordings.read(file))}
+    readers = dict(READERS)
+    readers["recordings.read of a file"] = lambda _: joined(recordings.read(file))
     counts = {**COUNTS, "tables.scan": scanned}
     if data is None:
         every: list[Callable[[bytes], object]] = [*readers.values(), *counts.values()]
