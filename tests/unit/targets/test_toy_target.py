@@ -100,7 +100,7 @@ def test_a_name_reserved_by_it_is_reported(project: Path, capsys: Capture) -> No
     assert main(["check"]) == 0
     printed = capsys.readouterr()
     assert printed.out == ""
-    place = "spec/demo.yaml:50:3: note: toy writes the message `VentsOpen` as `VentsOpen_`"
+    place = "spec/demo.yaml:31:3: note: toy writes the message `VentsOpen` as `VentsOpen_`"
     assert f"{place}: it is a word of the language\n" in printed.err
 
     assert main(["targets", "toy"]) == 0
