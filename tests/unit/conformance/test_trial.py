@@ -114,6 +114,11 @@ DIFFER = {
     "a blank line": (CUT_SHORT, ["", "refused too-short 1"], 0),
     "nothing": (CUT_SHORT, [], 0),
     "a line too many": (CUT_SHORT, ["refused too-short 1", "refused too-short 1"], 1),
+    "another field": (
+        "decode controller_to_host 5555040f0100",
+        ["message BatteryVoltage 5555040f0100 volts=1"],
+        0,
+    ),
     "another value": ("decode controller_to_host 5555040f0100", [VOLTAGE], 0),
     "a message that is held": (f"{HOST} 0055550207", ["noise bad-header 00"], 1),
     "noise that no quiet lets go": (
@@ -438,6 +443,15 @@ def test_a_long_answer_is_shown_where_it_differs() -> None:
     assert "  ... 190 lines before, in which they agree" in lines
     assert "  program          quiet" in lines
     assert "  ... and more" in lines
+
+
+def test_where_the_reference_says_nothing_more_or_nothing_that_is_shown() -> None:
+    none = read("stream host_to_controller 257")
+    trial = held(lambda _question, right, _count: [*right, "quiet"], LINE, none)
+    assert [found.about for found in trial.differences] == ["nothing more"] * 2
+    one, other = (list(strip(MODEL, found)) for found in trial.differences)
+    assert "  program          quiet" in one
+    assert "  reference        nothing" in other
 
 
 def test_the_report_of_a_long_wrong_answer_is_short() -> None:
