@@ -9,8 +9,8 @@ import pytest
 from tests.characterise import SPECS, differing
 from tests.rows import some
 
-# Those that ship: one with positions, and one of many devices with a checksum.
-SHOWN = {"busservo", "lxservo"}
+# The other that ships, and those of the tests, are slow.
+SHOWN = {"busservo"}
 # What is written down names ports as Linux does.
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ports have other names there")
 
