@@ -205,3 +205,13 @@ def test_every_command_of_make_is_explained() -> None:
     assert phony is not None
     explained = re.findall(r"^([a-z-]+):.*  ## \S", TEXTS["Makefile"], flags=re.MULTILINE)
     assert sorted(explained) == sorted(phony[1].split())
+
+
+def test_the_mutants_stand_in_the_code_and_their_killers_among_the_tests() -> None:
+    names = ("tests/mutant_sample.yaml", "tests/derive_mutants.yaml")
+    sample, derived = (yaml.safe_load(TEXTS[name]) for name in names)
+    gone = [each["id"] for each in sample + derived if each["was"] not in TEXTS[each["file"]]]
+    for each in derived:
+        file, _, test = each["killer"].partition("::")
+        gone += [each["id"]] * (f"def {test.partition('[')[0]}(" not in TEXTS[file])
+    assert gone == []
