@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 import busservo
@@ -63,20 +64,30 @@ def our_files() -> list[Path]:
 
 
 NAME = "tests/unit/project/test_house.py"
-TEXTS: dict[str, str] = {}
-for each in our_files():
-    with suppress(UnicodeDecodeError):  # bytes that are no text
-        TEXTS[each.relative_to(ROOT).as_posix()] = each.read_text(encoding="utf-8")
-SMALL = {name: text.lower() for name, text in TEXTS.items() if name != NAME}
+
+
+@cache
+def texts() -> dict[str, str]:
+    """Return the texts of all files by path: read when asked for, by one worker."""
+    found = {}
+    for each in our_files():
+        with suppress(UnicodeDecodeError):  # bytes that are no text
+            found[each.relative_to(ROOT).as_posix()] = each.read_text(encoding="utf-8")
+    return found
+
+
+@cache
+def small_texts() -> dict[str, str]:
+    return {name: text.lower() for name, text in texts().items() if name != NAME}
 
 
 def places(words: list[str], pattern: re.Pattern[str]) -> list[str]:
     """Return where a pattern is found, in the texts that hold one of these words."""
     return [
-        f"{name}:{TEXTS[name].count(chr(10), 0, match.start()) + 1}: {match[0]}"
-        for name, small in SMALL.items()
+        f"{name}:{texts()[name].count(chr(10), 0, match.start()) + 1}: {match[0]}"
+        for name, small in small_texts().items()
         if any(word in small for word in words)
-        for match in pattern.finditer(TEXTS[name])
+        for match in pattern.finditer(texts()[name])
     ]
 
 
@@ -85,7 +96,7 @@ ROOMS = {"simulator": "simulator/busservo_simulator", "runtime": "runtime/framew
 
 
 def test_the_folders_of_the_tests_are_those_of_the_code() -> None:
-    folders = {Path(name).parent for name in TEXTS if name.startswith("tests/unit/")}
+    folders = {Path(name).parent for name in texts() if name.startswith("tests/unit/")}
     parts = {each.parts[2:] for each in folders} - {("project",)}
     rooms = {Path(ROOMS.get(top, f"codegen/framegen/{top}"), *rest) for top, *rest in parts}
     assert [room for room in sorted(rooms) if not (ROOT / room).is_dir()] == []
@@ -103,15 +114,15 @@ def test_nothing_is_left_unfinished() -> None:
 
 def test_text_files_end_with_one_line_break() -> None:
     assert [
-        name for name, text in TEXTS.items() if text and not re.search(r"[^\n]\n\Z", text)
+        name for name, text in texts().items() if text and not re.search(r"[^\n]\n\Z", text)
     ] == []
 
 
 def test_there_is_one_version() -> None:
-    said = [TEXTS[project] for project in PROJECTS]
+    said = [texts()[project] for project in PROJECTS]
     versions = re.findall(r'^version = "(.*)"$', "\n".join(said), flags=re.MULTILINE)
     required = re.findall(r'"busservo==(.*?)"', "\n".join(said))
-    changes = re.findall(r"^## \[(.*?)\]", TEXTS["CHANGELOG.md"], flags=re.MULTILINE)
+    changes = re.findall(r"^## \[(.*?)\]", texts()["CHANGELOG.md"], flags=re.MULTILINE)
     assert changes[0] == "Unreleased"
     # framegen's project file reads its version from the package.
     assert (len(versions), len(required)) == (2, 1)
@@ -119,8 +130,8 @@ def test_there_is_one_version() -> None:
 
 
 def test_the_form_of_a_report_begins_with_the_title_that_is_asked_for() -> None:
-    form = yaml.safe_load(TEXTS[".github/ISSUE_TEMPLATE/report.yml"])
-    assert f'titled "{form["title"]}"' in TEXTS["CONTRIBUTING.md"]
+    form = yaml.safe_load(texts()[".github/ISSUE_TEMPLATE/report.yml"])
+    assert f'titled "{form["title"]}"' in texts()["CONTRIBUTING.md"]
 
 
 def test_everything_under_generated_is_what_the_generator_makes() -> None:
@@ -128,7 +139,7 @@ def test_everything_under_generated_is_what_the_generator_makes() -> None:
     rendered = [render(each) for each in compiled]
     found = changes(ROOT, [*rendered, render_shared(compiled[0])])
     assert [(change.path, change.why) for change in found] == []
-    on_disk = {name for name in TEXTS if name.startswith("generated/")}
+    on_disk = {name for name in texts() if name.startswith("generated/")}
     made = {name for each in rendered for name in (*each.files, each.manifest)}
     assert on_disk <= made
 
@@ -140,33 +151,35 @@ def test_there_is_nothing_in_generated_but_the_libraries() -> None:
 
 def test_generated_code_silences_no_checker() -> None:
     silenced = re.compile(r"#\s*(?:noqa|type: ignore|pyright:)")
-    generated = [name for name in TEXTS if name.startswith("generated/")]
-    assert [name for name in generated if silenced.search(TEXTS[name])] == []
+    generated = [name for name in texts() if name.startswith("generated/")]
+    assert [name for name in generated if silenced.search(texts()[name])] == []
 
 
 # -- Packages, commands and machines ---------------------------------------------------------------
 
 PROJECTS = ("pyproject.toml", "codegen/pyproject.toml", "simulator/pyproject.toml")
 BASH = shutil.which("bash")
-WORKFLOWS = [name for name in TEXTS if name.startswith(".github/workflows/")]
-ACTIONS = [name for name in TEXTS if name.startswith(".github/actions/")]
+
+
+def below(folder: str) -> list[str]:
+    return [name for name in texts() if name.startswith(f".github/{folder}/")]
 
 
 def test_what_packages_have_in_common_is_the_same() -> None:
     python = '"Programming Language :: Python ::'
     common = ("requires", "build-backend", "license", "authors", python, '"Operating System ::')
-    lines = [[line.lstrip() for line in TEXTS[project].splitlines()] for project in PROJECTS]
+    lines = [[line.lstrip() for line in texts()[project].splitlines()] for project in PROJECTS]
     first, *others = ([line for line in each if line.startswith(common)] for each in lines)
     assert len(first) == 12
     assert others == [first, first]
-    assert len({TEXTS[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")}) == 1
+    assert len({texts()[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")}) == 1
 
 
 def test_a_declared_python_is_a_tested_one() -> None:
-    declared = re.findall(r"Python :: (3\.\d+)", TEXTS["pyproject.toml"])
-    job = yaml.safe_load(TEXTS[".github/workflows/ci.yml"])["jobs"]["linux"]
+    declared = re.findall(r"Python :: (3\.\d+)", texts()["pyproject.toml"])
+    job = yaml.safe_load(texts()[".github/workflows/ci.yml"])["jobs"]["linux"]
     assert job["strategy"]["matrix"]["python"] == declared
-    assert f'requires-python = ">={declared[0]}"' in TEXTS["pyproject.toml"]
+    assert f'requires-python = ">={declared[0]}"' in texts()["pyproject.toml"]
 
 
 @pytest.mark.skipif(os.name == "nt" or BASH is None, reason="there is no bash here")
@@ -185,33 +198,33 @@ def test_a_whole_run_depends_on_no_variable_and_no_folder_of_a_machine(tmp_path:
     assert str(elsewhere) not in kept["PATH"].split(os.pathsep)
 
 
-@in_turn("name", lambda: [*WORKFLOWS, *ACTIONS])
+@in_turn("name", lambda: [*below("workflows"), *below("actions")])
 def test_actions_are_our_own_or_pinned_to_a_commit(name: str) -> None:
-    read = yaml.safe_load(TEXTS[name])
-    jobs = [read["runs"]] if name in ACTIONS else read["jobs"].values()
+    read = yaml.safe_load(texts()[name])
+    jobs = [read["runs"]] if name in below("actions") else read["jobs"].values()
     used = [step["uses"] for job in jobs for step in job["steps"] if "uses" in step]
-    own = {f"./{action.rpartition('/')[0]}" for action in ACTIONS}
+    own = {f"./{action.rpartition('/')[0]}" for action in below("actions")}
     assert used
     assert [each for each in {*used} - own if not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", each)] == []
 
 
 def test_hooks_are_local() -> None:
-    hooks = yaml.safe_load(TEXTS[".pre-commit-config.yaml"])
+    hooks = yaml.safe_load(texts()[".pre-commit-config.yaml"])
     assert [repository["repo"] for repository in hooks["repos"]] == ["local"]
 
 
 def test_every_command_of_make_is_explained() -> None:
-    phony = re.search(r"^\.PHONY: (.*)$", TEXTS["Makefile"], flags=re.MULTILINE)
+    phony = re.search(r"^\.PHONY: (.*)$", texts()["Makefile"], flags=re.MULTILINE)
     assert phony is not None
-    explained = re.findall(r"^([a-z-]+):.*  ## \S", TEXTS["Makefile"], flags=re.MULTILINE)
+    explained = re.findall(r"^([a-z-]+):.*  ## \S", texts()["Makefile"], flags=re.MULTILINE)
     assert sorted(explained) == sorted(phony[1].split())
 
 
 def test_the_mutants_stand_in_the_code_and_their_killers_among_the_tests() -> None:
     names = ("tests/mutant_sample.yaml", "tests/derive_mutants.yaml")
-    sample, derived = (yaml.safe_load(TEXTS[name]) for name in names)
-    gone = [each["id"] for each in sample + derived if each["was"] not in TEXTS[each["file"]]]
+    sample, derived = (yaml.safe_load(texts()[name]) for name in names)
+    gone = [each["id"] for each in sample + derived if each["was"] not in texts()[each["file"]]]
     for each in derived:
         file, _, test = each["killer"].partition("::")
-        gone += [each["id"]] * (f"def {test.partition('[')[0]}(" not in TEXTS[file])
+        gone += [each["id"]] * (f"def {test.partition('[')[0]}(" not in texts()[file])
     assert gone == []
