@@ -137,6 +137,8 @@ class Checksum(NumberPart):
     ) -> None:
         super().__init__(name, size, order)
         self.method = method
+        # What works it out at once, from the bytes that it covers.
+        self.of: Callable[[bytes], int] = method.of
         self.covers = covers
 
     def pieces(self, ids: Ids, hidden: Sequence[NumberPart]) -> list[Covered]:
@@ -149,7 +151,7 @@ class Checksum(NumberPart):
 
     def prover(self, ids: Ids, hidden: Sequence[NumberPart]) -> Callable[[bytes], bool]:
         """Return a function that says whether a frame of a message has the right one."""
-        of, expected, pieces = self.method.of, self.maker(ids, hidden), self.pieces(ids, hidden)
+        of, expected, pieces = self.of, self.maker(ids, hidden), self.pieces(ids, hidden)
         at, place, order, from_bytes = self.at, self.place, self.order, int.from_bytes
         if len(pieces) == 1 and isinstance(pieces[0], tuple):
             # By far the most usual, and in the way of every frame.
@@ -161,7 +163,7 @@ class Checksum(NumberPart):
 
     def maker(self, ids: Ids, hidden: Sequence[NumberPart]) -> Callable[[bytes], int]:
         """Return a function that works it out for a frame of a message."""
-        of, pieces = self.method.of, self.pieces(ids, hidden)
+        of, pieces = self.of, self.pieces(ids, hidden)
         if len(pieces) == 1 and isinstance(pieces[0], tuple):
             covered = slice(*pieces[0])
             return lambda frame: of(frame[covered])
@@ -303,7 +305,7 @@ def _sealer(envelope: Envelope) -> Callable[[bytes, Ids], bytes]:
         (part,) = checksums
         make, size, order = part.maker((), ()), part.size, part.order
         if len(part.covers) == 1 and isinstance(part.covers[0], tuple):
-            of, covered = part.method.of, slice(*part.covers[0])
+            of, covered = part.of, slice(*part.covers[0])
             return lambda frame, _: frame[:-size] + of(frame[covered]).to_bytes(size, order)
         return lambda frame, _: frame[:-size] + make(frame).to_bytes(size, order)
 

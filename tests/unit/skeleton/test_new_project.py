@@ -54,7 +54,7 @@ def assert_its_tests_pass_with(spec: Path, folder: Path) -> None:
     name = compiled_file(spec).model.spec.protocol.name
     test = f"tests/test_{name}.py"
     write_files({test: skeleton(name)[test]}, folder)
-    assert framegen("generate", str(spec), "--out", str(folder)).status == 0
+    assert framegen("generate", str(spec), "--runtime", "carried", "--out", str(folder)).status == 0
     done = python(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, test)
     assert done.returncode == 0, done.stdout
     [passed] = re.findall(r"(\d+) passed", done.stdout)

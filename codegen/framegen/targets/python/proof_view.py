@@ -96,7 +96,7 @@ class ProofView:
     @property
     def checksum_of(self) -> str:
         """What works it out, where it is called."""
-        return f"{envelope_name(self.frame.name)}.checksums[0].method.of"
+        return f"{envelope_name(self.frame.name)}.checksums[0].of"
 
     @property
     def method(self) -> ChecksumView:
