@@ -164,11 +164,17 @@ class StreamDecoder:
                 self._hold(data, at, at, at + entry[0])
                 return events
             noise.summed = base + summed
-            is_found = noise.search(events, data, base, at, quiet=quiet)
-            begun, before, at = noise.emitted - base, len(events) - 1, noise.at - base
-            if not is_found:
+            found = noise.search(events, data, base, at, quiet=quiet)
+            begun, before, at = noise.emitted - base, len(events), noise.at - base
+            if found is None:
                 self._hold(data, begun, at, noise.wake - base)
                 return events
+            # It has been proven: who tested it again, and differed, would search for ever.
+            end = at + found[0]
+            message = _new(found[1])
+            message._frame = data[at:end]
+            events.append(message)
+            at = end
             entry = look_up(data[at : at + head_size]) if at >= summed else None
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:

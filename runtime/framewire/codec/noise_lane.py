@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from .noise import UnknownFrame
 
 _TOO_SHORT = Reason.TOO_SHORT
-_new = object.__new__
 
 # How much of a run is read at once.
 _STRETCH = 256
@@ -85,11 +84,11 @@ class NoiseLane:
 
     def search(
         self, events: list[Message | Noise], data: bytes, base: int, at: int, *, quiet: bool
-    ) -> bool:
-        """Search on from data[at]; emit the next message, and the noise in front of it.
+    ) -> tuple[int, type[Message]] | None:
+        """Search on from data[at], and emit the noise in front of the next message.
 
-        `data` begins at the place `base`. Where a message came, it begins at `emitted`, and ends at
-        `at`; otherwise `emitted`, `at` and `wake` say what is held.
+        `data` begins at the place `base`. Returns the size and the class of the message, which
+        begins at `at`; None if none came, and `emitted`, `at` and `wake` say what is held.
         """
         table, refused = self._table, self._refused
         known, header, head_size = table.verdicts, table.header, table.head_size
@@ -103,11 +102,13 @@ class NoiseLane:
                 entry = table.get(head)
                 found = entry and whole(entry, data, at)
                 if found is not None:
-                    return self._emit_message(events, data, base, at, *found)
+                    self._end(events, data, base, at)
+                    return found
                 since = self._since if base + at == self.at else 0
                 verdict = table.weigh(data, at, self._proof.wrong, since, quiet=quiet)
                 if verdict.kind is not None:
-                    return self._emit_message(events, data, base, at, verdict.size, verdict.kind)
+                    self._end(events, data, base, at)
+                    return verdict.size, verdict.kind
                 if verdict.proven and not verdict.is_open:
                     self._end(events, data, base, at)
                     at += verdict.size
@@ -116,7 +117,7 @@ class NoiseLane:
             if verdict.is_open:
                 after = self._wait(events, data, base, at, verdict, quiet=quiet)
                 if after is None:
-                    return False
+                    return None
                 if after != at:
                     at = after
                     continue
@@ -131,23 +132,6 @@ class NoiseLane:
             self._cut(events, data, base, at, at, final=True)
         self.at = base + at
         self._emit_noise(events, data, base, self.at)
-
-    def _emit_message(
-        self,
-        events: list[Message | Noise],
-        data: bytes,
-        base: int,
-        at: int,
-        size: int,
-        kind: type[Message],
-    ) -> bool:
-        """Emit the message at data[at], and the noise in front of it; return that one was found."""
-        self._end(events, data, base, at)
-        message = _new(kind)
-        message._frame = data[at : at + size]
-        events.append(message)
-        self.at += size
-        return True
 
     def _run_end(self, data: bytes, at: int) -> int:
         """Return where the last head begins of the run of a header's byte at data[at]."""

@@ -58,7 +58,7 @@ class Message:
     SHAPE: typing.ClassVar[Shape]
 
     _frame: bytes
-    _table: typing.ClassVar[typing.Any]
+    _table: typing.ClassVar[typing.Any] = None
 
     def __new__(cls) -> typing.Self:
         # Not in `__init__`, which anybody may call once more, to change what never changes.
@@ -66,6 +66,8 @@ class Message:
 
     def __init_subclass__(cls) -> None:
         cls.SHAPE = Shape(cls, cls.LENGTHS)
+        # Made when it is first asked for; that of another class is none of its own.
+        cls._table = None
 
     @classmethod
     def _packed_at_once(
@@ -112,13 +114,12 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> typing.Self:
         """Decode one frame of this message, with nothing after it. Raises DecodeError."""
-        table = vars(cls).get("_table")
-        if table is None and cls is not Message:
-            cls._table = Table([cls], ANY_SIZE, cls.FRAME.heads)
-            table = vars(cls)["_table"]
+        table = cls._table
         if table is None:
-            problem = "Message is what all messages are: decode with one of its subclasses"
-            raise TypeError(f"{problem}, or with the function `decode` of this package")
+            if cls is Message:
+                problem = "Message is what all messages are: decode with one of its subclasses"
+                raise TypeError(f"{problem}, or with the function `decode` of this package")
+            table = cls._table = Table([cls], ANY_SIZE, cls.FRAME.heads)
         message: typing.Self = table.read(frame)
         return message
 

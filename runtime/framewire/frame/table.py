@@ -194,9 +194,10 @@ class Table(dict[bytes, "Entry"]):
         size, at, until, count, kind, holds, _ = entry
         if len(frame) != size or (count and frame[at:until] != count):
             return None
+        if holds is not None and not holds(frame):
+            return None
         total = self.heads.total
-        right = (total is None or sum(frame) & 0xFF == total) and (holds is None or holds(frame))
-        return kind if right else None
+        return kind if total is None or sum(frame) & 0xFF == total else None
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
         """Return every message that a whole frame may be."""
