@@ -30,16 +30,15 @@ if TYPE_CHECKING:
 class Part:
     """Bytes of an envelope: their place counts from the end of the frame, if it is below zero."""
 
-    at = 0
-
     def __init__(self, name: str, size: int) -> None:
         self.name = name
         self.size = size
+        self.stand_at(0)
 
-    @property
-    def place(self) -> slice:
-        """Where it stands in a frame."""
-        return slice(self.at, self.at + self.size or None)
+    def stand_at(self, at: int) -> None:
+        """Say at which byte of a frame it begins."""
+        self.at = at
+        self.place = slice(at, at + self.size or None)
 
 
 class Reserved(Part):
@@ -203,12 +202,12 @@ class Envelope:
         self.hidden = hidden
         at = 0
         for part in head:
-            part.at = at
+            part.stand_at(at)
             at += part.size
         self.body_at = at
         self.tail_size = at = sum(part.size for part in tail)
         for part in tail:
-            part.at = -at
+            part.stand_at(-at)
             at -= part.size
         self.least = self.body_at + self.tail_size
         every = (*head, *tail)

@@ -35,7 +35,9 @@ class HeadWalk:
         if self.frame.length is None:
             self.kinds = [each for each in self.kinds if _least(each) <= self.largest]
         for part in self.frame.head:
-            refused = self._step(part) or self._fitting(part)
+            refused = self._step(part)
+            if refused is None and isinstance(part, (Id, Length)):
+                refused = self._fitting(part)
             if refused is not None:
                 return [refused]
         return [self._known(kind) for kind in self.kinds]
