@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_file_location
@@ -277,6 +277,14 @@ def imported(*libraries: Mapping[str, str], folder: Path | None = None) -> Itera
         yield
 
 
+def look_up_all(handed: ModuleType) -> None:
+    """Have a library look up by name, while that is its own, what it looks up once."""
+    for each in (handed.CODEC, handed.LIBRARY):
+        for name, declared in vars(type(each)).items():
+            if isinstance(declared, cached_property):
+                getattr(each, name)
+
+
 @contextmanager
 def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[ModuleType]:
     """Return the library among `files`, imported, and forgotten again.
@@ -286,7 +294,9 @@ def library(files: Mapping[str, str], folder: Path | None = None) -> Iterator[Mo
     if folder is not None:
         write_files(files, folder)
     name = next(path for path in files if path.endswith("/py.typed")).split("/")[1]
-    # Another test may have imported a library of the same name.
+    # Another test may have imported a library of the same name, whose parts are its own.
+    if f"{name}._library" in sys.modules:
+        look_up_all(sys.modules[f"{name}._library"])
     before = {key: sys.modules.pop(key) for key in [*sys.modules] if key.split(".")[0] == name}
     # Data is asked for by its whole path.
     finder = _Library(files, (folder or Path("made")).absolute())
