@@ -38,7 +38,7 @@ class Part:
     def stand_at(self, at: int) -> None:
         """Say at which byte of a frame it begins."""
         self.at = at
-        self.place = slice(at, at + self.size or None)
+        self.place: slice = slice(at, at + self.size or None)
 
 
 class Reserved(Part):

@@ -114,7 +114,7 @@ class Message:
     @classmethod
     def decode(cls, frame: bytes | bytearray | memoryview) -> typing.Self:
         """Decode one frame of this message, with nothing after it. Raises DecodeError."""
-        table = cls._table
+        table: typing.Any = cls._table
         if table is None:
             if cls is Message:
                 problem = "Message is what all messages are: decode with one of its subclasses"
