@@ -124,12 +124,12 @@ class StreamDecoder:
         """Return the events that are certain, and keep the rest of the bytes."""
         events: list[typing.Any] = []
         table, noise = self._table, self._noise
-        look_up, head_size, total = table.get, table.head_size, table.heads.total
+        head_size, total = table.head_size, table.total
         base, size, at = noise.emitted, len(data), self._scanned
-        # What has been tested once is left to the search, which sums it up once for all.
-        summed = noise.summed - base
-        # Where a search goes on, no frame can begin before it has ended.
-        entry = None if at or summed > 0 else look_up(data[:head_size])
+        # Where a search goes on, no frame can begin before it has ended; and what has been tested
+        # once is left to it, since it sums that up once for all.
+        look_up = _search if at or noise.summed > base else table.get
+        entry = look_up(data[:head_size])
         begun, before = at, 0
         while True:
             while entry is not None:
@@ -144,14 +144,14 @@ class StreamDecoder:
                 if (total is not None and sum(frame) & 0xFF != total) or (
                     holds is not None and not holds(frame)
                 ):
-                    summed = max(summed, end)
-                    entry = other
+                    noise.summed = max(noise.summed, base + end)
+                    look_up, entry = _search, other
                     continue
                 message = _new(kind)
                 message._frame = frame
                 events.append(message)
                 at = end
-                entry = look_up(data[at : at + head_size]) if at >= summed else None
+                entry = look_up(data[at : at + head_size])
             if at > begun:
                 self._messages += len(events) - before
                 self._message_bytes += at - begun
@@ -163,7 +163,6 @@ class StreamDecoder:
             if entry is not None and not quiet and (entry[5] is None or is_certain(entry[4])):
                 self._hold(data, at, at, at + entry[0])
                 return events
-            noise.summed = base + summed
             found = noise.search(events, data, base, at, quiet=quiet)
             begun, before, at = noise.emitted - base, len(events), noise.at - base
             if found is None:
@@ -175,7 +174,8 @@ class StreamDecoder:
             message._frame = data[at:end]
             events.append(message)
             at = end
-            entry = look_up(data[at : at + head_size]) if at >= summed else None
+            look_up = table.get if base + at >= noise.summed else _search
+            entry = look_up(data[at : at + head_size])
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:
         """Keep the bytes from `start` on, which allow no event before `wake` bytes are here."""
@@ -184,3 +184,7 @@ class StreamDecoder:
         table = self._table
         if 0 < len(held) <= table.remembered and scanned == start:
             table.wait(held, self._wake)
+
+
+def _search(_head: bytes) -> None:
+    """Look no head up: what begins there is left to the search."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from .bytes_like import as_bytes
 from .envelope import Constant
 from .errors import DecodeError, Reason
-from .head_walk import HeadWalk
+from .head_trials import HeadTrials
 from .quick_tests import together
 from .trial import Known, Refused, too_short
 from .verdict import Verdict
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from typing import Any, TypeAlias
 
     from .envelope import Address, Checksum, Envelope
-    from .head_walk import Trial
+    from .head_trials import Trial
     from .heads import Heads
     from .message import Message
     from .trial import Prove
@@ -59,6 +59,7 @@ class Table(dict[bytes, "Entry"]):
     """
 
     __slots__ = (
+        "_heads",
         "_trials",
         "begun",
         "frames",
@@ -72,6 +73,7 @@ class Table(dict[bytes, "Entry"]):
         "remembered",
         "run",
         "run_claim",
+        "total",
         "verdicts",
         "waits",
     )
@@ -79,8 +81,9 @@ class Table(dict[bytes, "Entry"]):
     def __init__(self, messages: Sequence[type[Message]], largest: int, heads: Heads) -> None:
         super().__init__()
         self.heads = heads
-        # Its own: it is looked up for every frame.
+        # Its own: they are looked up for every frame.
         self.head_size = heads.longest
+        self.total = heads.total
         # Made once: making it takes as long as using it.
         self.head = slice(self.head_size)
         self.remembered = heads.longest + 1
@@ -96,6 +99,7 @@ class Table(dict[bytes, "Entry"]):
             for frame, kinds in every
             if not messages or (kinds and frame.least <= largest)
         ]
+        self._heads = [HeadTrials(frame, kinds, largest) for frame, kinds in self.frames]
         headers = {frame.header for frame, _ in self.frames}
         self.header = headers.pop() if len(headers) == 1 else b""
         # How many bytes of an illegal frame may look legal, where no checksum proves it.
@@ -196,7 +200,7 @@ class Table(dict[bytes, "Entry"]):
             return None
         if holds is not None and not holds(frame):
             return None
-        total = self.heads.total
+        total = self.total
         return kind if total is None or sum(frame) & 0xFF == total else None
 
     def all_of(self, frame: bytes) -> list[type[Message]]:
@@ -249,8 +253,8 @@ class Table(dict[bytes, "Entry"]):
         if not head:
             return [Refused(too_short(0, 1))]
         if head[0] in self.heads.first_bytes:
-            for frame, kinds in self.frames:
-                found += HeadWalk(frame, kinds, head, self.largest).trials()
+            for frame in self._heads:
+                found += frame.of(head)
         return found or [Refused(_NOTHING)]
 
     def _entry(self, trials: Sequence[Trial]) -> Entry | None:
@@ -275,7 +279,7 @@ class Table(dict[bytes, "Entry"]):
     def _proofs(self, kind: type[Message]) -> list[Callable[[bytes], bool]]:
         """Return what says whether the checksums of a message are right, but for a mere total."""
         heads = self.heads
-        if heads.total is not None:
+        if self.total is not None:
             return []
         return kind.FRAME.provers(kind.IDS) if heads.proves is None else [heads.proves]
 

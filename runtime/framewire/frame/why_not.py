@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from .envelope import Envelope
-    from .head_walk import Trial
+    from .head_trials import Trial
     from .message import Message
     from .table import Table
     from .trial import Prove
