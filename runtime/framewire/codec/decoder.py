@@ -41,7 +41,16 @@ class StreamDecoder:
     held.
     """
 
-    __slots__ = ("_held", "_message_bytes", "_messages", "_noise", "_scanned", "_table", "_wake")
+    __slots__ = (
+        "_held",
+        "_look_up",
+        "_message_bytes",
+        "_messages",
+        "_noise",
+        "_scanned",
+        "_table",
+        "_wake",
+    )
 
     # Each protocol has its own decoder: a subclass, which knows what its frames are.
     _codec: typing.ClassVar[ProtocolCodec]
@@ -49,6 +58,8 @@ class StreamDecoder:
     def __init__(self, direction: Direction | None, max_frame: int | None = None) -> None:
         codec = self._codec
         self._table = codec.table_for(direction, max_frame)
+        # Bound once: many a chunk holds no more than a frame.
+        self._look_up = self._table.get
         self._noise = NoiseLane(self._table, codec.unknown_frame)
         self._held = b""
         # Where the search in the held bytes goes on, and the size below which it need not.
@@ -128,7 +139,7 @@ class StreamDecoder:
         base, size, at = noise.emitted, len(data), self._scanned
         # Where a search goes on, no frame can begin before it has ended; and what has been tested
         # once is left to it, since it sums that up once for all.
-        look_up = _search if at or noise.summed > base else table.get
+        look_up = _search if at or noise.summed > base else self._look_up
         entry = look_up(data[:head_size])
         begun, before = at, 0
         while True:
@@ -174,7 +185,7 @@ class StreamDecoder:
             message._frame = data[at:end]
             events.append(message)
             at = end
-            look_up = table.get if base + at >= noise.summed else _search
+            look_up = self._look_up if base + at >= noise.summed else _search
             entry = look_up(data[at : at + head_size])
 
     def _hold(self, data: bytes, start: int, scanned: int, wake: int) -> None:

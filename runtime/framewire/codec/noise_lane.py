@@ -7,7 +7,6 @@ own bytes prove that no message begins in it: any message is worth more than suc
 from __future__ import annotations
 
 from ..frame.errors import Reason
-from ..frame.table import whole
 from .noise import Noise
 from .proof import Proof
 
@@ -99,8 +98,7 @@ class NoiseLane:
             head = data[at : at + head_size]
             verdict = known.get(head)
             if verdict is None:
-                entry = table.get(head)
-                found = entry and whole(entry, data, at)
+                found = table.whole(head, data, at)
                 if found is not None:
                     self._end(events, data, base, at)
                     return found

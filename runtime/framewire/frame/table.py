@@ -59,6 +59,7 @@ class Table(dict[bytes, "Entry"]):
     """
 
     __slots__ = (
+        "_has_checksums",
         "_heads",
         "_trials",
         "begun",
@@ -99,6 +100,7 @@ class Table(dict[bytes, "Entry"]):
             for frame, kinds in every
             if not messages or (kinds and frame.least <= largest)
         ]
+        self._has_checksums = any(frame.checksums for frame, _ in self.frames)
         self._heads = [HeadTrials(frame, kinds, largest) for frame, kinds in self.frames]
         headers = {frame.header for frame, _ in self.frames}
         self.header = headers.pop() if len(headers) == 1 else b""
@@ -138,6 +140,22 @@ class Table(dict[bytes, "Entry"]):
             return trials[0].judged(data, at, prove or wrong_checksum, since)
         verdict = chosen([each.judged(data, at, prove or wrong_checksum, 0) for each in trials])
         return verdict.whole or verdict if quiet else verdict
+
+    def whole(self, head: bytes, data: bytes, at: int) -> tuple[int, type[Message]] | None:
+        """Return size and class of a message that is whole at data[at], if its head tells that.
+
+        What a checksum proves is left to `weigh`, and so is a frame whose count says its size.
+        """
+        entry = None if self._has_checksums else self.get(head)
+        while entry is not None:
+            size, start, end, count, kind, holds, entry = entry
+            if (
+                at + size <= len(data)
+                and (not count or data[at + start : at + end] == count)
+                and (holds is None or holds(data[at : at + size]))
+            ):
+                return (size, kind) if size else None
+        return None
 
     @property
     def is_bounded(self) -> bool:
@@ -291,22 +309,6 @@ class Table(dict[bytes, "Entry"]):
 def largest_of(messages: Sequence[type[Message]]) -> int:
     """Return the size of the largest frame of these messages; 0 where there are none."""
     return max((kind.FRAME.size(kind.LENGTHS[-1]) for kind in messages), default=0)
-
-
-def whole(entry: Entry | None, data: bytes, at: int) -> tuple[int, type[Message]] | None:
-    """Return size and class of the one of some entries whose message is whole at data[at], if any.
-
-    What a checksum proves is left to `weigh`, and so is a frame whose count says its size.
-    """
-    while entry is not None:
-        size, start, end, count, kind, holds, other = entry
-        if not size or kind.FRAME.checksums:
-            return None
-        is_there = at + size <= len(data) and (not count or data[at + start : at + end] == count)
-        if is_there and (holds is None or holds(data[at : at + size])):
-            return size, kind
-        entry = other
-    return None
 
 
 def is_certain(kind: type[Message]) -> bool:
