@@ -9,7 +9,6 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Callable, Iterable
-from contextlib import suppress
 from operator import index
 from os import PathLike
 
@@ -106,7 +105,7 @@ class BaseClient:
             now=clock(),
         )
         self._session.largest_frame = self._transport.largest_frame
-        self._callbacks: list[Callable[[Message], object]] = []
+        self._callbacks: dict[object, Callable[[Message], object]] = {}
         self._failure: TransportError | None = None
         self._closing = False
 
@@ -346,17 +345,18 @@ class BaseClient:
 
     def _add_callback(self, callback: Callable[[Message], object]) -> Callable[[], None]:
         """Call `callback` with every report from now on; return what ends that."""
-        self._callbacks.append(callback)
+        # Whoever registers a function twice has two registrations.
+        token = object()
+        self._callbacks[token] = callback
 
         def stop() -> None:
             # What has been ended may be ended again, and by two threads at once.
-            with suppress(ValueError):
-                self._callbacks.remove(callback)
+            self._callbacks.pop(token, None)
 
         return stop
 
     def _report_to_callbacks(self, report: Message) -> None:
-        for callback in [*self._callbacks]:
+        for callback in [*self._callbacks.values()]:
             try:
                 callback(report)
             except Exception:

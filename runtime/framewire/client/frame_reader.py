@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
-
 from ..codec.gap import GAP
 from ..codec.noise import Noise
 
@@ -78,7 +76,7 @@ class FrameReader:
 
     def look_behind(self) -> Events:
         """Return what a false header is holding back; half a frame is left to come in full."""
-        decoder = copy(self._decoder)
+        decoder = self._decoder.copy()
         events = decoder.flush()
         if all(isinstance(event, Noise) for event in events):
             return []

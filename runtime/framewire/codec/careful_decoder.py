@@ -112,7 +112,8 @@ class CarefulDecoder:
         """Return a decoder that has seen nothing yet."""
         return self._codec.decoder(self._direction)
 
-    def __copy__(self) -> CarefulDecoder:
+    def copy(self) -> CarefulDecoder:
+        """Return a copy in the same state."""
         other = CarefulDecoder(self._codec, self._direction)
         other._decoder, other._rival = copy(self._decoder), copy(self._rival)
         other._doubted, other._rival_at = self._doubted, self._rival_at

@@ -237,12 +237,17 @@ async def test_a_callback_that_fails_affects_no_other_and_can_be_removed(
     line.say(STOPPED)
     assert await controller.wait_for(ActionGroupStopped, timeout=1) == STOPPED
     assert received == [STOPPED]
+    again = controller.on_report(received.append)
     stop()
-    stop()  # what has been ended may be ended again
+    stop()  # what has been ended may be ended again, and ends no other
+    line.say(STOPPED)
+    assert await controller.wait_for(ActionGroupStopped, timeout=1) == STOPPED
+    assert received == [STOPPED, STOPPED]
+    again()
     line.say(COMPLETED)
     await controller.wait_for(ActionGroupCompleted, timeout=1)
-    assert received == [STOPPED]
-    assert caplog.text.count("ZeroDivisionError") == 2
+    assert received == [STOPPED, STOPPED]
+    assert caplog.text.count("ZeroDivisionError") == 3
 
 
 # -------------------------------------------------------------------- its end
