@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from typing import Any
 
-    from ..frame.items import Items
+    from ..frame.lists import List
     from ..frame.message import Message
     from ..frame.number import Number
     from .limits import Allowed, Limits
@@ -84,7 +84,9 @@ class Pose:
         self.time = time
         self.releasing = releasing
         self.limits = limits
-        targets: Items[Any] = getattr(move, moved)
+        targets: List[Any] = getattr(move, moved)
+        self.item: Number
+        self.place: Number
         self.item, self.place = targets.fields
         self.room = targets.most
         self.duration: Number = getattr(move, time)
@@ -105,7 +107,7 @@ class Pose:
     @property
     def releases(self) -> int:
         """How many fit into one such command."""
-        listed: Items[int] = getattr(self.release, self.requested)
+        listed: List[int] = getattr(self.release, self.requested)
         return listed.most
 
     def there(self, replies: Iterable[Message]) -> list[Any]:

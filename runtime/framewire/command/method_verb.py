@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 
-from ..frame.items import Items
+from ..frame.lists import List
 from . import send
 from .encode import note_deprecated
 from .exit_codes import DONE, INTERRUPTED
@@ -54,7 +54,7 @@ class MethodVerb:
         for name in self._names:
             field = getattr(self.kind, name)
             count: str | None = "?" if name in optional else None
-            if isinstance(field, Items):
+            if isinstance(field, List):
                 count = "*" if self.may_be_empty else "+"
             shown = written(field).removesuffix(",...") if count in {"*", "+"} else written(field)
             # A name of its own, lest a field called `port` took the place of the option.

@@ -13,7 +13,7 @@ from operator import attrgetter
 from warnings import catch_warnings, simplefilter
 
 from ..frame.errors import EncodeError
-from ..frame.items import Items
+from ..frame.lists import List
 from ..frame.number import set_bits
 from .numerals import whole_in_any_base
 from .usage_error import UsageError
@@ -104,7 +104,7 @@ def _is_named(field: Any) -> bool:
 def _json_of(field: Any) -> Show:
     """Return what shows a field in JSON."""
     read: Any = attrgetter(field.name)
-    if isinstance(field, Items):
+    if isinstance(field, List):
         return _listed_in_json(field)
     if _is_whole(field):
         return lambda message: str(read(message))
@@ -117,7 +117,7 @@ def _in_json(value: Any) -> str:
     return json.dumps(value)
 
 
-def _listed_in_json(items: Items[Any]) -> Show:
+def _listed_in_json(items: List[Any]) -> Show:
     """Return what shows a list in JSON, all of its numbers at once where they are whole ones."""
     names = [f'"{field.name}": ' for field in items.fields] if items.element else [""]
     begin, end = ("{", "}") if items.element else ("", "")
@@ -140,7 +140,7 @@ def _listed_in_json(items: Items[Any]) -> Show:
 def _text_of(field: Any) -> Show:
     """Return what shows a field as text."""
     read: Any = attrgetter(field.name)
-    if not isinstance(field, Items):
+    if not isinstance(field, List):
         if _is_whole(field) and not _is_named(field):
             return _formatted(f"%d{_unit(field)}", [field])
         return lambda message: _as_text(field, read(message))
@@ -160,7 +160,7 @@ def _is_whole(field: Any) -> bool:
     return isinstance(getattr(field, "highest", None), int)
 
 
-def _listed(items: Items[Any], message: Message, element: str, comma: str) -> str:
+def _listed(items: List[Any], message: Message, element: str, comma: str) -> str:
     """Return the elements of a list as text; `element` has a %d for each of its numbers."""
     numbers = items.numbers(message.encode())
     text: str = comma.join([element] * (len(numbers) // items.width)) % numbers
@@ -232,7 +232,7 @@ def _usage(kind: type[Message]) -> str:
 
 def written(field: Any) -> str:
     """Return how a field is written: its name, or those of the fields of an element."""
-    if not isinstance(field, Items):
+    if not isinstance(field, List):
         length = getattr(field, "length", None)
         name: str = field.name.upper()
         return name if length is None else f"{name},..."
@@ -242,14 +242,14 @@ def written(field: Any) -> str:
 def _read_field(kind: type[Message], name: str, text: str) -> Any:
     field = getattr(kind, name)
     words = text.split(",") if text else []
-    if isinstance(field, Items):
+    if isinstance(field, List):
         return [_read_element(field, word, f"{name}[{at}]") for at, word in enumerate(words)]
     if hasattr(field, "length"):
         return [_read_whole(field, word, f"{name}[{at}]") for at, word in enumerate(words)]
     return _read_value(field, text, name)
 
 
-def _read_element(items: Items[Any], word: str, path: str) -> Any:
+def _read_element(items: List[Any], word: str, path: str) -> Any:
     if items.element is None:
         return _read_value(items.fields[0], word, path)
     parts = word.split(":")
@@ -266,7 +266,7 @@ def _read_value(field: Any, text: str, path: str) -> Any:
     field = getattr(field, "number", field)
     if _is_whole(field):
         return _read_whole(field, text, path)
-    if hasattr(field, "struct"):
+    if field.plain:
         return _read_floating(text, path)
     return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .floating import Float
 from .number import Number
 
 
@@ -38,17 +37,5 @@ class I32(Number, code="i", order=">"):
 
 class I64(Number, code="q", order=">"):
     """A signed number of eight bytes, in two's complement."""
-
-    __slots__ = ()
-
-
-class F32(Float, code="f", order=">"):
-    """A floating-point number of four bytes: about seven digits of it are exact."""
-
-    __slots__ = ()
-
-
-class F64(Float, code="d", order=">"):
-    """A floating-point number of eight bytes, as Python has them."""
 
     __slots__ = ()

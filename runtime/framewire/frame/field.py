@@ -4,12 +4,17 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any, Generic, TypeVar, overload
+    from collections.abc import Callable, Iterator, Sequence
+    from typing import Any, ClassVar, Generic, TypeAlias, TypeVar, overload
 
     from typing_extensions import Never, Self
 
     Value = TypeVar("Value")
+
+    # From where to where something can be wrong in the bytes of a field, and what must be there, or
+    # what tells where it is wrong, None for nowhere.
+    Due: TypeAlias = "bytes | Callable[[bytes], int | None]"
+    Place: TypeAlias = "tuple[int, int, Due]"
 
     class _Property(Generic[Value]):
         """A property as type checkers see it: it is read, and never assigned."""
@@ -44,6 +49,8 @@ class Field(_Property["Value"]):
 
     name: str
     owner: type
+    plain: ClassVar[bool] = False
+    """Whether it is one number."""
 
     def __init_subclass__(cls) -> None:
         # Otherwise a field would show the documentation of its class.
@@ -60,6 +67,45 @@ class Field(_Property["Value"]):
     def reader(self) -> Callable[[Any], Value]:
         """Return a function that reads the value from a message, or from an element."""
         raise NotImplementedError
+
+    @property
+    def varies(self) -> bool:
+        """Whether its size varies from frame to frame."""
+        return False
+
+    @property
+    def there(self) -> Field[Any]:
+        """What it is in a frame in which it is not absent."""
+        return self
+
+    @property
+    def places(self) -> Sequence[Place]:
+        """What can be wrong in it."""
+        return ()
+
+    def within(self, _body: bytes, /) -> Iterator[tuple[str, int, Any]]:
+        """Yield what it holds in a frame, by its path, and where the place of that counts from."""
+        yield self.name, 0, self
+
+    def explained(self, data: bytes, at: int, /) -> str:
+        """Return what is wrong with its bytes, at an offset in these."""
+        raise NotImplementedError
+
+
+def repeated(
+    places: Sequence[Place], at: int, size: int, count: int, since: int
+) -> Iterator[Place]:
+    """Yield places of an element of `size` bytes in a list of `count` that begins at an offset.
+
+    What ends at `since` or before it is left out.
+    """
+    if not places:
+        return
+    for position in range(max(0, (since - at) // size), count):
+        base = at + position * size
+        for start, end, due in places:
+            if base + end > since:
+                yield base + start, base + end, due
 
 
 class _Documentation:

@@ -28,6 +28,7 @@ class Float(Field["float"]):
 
     __slots__ = ("at", "unit")
 
+    plain: ClassVar[bool] = True
     code: ClassVar[str]
     """Its letter in `struct`."""
     struct: ClassVar[Struct]

@@ -14,8 +14,10 @@ from .field import Field
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from typing import Any, ClassVar
+
+    from .field import Place
 
 # How `struct` writes the order of a single byte, which has none: as that of whatever machine.
 ANY_ORDER = "="
@@ -31,6 +33,7 @@ class Number(Field["int"]):
 
     __slots__ = ("at", "bits", "high", "low", "names", "others", "unit")
 
+    plain: ClassVar[bool] = True
     code: ClassVar[str]
     """Its letter in `struct`."""
     struct: ClassVar[Struct]
@@ -70,6 +73,20 @@ class Number(Field["int"]):
     def narrowed(self) -> bool:
         """Whether its type holds more than its range."""
         return self.low > self.lowest or self.high < self.highest
+
+    @property
+    def places(self) -> Sequence[Place]:
+        """What can be wrong in it: all of it, where its type holds more than its range."""
+        unpack, holds = self.struct.unpack, self.holds
+
+        def wrong(data: bytes) -> int | None:
+            return None if holds(unpack(data)[0]) else 0
+
+        return [(self.at, self.at + self.struct.size, wrong)] if self.narrowed else ()
+
+    def explained(self, data: bytes, _at: int, /) -> str:
+        """Return what is wrong with its bytes, at an offset in these."""
+        return f"is {self.struct.unpack(data)[0]}, outside {self.low}..{self.high}"
 
     def holds(self, number: int) -> bool:
         """Return whether a frame may hold this number."""

@@ -32,6 +32,12 @@ class Optional(Field["Value | None"]):
         return lambda message: read(message) if len(message._frame) >= least else None
 
     @property
+    def there(self) -> Field[Any]:
+        """The field that it is where it is not absent."""
+        number: Field[Any] = self.number
+        return number
+
+    @property
     def at(self) -> int:
         """The offset of its first byte, where it is there."""
         at: int = self.number.at

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from .errors import EncodeError
 from .field import Field
-from .items import as_tuple
+from .lists import as_tuple
 from .number import Number, shown
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from typing import Any, ClassVar, Literal
+
+    from .field import Place
 
 
 class Packed(Field["tuple[int, ...]"]):
@@ -85,6 +87,16 @@ class Packed(Field["tuple[int, ...]"]):
             raise EncodeError(self.name, values, problem)
         bound = _Bound(low=self.low, high=self.high)
         return [bound.checked(item, f"{self.name}[{at}]") for at, item in enumerate(items)]
+
+    @property
+    def places(self) -> Sequence[Place]:
+        """What can be wrong in it: all of it, where so many bits hold more than its range."""
+        return [(self.at, self.at + self.size, self.wrong)] if self.narrowed else ()
+
+    def explained(self, data: bytes, _at: int, /) -> str:
+        """Return what is wrong with its bytes, at an offset in these."""
+        value = next(each for each in self.read(data) if not self.low <= each <= self.high)
+        return f"is {value}, outside {self.low}..{self.high}"
 
     def wrong(self, data: bytes) -> int | None:
         """Return 0 where a number in these bytes is outside the range, otherwise None."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .errors import EncodeError
-from .items import Items
+from .lists import List
 from .number import shown
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -21,7 +21,7 @@ def to_dict(message: Message) -> dict[str, Any]:
     fields: dict[str, Any] = {}
     for name in message.__match_args__:
         field = getattr(kind, name)
-        if isinstance(field, Items):
+        if isinstance(field, List):
             fields[name] = _listed(field, message.encode())
         else:
             value = getattr(message, name)
@@ -29,7 +29,7 @@ def to_dict(message: Message) -> dict[str, Any]:
     return fields
 
 
-def _listed(items: Items[Any], frame: bytes) -> list[Any]:
+def _listed(items: List[Any], frame: bytes) -> list[Any]:
     """Return the list of a frame: plain values, or each element as a dict."""
     values = items.numbers(frame)
     if items.element is None:
@@ -44,7 +44,7 @@ def values_of(kind: type[Message], fields: Mapping[str, Any]) -> dict[str, Any]:
     if not isinstance(fields, Mapping):
         raise TypeError(f"a mapping of fields expected, such as a dict, not {shown(fields)}")
     values = {**fields}
-    lists = [each for name in kind.__match_args__ if isinstance(each := getattr(kind, name), Items)]
+    lists = [each for name in kind.__match_args__ if isinstance(each := getattr(kind, name), List)]
     derived = {name: each.name for each in lists for name in each.derived}
     _check(kind.__name__, "", kind.__match_args__, {**dict(kind.DEFAULTS), **values}, derived)
     for items in lists:
@@ -53,7 +53,7 @@ def values_of(kind: type[Message], fields: Mapping[str, Any]) -> dict[str, Any]:
     return values
 
 
-def _elements(items: Items[Any], listed: Any) -> Any:
+def _elements(items: List[Any], listed: Any) -> Any:
     """Return the elements of a list as tuples where they are mappings; all else as it is."""
     if items.element is None or not isinstance(listed, (list, tuple)):
         return listed

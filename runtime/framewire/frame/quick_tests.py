@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any
 
+    from .field import Place
     from .floating import Float
-    from .lists import Place
     from .number import Number
 
 

@@ -5,26 +5,20 @@ from __future__ import annotations
 from itertools import count as upwards
 from struct import error
 
-from .bytes_like import format_hex
 from .errors import EncodeError, Reason
 from .field import Field
-from .fixed import Always
-from .floating import Float
-from .lists import List, is_read, places_of
+from .lists import List, is_read
 from .number import Number, order_of
-from .optional import Optional
-from .packed import Packed
-from .quick_tests import checker, count_test, element_test, item_test, place_test, range_test
-from .text import Text, misspelt
+from .quick_tests import checker, count_test, place_test, range_test
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
     from typing import Any, TypeAlias
 
-    from .lists import Place
+    from .field import Due, Place
+    from .floating import Float
 
-    Due: TypeAlias = "bytes | Callable[[bytes], int | None]"
     # From where to where it stands, why it would be refused, and what must be there, or what tells
     # where its bytes are wrong, None for nowhere.
     Judged: TypeAlias = "tuple[int, int, Reason, Due]"
@@ -78,7 +72,7 @@ class Shape:
 
     def _work_out(self) -> None:
         kind, lengths = self._kind, self.lengths
-        fields = [
+        fields: list[Any] = [
             each
             for base in reversed(kind.__mro__)
             for each in vars(base).values()
@@ -87,37 +81,27 @@ class Shape:
         frame = kind.FRAME
         outside = [part.name for part in (frame.address, frame.counter) if part is not None]
         self.given: list[Number | Float] = [
-            each
-            for name in kind.__match_args__
-            if isinstance(each := getattr(kind, name), (Number, Float))
+            each for name in kind.__match_args__ if (each := getattr(kind, name)).plain
         ]
-        self.optional = [each for each in fields if isinstance(each, Optional)]
-        lists = [each for each in fields if isinstance(each, (List, Text))]
-        varying = [each for each in lists if _varies(each)]
-        self._varying: List[Any] | Text | None = varying[0] if varying else None
+        self.optional: list[Any] = [each for each in fields if each.there is not each]
+        # The list or the text whose size varies, if there is one.
+        self._varying: Any = next((each for each in fields if each.varies), None)
         self.items = self._varying if isinstance(self._varying, List) else None
-        self._counters = self._counted()
+        self._counters: Sequence[tuple[Number, int]]
+        self._counters = () if self._varying is None else self._varying.counters
         self.counts = range(len(lengths)) if self._varying is None else self._varying.counts
         first = min((number for number, _ in self._counters), key=_at, default=None)
         self.counter = None if first is None else (first.at, first.at + first.struct.size)
         self.sizes = _Sizes(self)
         # Whether something can be wrong in each element of it; where not, the places in frames of
         # each count, of which there are few.
-        self._judges_each = any(True for each in varying for _ in _elements(each, 1, 0))
+        varying = self._varying
+        self._judges_each = varying is not None and any(True for _ in varying.places_of(1))
         self._known: dict[int, list[Judged]] = {}
         body = [each for each in fields if each.name not in outside]
         self.parts: list[Any] = sorted([*body, *kind.CONSTANTS], key=_at)
         self.tests = [*self._tested()]
         self.check = checker(self.given)
-
-    def _counted(self) -> list[tuple[Number, int]]:
-        """Return the numbers that say how long the list is, each with its value of one element."""
-        varying = self._varying
-        if isinstance(varying, List):
-            return [*varying.counters]
-        if varying is None:
-            return []
-        return [(each, 1) for each in (varying.count, varying.size) if each is not None]
 
     # What a frame must be.
 
@@ -160,18 +144,18 @@ class Shape:
 
     def _places_at(self, count: int, since: int) -> Iterator[Judged]:
         until = self._end(count)
-        for part in map(_there, self.parts):
+        for part in (each.there for each in self.parts):
             if part.at >= until or part is self._varying:
                 continue
             for number, factor in self._counters:
                 if part is number and number.at + number.struct.size > since:
                     due = number.struct.pack(count * factor)
                     yield number.at, number.at + len(due), Reason.COUNT_MISMATCH, due
-            for at, end, wrong in _places(part):
+            for at, end, wrong in part.places:
                 if end > since:
                     yield at, end, Reason.OUT_OF_RANGE, wrong
         if self._varying is not None:
-            for at, end, wrong in _elements(self._varying, count, since):
+            for at, end, wrong in self._varying.places_of(count, since):
                 yield at, end, Reason.OUT_OF_RANGE, wrong
 
     def _tested(self) -> Iterator[Callable[[bytes], bool]]:
@@ -192,33 +176,26 @@ class Shape:
         varying = self._varying
         if varying is None:
             return
-        unit = 1 if isinstance(varying, Text) else varying.unit_size
         for number, factor in sorted(self._counters, key=lambda each: each[0].at)[1:]:
-            yield count_test(number, factor, varying.at + varying.tail, unit)
-        at, end = varying.at, -varying.tail or None
-        if isinstance(varying, Text):
-            yield lambda frame: frame[at:end].isascii()
-        elif varying.element is None and varying.places:
-            (number,) = varying.fields
-            yield item_test(varying.numbers, number)
-        elif varying.places:
-            yield element_test(varying.places, slice(at, end), unit)
+            yield count_test(number, factor, varying.at + varying.tail, varying.unit_size)
+        yield from varying.tests()
 
-    def _fixed(self) -> Iterator[tuple[int, int, Due]]:
+    def _fixed(self) -> Iterator[Place]:
         """Yield what can be wrong at the same place in every frame, save for counts."""
-        for part in map(_there, self.parts):
+        for part in (each.there for each in self.parts):
             if part is not self._varying:
-                yield from _places(part)
+                yield from part.places
 
     def out_of_range(self, frame: bytes, at: int) -> str:
         """Return which of the fields of a frame is wrong at an offset, and how; "" if none is."""
         body = frame[: self._size_in(frame) - self._kind.FRAME.tail_size]
-        for name, base, piece in self._pieces(body):
-            for start, end, due in _places_of(piece):
-                data = body[base + start : base + end]
-                wrong = _wrong(data, due)
-                if wrong is not None and base + start + wrong == at:
-                    return f"{name} {_explained(piece, data, wrong)}"
+        for part in (each.there for each in self.parts):
+            for name, base, piece in part.within(body):
+                for start, end, due in piece.places:
+                    data = body[base + start : base + end]
+                    wrong = _wrong(data, due)
+                    if wrong is not None and base + start + wrong == at:
+                        return f"{name} {piece.explained(data, wrong)}"
         return ""
 
     def _size_in(self, frame: bytes) -> int:
@@ -228,22 +205,6 @@ class Shape:
             return len(frame)
         size: int = envelope.size(envelope.length.read(frame))
         return size
-
-    def _pieces(self, body: bytes) -> Iterator[tuple[str, int, Any]]:
-        """Yield what stands in the fields by its path, and where its place counts from."""
-        for part in map(_there, self.parts):
-            if isinstance(part, Text) and _varies(part):
-                for position, at in enumerate(range(part.at, len(body))):
-                    character = Text(0, 1)
-                    yield f"{part.name}[{position}]", at, character
-            elif isinstance(part, List):
-                end = len(body) if _varies(part) else part.at + part.most * part.unit_size
-                for position, at in enumerate(range(part.at, end, part.unit_size)):
-                    for piece in part.pieces:
-                        inner = f".{piece.name}" if part.element is not None else ""
-                        yield f"{part.name}[{position}]{inner}", at, piece
-            else:
-                yield part.name, 0, part
 
     @property
     def present(self) -> list[int]:
@@ -328,25 +289,6 @@ class _Sizes(dict[bytes, int]):
         return size
 
 
-def _varies(field: List[Any] | Text) -> bool:
-    """Tell whether a list or a text has a size that varies."""
-    if isinstance(field, Text):
-        return field.least is not None
-    return bool(field.counters) or field.least != field.most
-
-
-def _there(part: Any) -> Any:
-    """Return what a part of a frame is where it is not absent."""
-    return part.number if isinstance(part, Optional) else part
-
-
-def _places_of(piece: Any) -> Sequence[Place]:
-    """Return what can be wrong in a number, a text, a constant or packed numbers."""
-    if not isinstance(piece, Packed):
-        return places_of(piece)
-    return [(piece.at, piece.at + piece.size, piece.wrong)] if piece.narrowed else []
-
-
 def _wrong(data: bytes, due: Due) -> int | None:
     """Return the offset of the first byte that is wrong; None if all are right."""
     if isinstance(due, bytes):
@@ -358,41 +300,6 @@ def _wrong(data: bytes, due: Due) -> int | None:
         return None
 
 
-def _explained(piece: Any, data: bytes, at: int) -> str:
-    """Return what is wrong with the bytes of a number, a text, a constant or packed numbers."""
-    if isinstance(piece, Always):
-        return f"is {format_hex(data)}, and always {format_hex(piece.data)}"
-    if isinstance(piece, Text):
-        return f"holds 0x{data[at]:02X}, which is no character of ASCII"
-    if isinstance(piece, Packed):
-        numbers = piece.read(data)
-        value = next(each for each in numbers if not piece.low <= each <= piece.high)
-    else:
-        (value,) = piece.struct.unpack(data)
-    return f"is {value}, outside {piece.low}..{piece.high}"
-
-
 def _at(part: Any) -> int:
     at: int = part.at
     return at
-
-
-def _places(part: Any) -> Iterator[tuple[int, int, Due]]:
-    """Yield what can be wrong in a part of a fixed size."""
-    if isinstance(part, List):
-        yield from _elements(part, part.most, 0)
-    else:
-        yield from _places_of(part)
-
-
-def _elements(listed: List[Any] | Text, count: int, since: int) -> Iterator[tuple[int, int, Due]]:
-    """Yield what can be wrong in the elements of a list, or the characters of a text."""
-    size = 1 if isinstance(listed, Text) else listed.unit_size
-    places: Any = [(0, 1, misspelt)] if isinstance(listed, Text) else listed.places
-    if not places:
-        return
-    for position in range(max(0, (since - listed.at) // size), count):
-        base = listed.at + position * size
-        for start, end, due in places:
-            if base + end > since:
-                yield base + start, base + end, due

@@ -9,7 +9,7 @@ from warnings import catch_warnings, simplefilter
 from hypothesis import strategies as st
 
 from .floating import Float
-from .items import Items
+from .lists import List
 from .optional import Optional
 from .packed import Packed
 from .text import Text
@@ -76,7 +76,7 @@ def _value(field: Any, *, allow_nan: bool) -> SearchStrategy[Any]:
     if isinstance(field, Packed):
         numbers = st.integers(field.low, field.high)
         return st.lists(numbers, min_size=field.length, max_size=field.length)
-    if isinstance(field, Items):
+    if isinstance(field, List):
         values = [_value(each, allow_nan=allow_nan) for each in field.fields]
         elements = st.tuples(*values) if field.element else values[0]
         return st.lists(elements, min_size=field.counts[0], max_size=field.counts[-1])

@@ -5,14 +5,15 @@ from __future__ import annotations
 from operator import itemgetter
 
 from .errors import EncodeError
-from .field import Field
+from .field import Field, repeated
 from .number import kind_of, shown
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from typing import Any, ClassVar
 
+    from .field import Place
     from .number import Number
 
 
@@ -30,6 +31,8 @@ class Text(Field["str"]):
     """The names of values: it has none."""
     unit: ClassVar[str] = ""
     """Its unit: it has none."""
+    unit_size: ClassVar[int] = 1
+    """How many bytes a character has."""
 
     def __init__(
         self,
@@ -54,6 +57,21 @@ class Text(Field["str"]):
         return range(self.least or 0, self.most + 1)
 
     @property
+    def varies(self) -> bool:
+        """Whether its size varies from frame to frame."""
+        return self.least is not None
+
+    @property
+    def counters(self) -> tuple[tuple[Number, int], ...]:
+        """The numbers that say how long it is, each with its value of one character."""
+        return tuple((each, 1) for each in (self.count, self.size) if each is not None)
+
+    @property
+    def struct(self) -> _Letters:
+        """What packs and unpacks a fixed number of bytes."""
+        return _Letters(self)
+
+    @property
     def code(self) -> str:
         """Its notation in `struct`, of a fixed number of bytes."""
         return f"{self.most}s"
@@ -71,6 +89,32 @@ class Text(Field["str"]):
     def read(self, data: bytes) -> str:
         """Return the text that its fixed number of bytes holds."""
         return str(data.rstrip(b"\0"), "ascii")
+
+    @property
+    def places(self) -> Sequence[Place]:
+        """What can be wrong in it, if it has a fixed number of bytes."""
+        return [(self.at, self.at + self.most, misspelt)]
+
+    def places_of(self, count: int, since: int = 0) -> Iterator[Place]:
+        """Yield what can be wrong in so many characters; what ends at `since` or before is not."""
+        return repeated([(0, 1, misspelt)], self.at, 1, count, since)
+
+    def tests(self) -> list[Callable[[bytes], bool]]:
+        """Return what says of a frame whether all its characters are right."""
+        at, end = self.at, -self.tail or None
+        return [lambda frame: frame[at:end].isascii()]
+
+    def within(self, body: bytes, /) -> Iterator[tuple[str, int, Any]]:
+        """Yield it by its path, and where its place counts from; each character if it varies."""
+        if not self.varies:
+            yield from super().within(body)
+            return
+        for position, at in enumerate(range(self.at, len(body))):
+            yield f"{self.name}[{position}]", at, Text(0, 1)
+
+    def explained(self, data: bytes, at: int, /) -> str:
+        """Return what is wrong with its bytes, at an offset in these."""
+        return f"holds 0x{data[at]:02X}, which is no character of ASCII"
 
     def checked(self, value: Any, path: str) -> str:
         """Return `value`, which is text. Raises EncodeError if it is none, or has no room."""
@@ -96,6 +140,24 @@ class Text(Field["str"]):
             problem = f"{len(data)} characters is outside {self.least}..{self.most}"
             raise EncodeError(path, value, problem)
         return data
+
+
+class _Letters:
+    """Packs and unpacks a text, as a `Struct` does it with numbers."""
+
+    __slots__ = ("_text", "size")
+
+    def __init__(self, text: Text) -> None:
+        self._text = text
+        self.size = text.most
+
+    def pack(self, value: str) -> bytes:
+        """Return the text as bytes."""
+        return self._text.packed(value)
+
+    def unpack(self, data: bytes) -> tuple[str]:
+        """Return the text that these bytes hold, in a tuple."""
+        return (self._text.read(data),)
 
 
 def misspelt(data: bytes) -> int | None:

@@ -140,6 +140,9 @@ class NumberView:
         order = self.spec.byte_order
         if self._is_swapped:
             return f"{order}_swapped"
+        # Of what is rare, modules of their own, so that nobody imports it who has none.
+        if self.slot.is_float:
+            return f"{order}_floats"
         return f"{order}_three_bytes" if self.slot.size == 3 else order
 
     @property
