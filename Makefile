@@ -132,7 +132,7 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 	rm -rf mutants
 	mkdir -p mutants/src
 	cp -R generated/busservo codegen/framegen runtime/framewire mutants/src
-	cp -R tests spec pyproject.toml mutants
+	cp -R tests spec docs pyproject.toml mutants
 	cd mutants && PYTHONHASHSEED=0 ../$(MUTATION_VENV)/bin/python -m tests.mutate \
 		'$(or $(ONLY),*)' $(if $(filter command line,$(origin SAMPLE)),$(SAMPLE) $(SEED))
 	cd mutants/mutants && HYPOTHESIS_PROFILE=quick PYTHONHASHSEED=0 \
