@@ -88,13 +88,18 @@ class Device:
 
     def _handle_message(self, message: Message) -> None:
         self.accepted(message)
-        kind = type(message)
-        reply: Message | None = getattr(self, self._handler_of[kind])(message)
+        reply = self._reply_to(message)
         if reply is None:
             return
+        kind = type(message)
         if kind in self._counted_by:
             self._counted_by[kind].check(message, reply)
         self._send_reply(message, reply)
+
+    def _reply_to(self, message: Message) -> Message | None:
+        """Return what the handler of a message says."""
+        reply: Message | None = getattr(self, self._handler_of[type(message)])(message)
+        return reply
 
     def _send_reply(self, _message: Message, reply: Message) -> None:
         """Send the reply to a message."""

@@ -130,12 +130,12 @@ class Exchange:
         self.origin = Origin(self.kinds, None)
         # Whether its reply says anything new, so that it may be asked again. What a reply confirms,
         # and no more, would be done twice.
-        self.is_query = reply is not None and not self._known.issuperset(reply.__match_args__)
+        self.is_query = reply is not None and not self.known.issuperset(reply.__match_args__)
         # The sizes of these, where they do not depend on the request.
         self._sizes: tuple[int, int] | None = None
 
     @property
-    def _known(self) -> set[str]:
+    def known(self) -> set[str]:
         """The fields of a reply that repeat the request, or tell whether that was carried out."""
         counter = () if self.counter is None else self.counter[:1]
         repeated = (reported for _, reported in self.echoed)

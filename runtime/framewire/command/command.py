@@ -11,7 +11,7 @@ from . import console
 from .exit_codes import DONE, MEANINGS, UNUSABLE
 from .shell_completion import add_option
 from .usage_error import UsageError
-from .verbs import verb_named, verbs
+from .verbs import verb_named
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def _parser(program: Program, name: str, verb: Any) -> console.Parser:
 
 
 def _run_none(program: Program, words: Sequence[str]) -> int:
-    here = verbs(program)
+    here = program.verbs
     parser = console.Parser(
         prog=program.name,
         usage=f"{program.name} VERB ...",

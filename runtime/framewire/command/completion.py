@@ -9,7 +9,7 @@ from .events import kinds
 from .reference_topics import TOPICS
 from .shell_completion import CompletionError, Files, Folders, Function, Words, script
 from .usage_error import UsageError
-from .verbs import verb_named, verbs
+from .verbs import verb_named
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def completion(shell: str, program: Program) -> str:
     parser = ArgumentParser(prog=program.name, description=program.summary)
     parser.add_argument("--version", action="store_true", help="show the version")
     parts = parser.add_subparsers()
-    for name, about in verbs(program).items():
+    for name, about in program.verbs.items():
         part = parts.add_parser(name, help=about.replace("%", "%%"))
         verb_named(name, program).add_arguments(part, program)
     try:

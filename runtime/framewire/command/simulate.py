@@ -1,9 +1,10 @@
-"""The verb `simulate`: runs the virtual device, which is a package of its own."""
+"""The verb `simulate`: runs a virtual device, of a package of its own or of the specification."""
 
 from __future__ import annotations
 
 from importlib import import_module
 
+from ..part import part_of
 from .usage_error import UsageError
 
 TYPE_CHECKING = False
@@ -29,19 +30,34 @@ def add_arguments(parser: ArgumentParser, program: Program) -> None:
 
 
 def _simulator(program: Program) -> Any:
+    """Return the command of the simulator: one that somebody wrote, or that of a class `Board`.
+
+    Where there is no such package, it is the device that follows from the specification.
+    """
     package = program.simulator
-    module = f"{package}.cli"
     try:
-        return import_module(module)
-    except ModuleNotFoundError as error:
-        if error.name not in {package, module}:
-            raise
-        raise UsageError(
-            f"the package {package} is not installed here: install it, or build a virtual "
-            f"device on {program.name}.Device"
-        ) from None
+        own = _installed(f"{package}.cli", program) or _installed(package, program)
+    except ModuleNotFoundError:
+        raise
     except ImportError as error:
         raise UsageError(
             f"the package {package} does not work with this {program.name}: {error}; update it, or "
-            f"build a virtual device on {program.name}.Device"
+            "remove it, for a device that follows from the specification"
         ) from None
+    if hasattr(own, "main"):
+        return own
+    board = getattr(own, "Board", part_of(program.package, "simulator").VirtualDevice)
+    if not hasattr(board, "command"):
+        base = f"{program.name}.simulator.VirtualDevice"
+        raise UsageError(f"{package}.Board is no virtual device: derive it from {base}")
+    return board.command()
+
+
+def _installed(module: str, program: Program) -> Any:
+    """Return a module, None where it is not installed."""
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name not in {program.simulator, module}:
+            raise
+    return None

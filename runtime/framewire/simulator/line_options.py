@@ -54,6 +54,7 @@ def add_line_arguments(parser: argparse.ArgumentParser, baud: int) -> None:
     where.add_argument(
         "--local-echo",
         action="store_true",
+        default=None,
         help="what a host sends comes back to it, as from many half-duplex adapters",
     )
 
@@ -74,7 +75,7 @@ def add_fault_arguments(parser: argparse.ArgumentParser, kind: type[LineFaults])
         default = getattr(kind(), name)
         faults.add_argument(
             f"--{name.replace('_', '-')}",
-            type=_seconds,
+            type=seconds,
             default=default,
             metavar="SECONDS",
             help=f"{what} (default: {default:g})",
@@ -157,11 +158,12 @@ def _baud(text: str) -> float:
     return baud
 
 
-def _seconds(text: str) -> float:
-    seconds = _decimal(text)
-    if seconds is None:
+def seconds(text: str) -> float:
+    """Return a time of 0 seconds or more. Raises ArgumentTypeError."""
+    number = _decimal(text)
+    if number is None:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is no time: write seconds, as 0.5")
-    return seconds
+    return number
 
 
 def _seed(text: str) -> int:

@@ -37,7 +37,7 @@ class LineSettings(TypedDict, total=False):
     """What a VirtualLine can be given by name."""
 
     baud: float | None
-    local_echo: bool
+    local_echo: bool | None
     clock: Clock | None
     faults: LineFaults | None
     link: str | os.PathLike[str] | None
@@ -53,7 +53,8 @@ class VirtualLine:
     that they take on a wire; without it none, for quick tests, unlike the command, whose rate is
     that of the protocol. A host that sets another rate on the pty than `baud`, or than that of
     the protocol, receives garbage and sends garbage; "memory" and "tcp" have no rate to set.
-    With `local_echo`, the adapter returns what the host sends, in front of what the device sends.
+    With `local_echo`, the adapter returns what the host sends, in front of what the device sends;
+    without one, as the protocol says of its lines.
     With a VirtualClock, time stands still until `advance`.
     """
 
@@ -63,7 +64,7 @@ class VirtualLine:
         via: Literal["memory", "pty", "tcp"] = "memory",
         *,
         baud: float | None = None,
-        local_echo: bool = False,
+        local_echo: bool | None = None,
         clock: Clock | None = None,
         faults: LineFaults | None = None,
         link: str | os.PathLike[str] | None = None,
@@ -76,6 +77,8 @@ class VirtualLine:
         self._device = device
         self._since = self.clock.now()
         self._changed = Condition()
+        if local_echo is None:
+            local_echo = device.library.link.local_echo
         self._line = Line(device, baud=baud, local_echo=local_echo, faults=faults)
         self._paced = baud is not None
         self._transport: MemoryEnd | None = None

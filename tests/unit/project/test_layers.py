@@ -75,7 +75,7 @@ LIBRARY_LAYERS = [
     {"messages"},
     {"_codec", "_exchanges"},
     {"device", "strategies", "_devices", "_async_devices"},
-    {"_controller", "_async_controller"},
+    {"simulator", "_controller", "_async_controller"},
     {"_command"},
     {"__main__"},
     {"__init__"},

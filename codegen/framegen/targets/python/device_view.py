@@ -78,6 +78,11 @@ class DeviceView:
         return direction_member(self.incoming)
 
     @property
+    def name(self) -> str:
+        """The name of this end."""
+        return self.model.roles.device
+
+    @property
     def about(self) -> list[str]:
         """The docstring of the class."""
         roles = self.model.roles

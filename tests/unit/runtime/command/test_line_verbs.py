@@ -9,11 +9,13 @@ import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
-from busservo import Controller, ServoPositions, ServoPositionsRead
+from busservo import Controller, Device, ServoPositions, ServoPositionsRead
 from busservo.__main__ import main
 from busservo._command import PROGRAM
+from busservo.simulator import VirtualDevice
 from busservo_simulator import Faults, VirtualController
 from framewire.client import session
 from framewire.command import link, send, simulate
@@ -246,14 +248,21 @@ def test_simulate_runs_the_simulator() -> None:
     assert "busservo-simulator" not in shown
 
 
-def test_simulate_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("busservo_simulator", "busservo_simulator.cli"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
-    monkeypatch.setattr(sys, "path", [])
-    monkeypatch.setattr(sys, "meta_path", [])
-    monkeypatch.setitem(sys.modules, "busservo_simulator", None)
-    status, _, errors = run("simulate")
-    assert (status, "is not installed here" in errors) == (2, True)
+@in_turn(
+    "package, said",
+    lambda: [
+        (None, "which answers as the specification says"),
+        (SimpleNamespace(Board=VirtualDevice), "which answers as the specification says"),
+        (SimpleNamespace(Board=Device), "Board is no virtual device: derive it from busservo."),
+    ],
+)
+def test_without_a_simulator_of_its_own_it_runs_what_follows_from_the_specification(
+    package: object, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "busservo_simulator", package)
+    monkeypatch.setitem(sys.modules, "busservo_simulator.cli", None)
+    status, shown, errors = run("simulate", "--help")
+    assert (status, said in shown + errors) == (2 if errors else 0, True)
 
 
 def test_a_missing_dependency_of_the_simulator_is_not_taken_for_the_simulator(
