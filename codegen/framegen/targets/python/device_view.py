@@ -151,6 +151,12 @@ class DeviceView:
         return [HandlerView(message) for message in self.model.sent(self.incoming)]
 
     @property
+    def handler_table(self) -> str:
+        """The name of the handler of each message."""
+        rows = [f"({each.message}, {literal(each.name)})" for each in self.handlers]
+        return Bracketed("_handlers = (", rows, ")", lone=",").fitted(4)
+
+    @property
     def reports(self) -> list[str]:
         """The names of the messages that it sends."""
         return sorted(message.name for message in self.model.sent(self.incoming.reversed))
