@@ -15,16 +15,23 @@ if TYPE_CHECKING:
     from framegen.targets.target import Snippets, Target
 
 
-def render(compiled: Compiled, targets: Collection[Target] | None = None) -> Output:
+def render(
+    compiled: Compiled,
+    targets: Collection[Target] | None = None,
+    *,
+    among: Collection[Target] | None = None,
+) -> Output:
     """Render the files of one spec. Raises Unusable where it has findings.
 
-    Only of `targets`, if they are given; the files of the others are kept apart.
+    Only of `targets`, if they are given; the files of the others are kept apart, of those `among`
+    which a project has chosen. All others are nothing to it.
     """
-    chosen = table.TARGETS if targets is None else targets
+    every = table.TARGETS if among is None else among
+    chosen = every if targets is None else targets
     files: dict[str, str] = {}
     others: dict[str, str] = {}
     folders: list[str] = []
-    for target in table.TARGETS:
+    for target in every:
         if target.shared:
             continue
         if target in chosen:

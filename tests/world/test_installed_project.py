@@ -107,7 +107,7 @@ def test_the_wheel_and_the_sdist_of_a_project_need_pyserial_alone(tmp_path: Path
             assert simulator.stdout is not None
             port = simulator.stdout.readline().strip()
             sent = run(here / f"kiln{EXE}", "send", "--port", port, "LevelRead", cwd=tmp_path)
-            assert "Level level=0" in sent.stdout
+            assert "Level level=500" in sent.stdout
         finally:
             simulator.terminate()
             simulator.communicate()

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from framegen.compile import Compiled
     from framegen.output import Output
-    from framegen.targets.target import Target
     from framegen.writing import Survey, Written
 
 SUMMARY = "Write the libraries, the reference, the test vectors and the editor schema of all specs."
@@ -56,7 +55,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     how.add_argument("--check", action="store_true", help="write nothing; 1 if anything differs")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change")
     add_force(how)
-    parser.add_argument("--target", metavar="NAME", help="write the files of this target alone")
+    parser.add_argument(
+        "--target",
+        metavar="NAME",
+        help="write the files of this target alone; without it, those of all targets, or of the "
+        "`targets` that pyproject.toml has under [tool.framegen]",
+    )
     parser.add_argument(
         "--out",
         type=Path,
@@ -75,21 +79,27 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Check the specs, render them, and update the disk. 1: findings, or changes with --check."""
+    from framegen.chosen_targets import chosen_targets, named_target  # noqa: PLC0415
     from framegen.commands.spec_argument import compiled, print_findings  # noqa: PLC0415
     from framegen.project import FOLDER, all_specs, project_root  # noqa: PLC0415
     from framegen.render import render, render_shared  # noqa: PLC0415
     from framegen.writing import survey, write  # noqa: PLC0415
 
-    targets = [_target(arguments.target)] if arguments.target else None
     files: list[Path] = [arguments.spec] if arguments.spec else all_specs()
+    chosen = chosen_targets(project_root(files[0]))
+    targets = [named_target(arguments.target, chosen)] if arguments.target else chosen
     specs = [compiled(file) for file in files]
     if arguments.runtime is not None:
         specs = [replace(spec, carries_runtime=arguments.runtime == CARRIED) for spec in specs]
     if print_findings(specs):
         return 1
-    outputs = [*(render(spec, targets) for spec in specs), render_shared(specs[0], targets)]
-    outputs = [output for output in outputs if output.files]
     root: Path = arguments.out or project_root(files[0])
+    outputs = [render(spec, targets, among=chosen) for spec in specs]
+    shared_output = render_shared(specs[0], targets)
+    # What is chosen no more takes its files along.
+    if shared_output.files or (not arguments.target and (root / shared_output.manifest).exists()):
+        outputs.append(shared_output)
+    outputs = [output for output in outputs if output.files or not arguments.target]
     # A spec that is gone from the project takes along what came from it.
     all_of = None if arguments.spec or arguments.target else FOLDER
     shared = arguments.out is not None
@@ -102,18 +112,6 @@ def run(arguments: Namespace) -> int:
     _report(done, _copies(specs))
     _sum_up(outputs, specs, root, f"{len(done.changes) or 'none'} changed")
     return 0
-
-
-def _target(name: str) -> Target:
-    """Find a target by its name. Raises Unusable."""
-    from framegen.reading.findings import did_you_mean  # noqa: PLC0415
-    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
-    from framegen.targets.table import TARGETS  # noqa: PLC0415
-
-    targets = {target.name: target for target in TARGETS}
-    if name not in targets:
-        raise Unusable(f"there is no target {name!r}", hint=did_you_mean(name, targets))
-    return targets[name]
 
 
 def _show(found: Survey) -> None:

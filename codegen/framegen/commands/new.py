@@ -17,6 +17,7 @@ SUMMARY = "Begin a project: a small spec, tests, a simulator, and what pip and C
 EXAMPLES = (
     ("framegen new kiln", "the project of a protocol called kiln, in the folder kiln/"),
     ("framegen new kiln --into .", "the same, in this folder"),
+    ("framegen new kiln --targets python,vectors,docs", "with the reference, without a schema"),
 )
 
 
@@ -31,6 +32,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="FOLDER",
         help="the folder of the project, which may hold other files (default: NAME)",
     )
+    parser.add_argument(
+        "--targets",
+        metavar="NAMES",
+        help="what `framegen generate` is to write there, as `framegen targets` lists it, with "
+        "commas between; pyproject.toml keeps it (default: python,vectors,schema)",
+    )
 
 
 def run(arguments: Namespace) -> int:
@@ -39,7 +46,7 @@ def run(arguments: Namespace) -> int:
     from framegen.writing import create  # noqa: PLC0415
 
     name: str = arguments.name
-    files = skeleton(name)
+    files = skeleton(name, _targets(arguments.targets))
     model = _accepted(name, files[spec_path(name)])
     root: Path = arguments.into or Path(name)
     written = create(root, files)
@@ -57,6 +64,21 @@ and the library decodes:
   {name} decode {frame.hex(" ").upper()}"""
     )
     return 0
+
+
+def _targets(words: str | None) -> tuple[str, ...]:
+    """Return the names of the targets that are asked for. Raises Unusable."""
+    from framegen.chosen_targets import targets_named  # noqa: PLC0415
+    from framegen.reading.yamltree import Unusable  # noqa: PLC0415
+    from framegen.skeleton import NEEDED, TARGETS  # noqa: PLC0415
+
+    if words is None:
+        return TARGETS
+    names = [each.name for each in targets_named(words.split(","), "--targets")]
+    if not {*NEEDED} <= {*names}:
+        hint = f"write --targets {','.join([*NEEDED, *names])}; pyproject.toml may change it later"
+        raise Unusable(f"a new project needs {' and '.join(NEEDED)} for its tests", hint=hint)
+    return tuple(names)
 
 
 def _accepted(name: str, spec: str) -> Model:

@@ -266,6 +266,13 @@ class _Surveyor:
             for path in {*files, *listed, *adopted}
         }
         path = output.manifest
+        if not files and manifest is not None:
+            # Nothing is wanted of it any more.
+            self._found.manifests.add(path)
+            text = self._text(self._places.look(path))
+            self._found.changes.append(Change(path, "orphaned", text, None))
+            self._found.left.add(path)
+            return
         text = Manifest(output.spec, digest, files).text()
         self._found.manifests.add(path)
         self._found.finals[path] = text

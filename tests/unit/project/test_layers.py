@@ -25,7 +25,7 @@ LAYERS = [
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},
-    {"render", "skeleton"},
+    {"render", "skeleton", "chosen_targets"},
     {"comparison"},
     {"site"},
     {"writing"},

@@ -6,8 +6,11 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from textwrap import dedent, indent
 
 import pytest
 import yaml
@@ -25,6 +28,7 @@ from tests.programs import ran
 from tests.repository import git, start
 
 ACTION = re.compile(r"uses: (\S+@[0-9a-f]{40}) # v")
+BOARD = "simulator/kiln_simulator/__init__.py"
 GUIDE = ROOT / "docs" / "write-a-spec.md"
 
 
@@ -53,7 +57,9 @@ def assert_its_tests_pass_with(spec: Path, folder: Path) -> None:
     """Put the library of a spec in the place of that of a new project, and run the tests of it."""
     name = compiled_file(spec).model.spec.protocol.name
     test = f"tests/test_{name}.py"
-    write_files({test: skeleton(name)[test]}, folder)
+    write_files(
+        {path: skeleton(name)[path] for path in (test, BOARD.replace("kiln", name))}, folder
+    )
     assert framegen("generate", str(spec), "--runtime", "carried", "--out", str(folder)).status == 0
     done = python(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, test)
     assert done.returncode == 0, done.stdout
@@ -142,19 +148,113 @@ def test_its_workflows_use_the_actions_that_ours_are_pinned_to() -> None:
 
 def test_its_own_tests_find_all_that_they_import(workplace: tuple[Path, str]) -> None:
     """They pass, too: tests/world/test_new_project.py."""
-    done = python(workplace[0] / "kiln", "-c", "import tests.test_kiln, tests.test_board")
+    done = python(workplace[0] / "kiln", "-c", "import tests.test_kiln")
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_a_simulator_of_other_messages_is_refused_in_words(tmp_path: Path) -> None:
-    spec = ROOT / "tests" / "specs" / "weather.yaml"
-    name = compiled_file(spec).model.spec.protocol.name
-    write_files(skeleton(name), tmp_path)
-    assert framegen("generate", str(spec), "--out", str(tmp_path)).status == 0
-    done = python(tmp_path, "-m", name, "simulate")
+@contextmanager
+def board_of(project: Path, text: str) -> Iterator[None]:
+    """Have another module for the virtual device of a project."""
+    file = project / BOARD
+    before = file.read_text(encoding="utf-8")
+    file.write_text(text, encoding="utf-8")
+    yield
+    file.write_text(before, encoding="utf-8")
+
+
+def test_a_device_of_other_messages_is_refused_in_words(workplace: tuple[Path, str]) -> None:
+    project = workplace[0] / "kiln"
+    with board_of(project, "from kiln import LevelAsked\n"):
+        done = python(project, "-m", "kiln", "simulate")
     assert done.returncode == 2
-    assert f"the package {name}_simulator does not work with this {name}: " in done.stderr
+    assert "the package kiln_simulator does not work with this kiln: " in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_what_its_device_shows_as_an_example_works(workplace: tuple[Path, str]) -> None:
+    text = skeleton("kiln")[BOARD]
+    example = text[text.index("        def ") :].removesuffix('    """\n')
+    words = "from __future__ import annotations\n"
+    shown = text.replace(words, f"{words}from kiln import *\n") + indent(dedent(example), "    ")
+    sent = "kiln.LevelSet(1000), kiln.LevelRead()"
+    program = (
+        "import kiln, kiln_simulator; board = kiln_simulator.Board(); "
+        f"print(*[board.receive(each.encode()).hex() for each in ({sent})])"
+    )
+    with board_of(workplace[0] / "kiln", shown):
+        done = python(workplace[0] / "kiln", "-c", program)
+    assert (done.stdout, done.stderr) == ("a55a020301 a55a030103e8\n", "")
+
+
+CHOICES = {
+    "python,vectors,docs": (True, False),
+    "vectors,schema,python": (False, True),
+}
+
+
+@pytest.mark.parametrize("chosen", CHOICES)
+def test_what_a_project_chooses_is_all_that_is_written_until_it_chooses_otherwise(
+    chosen: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    has = {"docs/reference": CHOICES[chosen][0], "spec/framegen.schema.json": CHOICES[chosen][1]}
+    assert framegen("new", "kiln", "--into", ".", "--targets", chosen).status == 0
+    assert framegen("generate").status == 0
+    assert {path: Path(path).exists() for path in has} == has
+    assert ("](docs/reference" in Path("README.md").read_text("utf-8")) is CHOICES[chosen][0]
+    # Another choice: what was written for the former one goes, and nothing else.
+    settings = Path("pyproject.toml")
+    text = re.sub(
+        "(?m)^targets = .*", 'targets = ["python", "vectors"]', settings.read_text("utf-8")
+    )
+    settings.write_text(text, encoding="utf-8")
+    own = [*contents(tmp_path)]
+    assert framegen("generate", "--check").status == 1
+    assert framegen("generate").status == 0
+    gone = {path for path in own if path not in contents(tmp_path)}
+    assert {path.rpartition("/")[0].partition("/kiln")[0] for path in gone} == {
+        path.removesuffix("/framegen.schema.json") for path, there in has.items() if there
+    }
+    assert framegen("generate", "--check").status == 0
+
+
+@in_turn(
+    "targets, said",
+    lambda: [
+        ("python,pyhton", "--targets: there is no target 'pyhton'\n  hint: did you mean `python`?"),
+        ("docs", "a new project needs python and vectors for its tests\n  hint: write --targets "),
+    ],
+)
+def test_targets_that_no_project_can_have_are_refused(
+    targets: str, said: str, tmp_path: Path
+) -> None:
+    status, _, errors = framegen("new", "kiln", "--into", str(tmp_path), "--targets", targets)
+    assert (status, errors.startswith(f"framegen: error: {said}")) == (2, True)
+    assert contents(tmp_path) == {}
+
+
+@in_turn(
+    "targets, said",
+    lambda: [
+        ('["pyton"]', "there is no target 'pyton'"),
+        ("[]", "names no target"),
+        ('"python"', "is no list of names"),
+        ("[", "pyproject.toml is not TOML: "),
+    ],
+)
+def test_a_choice_that_cannot_be_read_stops_generate(
+    targets: str, said: str, tmp_path: Path
+) -> None:
+    write_files(
+        {**skeleton("kiln"), "pyproject.toml": f"[tool.framegen]\ntargets = {targets}\n"}, tmp_path
+    )
+    status, _, errors = framegen("generate", str(tmp_path / "spec" / "kiln.yaml"))
+    assert (status, said in errors, "pyproject.toml" in errors) == (2, True, True), errors
+
+
+def test_a_new_project_has_few_files_besides_the_runtime(workplace: tuple[Path, str]) -> None:
+    files = [path for path in contents(workplace[0] / "kiln") if "__pycache__" not in path]
+    assert len([path for path in files if "/_runtime/" not in path]) <= 40
 
 
 @in_turn(
