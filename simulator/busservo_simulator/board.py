@@ -13,9 +13,7 @@ from busservo import (
     ServoPosition,
     ServoPositions,
 )
-from busservo._library import LIBRARY
-from busservo.device import Device
-from framewire.simulator.virtual_device import VirtualDevice
+from busservo.simulator import VirtualDevice
 
 from busservo_simulator.action_group import stored_groups
 from busservo_simulator.battery import Battery
@@ -47,15 +45,15 @@ DEFAULT_SERVOS = range(1, 7)
 MOST_POSITIONS = ServoPositions.SHAPE.items.counts[-1] if ServoPositions.SHAPE.items else 0
 
 
-class Board(VirtualDevice, Device):
+class Board(VirtualDevice):
     """A board that has been switched on at time 0 and lives through `advance_to`.
 
     Where the vendor's document is silent it does nothing: a servo that is not there and an action
     group that is not stored are ignored, a group that starts replaces the one that runs, and a
-    speed of 0 % is ignored.
+    speed of 0 % is ignored. A message without a handler here gets the answer that follows from the
+    specification.
     """
 
-    library = LIBRARY
     name = "board"
 
     def __init__(
