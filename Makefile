@@ -15,7 +15,7 @@ TO_BUILD := $(VENV)/.ready-build
 TO_TEST := $(VENV)/.ready-test
 TO_LINT := $(VENV)/.ready-lint
 # All of ours in one command, so that pip looks for none of them elsewhere.
-OURS := --editable . --editable ./codegen --editable ./simulator
+OURS := --editable . --editable ./codegen
 # Libraries that are packages of their own, as far as they are generated.
 LIBRARIES := $(patsubst %/pyproject.toml,./%,$(wildcard generated/*/pyproject.toml))
 OURS += $(addprefix --editable ,$(LIBRARIES))
@@ -39,7 +39,8 @@ SEED =
 WHOLE = afternoon newcomer packages
 # Where the pages go.
 SITE = build/site
-# Where libraries are generated that carry what ours share, to be handed on alone.
+# Where libraries are generated that carry what ours share, to be handed on alone, beside the virtual
+# devices that they bring.
 CARRYING = build/carrying
 # The address where they will be, for a sitemap and the like.
 BASE =
@@ -140,9 +141,10 @@ mutants:  ## Change the code in many small ways, and list the changes that no te
 
 wheel: $(TO_BUILD)  ## Build dist/: a wheel and a source distribution of each package
 	rm -rf dist $(CARRYING)
+	mkdir -p $(CARRYING)
+	cp -R simulator $(CARRYING)
 	$(IN)/python -m build --no-isolation --outdir dist .
 	$(IN)/python -m build --no-isolation --outdir dist codegen
-	$(IN)/python -m build --no-isolation --outdir dist simulator
 	for name in $(notdir $(LIBRARIES)); do \
 		$(IN)/framegen generate spec/$$name.yaml --target python --runtime carried --out $(CARRYING) && \
 		$(IN)/python -m build --no-isolation --outdir dist $(CARRYING)/generated/$$name || exit; \
@@ -172,7 +174,7 @@ pins:  ## Renew constraints.txt: make pins PYTHON=python3.10
 venv: $(READY) $(TO_TEST) $(TO_LINT)  ## Only make the virtual environment, with all that tests and lints need
 
 # Made anew only when what it is made of has changed.
-$(READY): pyproject.toml codegen/pyproject.toml simulator/pyproject.toml constraints.txt
+$(READY): pyproject.toml codegen/pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { \
 		echo "No Python 3.10 or newer is on the path. Install one, or: make PYTHON=/where/it/is"; \
 		exit 1; }

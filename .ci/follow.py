@@ -35,7 +35,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PORT = re.compile(r"\bCOM[57]\b")
 BEGUN = time.monotonic()
 SIMULATE = "busservo simulate"
-BUS = "lxservo-simulator --servos 1,2"
+BUS = "lxservo simulate --servos 1,2"
 # What runs until Ctrl-C.
 WAITS = (SIMULATE, "busservo monitor")
 INTERRUPTED = 130

@@ -110,6 +110,11 @@ _HOMES = {
 # Spelt out there, too: as an assignment, type checkers would want it spelt out here.
 globals()["__all__"] = [*_HOMES]
 
+_NEEDS_BESIDE = (
+    "lxservo needs the package framewire, which comes with its project: in a clone, pip install ."
+    " ./generated/lxservo"
+)
+
 
 def __getattr__(name: str) -> object:
     module = _HOMES.get(name)
@@ -117,7 +122,12 @@ def __getattr__(name: str) -> object:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     # Not importlib, which would have to be imported first.
     home = f"{__name__}{module}" if module.startswith(".") else module
-    owner = __import__(home, fromlist=[name])
+    try:
+        owner = __import__(home, fromlist=[name])
+    except ModuleNotFoundError as error:
+        if error.name != "framewire":
+            raise
+        raise ModuleNotFoundError(_NEEDS_BESIDE, name=error.name) from None
     value = globals()[name] = getattr(owner, name)
     return value
 

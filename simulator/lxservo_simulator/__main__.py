@@ -1,4 +1,4 @@
-"""`python -m lxservo_simulator` is the command `lxservo-simulator`."""
+"""`python -m lxservo_simulator` is the command `lxservo simulate`."""
 
 import sys
 

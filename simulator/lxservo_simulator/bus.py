@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framewire.simulator.virtual_device import VirtualDevice
 from lxservo import (
     LastMove,
     Led,
@@ -24,6 +23,7 @@ from lxservo import (
 )
 from lxservo._library import LIBRARY
 from lxservo.device import Device
+from lxservo.runtime import simulator
 
 from lxservo_simulator.servo import BusServo
 
@@ -65,7 +65,7 @@ EVERY_SERVO = Move.SERVO_ID_ALL
 DEFAULT_SERVOS = range(1, 7)
 
 
-class ServoBus(VirtualDevice, Device):
+class ServoBus(simulator.VirtualDevice, Device):
     """Servos on one wire, switched on at time 0.
 
     Where the vendor's document is silent it does nothing. Two servos of one number both answer, as

@@ -1,22 +1,18 @@
-"""The command `lxservo-simulator`: virtual servos behind a port."""
+"""The command `lxservo simulate`: virtual servos behind a port."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from framewire.simulator.command import Simulator
-from framewire.simulator.line_faults import LineFaults
-from framewire.simulator.numbered import Numbered
 from lxservo._library import LIBRARY
+from lxservo.runtime import simulator
 
 if TYPE_CHECKING:
     import argparse
 
-    from framewire.simulator.virtual_line import LineSettings
-
     from lxservo_simulator.virtual_bus import VirtualBus
 
-_SERVOS = Numbered("servo", highest=253)
+_SERVOS = simulator.Numbered("servo", highest=253)
 
 
 def _declare(bus: Any) -> None:
@@ -30,7 +26,7 @@ def _declare(bus: Any) -> None:
 
 
 def _bus(
-    via: Literal["pty", "tcp"], line: LineSettings, arguments: argparse.Namespace
+    via: Literal["pty", "tcp"], line: simulator.LineSettings, arguments: argparse.Namespace
 ) -> VirtualBus:
     from lxservo_simulator.virtual_bus import VirtualBus  # noqa: PLC0415 - --help is to be quick
 
@@ -39,10 +35,10 @@ def _bus(
     return bus
 
 
-SIMULATOR = Simulator(
-    "lxservo-simulator",
+SIMULATOR = simulator.Simulator(
+    "lxservo_simulator",
     LIBRARY,
-    LineFaults,
+    simulator.LineFaults,
     description="A virtual bus of LX-16A servos: talk to it as to real ones.",
     noun="servos",
     examples=(

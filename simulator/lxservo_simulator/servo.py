@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from framewire.simulator.travel import Travel
+from lxservo.runtime import simulator
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -14,7 +14,7 @@ LOWEST, CENTRE, HIGHEST = 0, 500, 1000
 STEPS_PER_SECOND = 1560.0
 
 
-class BusServo(Travel):
+class BusServo(simulator.Travel):
     """A servo with a number: it travels to its target in the given time, holds it, or is limp.
 
     It is at 0 to 1000 as long as nobody turns it by hand. `dead`: it does not answer and does not

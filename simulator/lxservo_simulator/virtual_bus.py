@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from framewire.simulator.virtual_line import VirtualLine
+from lxservo.runtime import simulator
 
 from lxservo_simulator.bus import DEFAULT_SERVOS, ServoBus
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from framewire.simulator.virtual_line import LineSettings
     from typing_extensions import Unpack
 
     from lxservo_simulator.servo import BusServo
 
 
-class VirtualBus(VirtualLine):
+class VirtualBus(simulator.VirtualLine):
     """Virtual servos on one wire, their line and its port; a context manager.
 
     `via` is "memory" (`port` is then a transport), "pty" (a name such as /dev/pts/3, or `link`) or
@@ -30,7 +29,7 @@ class VirtualBus(VirtualLine):
         via: Literal["memory", "pty", "tcp"] = "memory",
         *,
         servos: Iterable[int] = DEFAULT_SERVOS,
-        **line: Unpack[LineSettings],
+        **line: Unpack[simulator.LineSettings],
     ) -> None:
         self.bus = ServoBus(servos)
         super().__init__(self.bus, via, **line)

@@ -8,6 +8,7 @@ that is not handed over in the same command is not found.
 import email
 import os
 import shutil
+import subprocess
 import sys
 import tarfile
 import zipfile
@@ -28,7 +29,7 @@ PYTHONS = {
 TRIED = sorted(PYTHONS, key=lambda name: int(name.split(".")[1]))
 TRIED = [TRIED[0], *TRIED[1:][-1:]]
 LXSERVO = {"lxservo": "generated/lxservo"}
-FOLDERS = {"busservo": ".", "framegen": "codegen", "busservo-simulator": "simulator", **LXSERVO}
+FOLDERS = {"busservo": ".", "framegen": "codegen", **LXSERVO}
 # Whose project file is generated: no licence lies in that folder, only its name. It is built from a
 # tree in which it carries the runtime, since its wheel has to stand alone.
 GENERATED = {*LXSERVO}
@@ -39,7 +40,7 @@ import busservo
 
 assert "site-packages" in busservo.__file__, busservo.__file__
 assert "serial" not in sys.modules, "import busservo imported pyserial"
-for name in ("framegen", "busservo_simulator", "yaml", "jinja2", "pydantic", "hypothesis"):
+for name in ("framegen", "lxservo_simulator", "yaml", "jinja2", "pydantic", "hypothesis"):
     assert importlib.util.find_spec(name) is None, name
 move = busservo.ServoMove(time_ms=1000, targets=[(1, 800)])
 assert busservo.decode(move.encode(), busservo.Direction.HOST_TO_CONTROLLER) == move
@@ -72,8 +73,7 @@ assert servo.position == 800, servo
 """
 SERVOS = """
 import lxservo
-from busservo_simulator import VirtualClock
-from lxservo_simulator import VirtualBus
+from lxservo_simulator import VirtualBus, VirtualClock
 
 with VirtualBus(clock=VirtualClock(follow_reads=True)) as bus:
     with lxservo.Controller(bus.transport, background=False, clock=bus.clock.now) as servos:
@@ -86,6 +86,18 @@ with VirtualBus(clock=VirtualClock(follow_reads=True)) as bus:
     else:
         raise AssertionError("an unplugged bus was opened")
 """
+DEVICES = {"busservo": BOARD, "lxservo": SERVOS}
+# What the command says of a folder of a clone that was installed without the rest.
+LEFT_ALONE = {
+    "generated/lxservo": (
+        "lxservo needs the package framewire, which comes with its project: "
+        "in a clone, pip install . ./generated/lxservo\n"
+    ),
+    "codegen": (
+        "framegen: error: the generator needs `framewire`, which is not installed\n"
+        "  hint: in a clone of its repository: pip install . ./codegen\n"
+    ),
+}
 
 
 def run(*command: object, cwd: Path) -> str:
@@ -106,6 +118,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
         spec = ROOT / "spec" / f"{name}.yaml"
         words = ["generate", spec, "--target", "python", "--runtime", "carried", "--out", alone]
         run(sys.executable, "-m", "framegen", *words, cwd=folder)
+        shutil.copytree(ROOT / "simulator", alone / "simulator", dirs_exist_ok=True)
     for name, project in FOLDERS.items():
         source = (alone if name in GENERATED else ROOT) / project
         words = ["--no-isolation", "--outdir", folder, source]
@@ -210,6 +223,32 @@ def test_a_library_that_carries_the_runtime_runs_alone(
     frame, message, *_ = CAPTURED[name]
     assert f"{message} " in run(programs / name, "decode", *frame.split(), cwd=tmp_path)
     run(programs / name, "docs", message, cwd=tmp_path)
+    for words in (["--version"], ["simulate", "--version"], ["simulate", "--help"]):
+        assert "framewire" not in run(programs / name, *words, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
+@pytest.mark.parametrize("name", DEVICES)
+def test_a_library_brings_its_virtual_device(
+    built: Path, install: Callable[..., Path], name: str, ending: str, tmp_path: Path
+) -> None:
+    programs = install(*files_of(built, name, ending))
+    run(programs / "python", "-W", "error", "-c", DEVICES[name], cwd=tmp_path)
+    command = [str(programs / name), "simulate", "--tcp", "--quiet"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tmp_path) as device:
+        assert device.stdout is not None
+        assert device.stdout.readline().startswith("socket://127.0.0.1:")
+        device.terminate()
+
+
+@pytest.mark.parametrize("project", LEFT_ALONE)
+def test_a_folder_of_a_clone_says_what_is_to_be_named_beside_it(
+    install: Callable[..., Path], project: str, tmp_path: Path
+) -> None:
+    programs = install(ROOT / project)
+    command = programs / {"codegen": "framegen"}.get(project, Path(project).name)
+    for words in (["--version"], ["check"]):
+        assert ran(command, *words, status=None, cwd=tmp_path).stderr == LEFT_ALONE[project]
 
 
 @pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
@@ -311,8 +350,8 @@ def test_all_packages_run_together(
     assert {version.rstrip(",") for version in versions} == {
         files_of(built, "framegen", ".whl")[0].name.split("-")[1]
     }
-    run(programs / "python", "-W", "error", "-c", BOARD, cwd=tmp_path)
-    run(programs / "python", "-W", "error", "-c", SERVOS, cwd=tmp_path)
+    for device in DEVICES.values():
+        run(programs / "python", "-W", "error", "-c", device, cwd=tmp_path)
     # The generator works with the runtime that it was made with, whatever libraries bring theirs.
     whose = "import framegen, framewire; print(framewire.__file__)"
     found = run(programs / "python", "-c", whose, cwd=tmp_path)

@@ -121,12 +121,11 @@ def test_text_files_end_with_one_line_break() -> None:
 def test_there_is_one_version() -> None:
     said = [texts()[project] for project in PROJECTS]
     versions = re.findall(r'^version = "(.*)"$', "\n".join(said), flags=re.MULTILINE)
-    required = re.findall(r'"busservo==(.*?)"', "\n".join(said))
     changes = re.findall(r"^## \[(.*?)\]", texts()["CHANGELOG.md"], flags=re.MULTILINE)
     assert changes[0] == "Unreleased"
     # framegen's project file reads its version from the package.
-    assert (len(versions), len(required)) == (2, 1)
-    assert {*versions, *required, *changes[1:2], busservo.__version__} == {framegen.__version__}
+    assert len(versions) == 1
+    assert {*versions, *changes[1:2], busservo.__version__} == {framegen.__version__}
 
 
 def test_the_form_of_a_report_begins_with_the_title_that_is_asked_for() -> None:
@@ -157,7 +156,7 @@ def test_generated_code_silences_no_checker() -> None:
 
 # -- Packages, commands and machines ---------------------------------------------------------------
 
-PROJECTS = ("pyproject.toml", "codegen/pyproject.toml", "simulator/pyproject.toml")
+PROJECTS = ("pyproject.toml", "codegen/pyproject.toml")
 BASH = shutil.which("bash")
 
 
@@ -171,8 +170,8 @@ def test_what_packages_have_in_common_is_the_same() -> None:
     lines = [[line.lstrip() for line in texts()[project].splitlines()] for project in PROJECTS]
     first, *others = ([line for line in each if line.startswith(common)] for each in lines)
     assert len(first) == 12
-    assert others == [first, first]
-    assert len({texts()[f"{folder}LICENSE"] for folder in ("", "codegen/", "simulator/")}) == 1
+    assert others == [first]
+    assert len({texts()[f"{folder}LICENSE"] for folder in ("", "codegen/")}) == 1
 
 
 def test_a_declared_python_is_a_tested_one() -> None:

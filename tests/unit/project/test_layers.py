@@ -70,7 +70,7 @@ TABLES_LAYERS = [
 ]
 LIBRARY = ROOT / "generated" / "lxservo"
 LIBRARY_LAYERS = [
-    {"_library"},
+    {"_library", "hatch_build", "runtime"},
     {"_envelopes", "_lookalikes", "_version", "recordings", "tables"},
     {"messages"},
     {"_codec", "_exchanges"},

@@ -86,7 +86,8 @@ def test_every_file_of_a_library_is_what_a_template_or_the_model_makes(spec: Pat
     [folder] = {path.rpartition("/")[0] for path in library_of(spec)}
     emitted = {path.removeprefix(f"{folder}/") for path in library_of(spec)}
     templates = {t.relative_to(TARGET / "templates").as_posix()[:-6] for t in TEMPLATES}
-    only_some_have = {"README.md", "pyproject.toml", "_devices.py", "_async_devices.py"}
+    of_a_package = {"README.md", "hatch_build.py", "pyproject.toml"}
+    only_some_have = {*of_a_package, "_devices.py", "_async_devices.py"}
     assert emitted <= templates | {"py.typed", "protocol.json"}
     assert templates - emitted <= only_some_have
 

@@ -32,7 +32,7 @@ _HERE = Path(__file__).parent
 
 
 # What only some libraries have.
-_OF_DISTRIBUTIONS = frozenset({"README.md", "pyproject.toml"})
+_OF_DISTRIBUTIONS = frozenset({"README.md", "hatch_build.py", "pyproject.toml"})
 _OF_ADDRESSES = frozenset({"_async_devices.py", "_devices.py"})
 
 

@@ -26,6 +26,7 @@ def imports(context: Context, text: str) -> str:
     margin = text[: len(text) - len(text.lstrip(" "))]
     runtime = context.resolve("runtime")
     moved = text.replace(f"from {SHARED}.", f"from {runtime}.")
+    moved = moved.replace(f"from {SHARED} import", f"from {runtime} import")
     sections: dict[int, list[str]] = {}
     for statement in sorted(_statements(moved), key=_order):
         sections.setdefault(_order(statement)[0], []).append(margin + statement)

@@ -277,6 +277,16 @@ class LibraryView:
         return self.model.spec.protocol.distribution or _NO_DISTRIBUTION
 
     @property
+    def needs_beside(self) -> str:
+        """What a package without its runtime says, if it is one that may be installed so."""
+        if self.carries or self.model.spec.protocol.distribution is None:
+            return ""
+        return (
+            f"{self.package} needs the package {self.runtime}, which comes with its project: "
+            f"in a clone, pip install . ./generated/{self.package}"
+        )
+
+    @property
     def about(self) -> list[str]:
         """What the protocol is, in lines of a fenced block."""
         protocol = self.model.spec.protocol
