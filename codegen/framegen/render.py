@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from framegen.output import Output, banner
 from framegen.targets import table
+from framegen.vendored import RECORD, record
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -35,10 +36,10 @@ def render(
         if target.shared:
             continue
         if target in chosen:
-            files |= render_target(target, compiled)
+            files |= _with_records(target, compiled)
             folders += target.folders(compiled.model)
         else:
-            others |= render_target(target, compiled)
+            others |= _with_records(target, compiled)
     return Output(
         f"generated/{compiled.spec.protocol.name}.manifest",
         compiled.source.path,
@@ -71,6 +72,17 @@ def render_target(target: Target, compiled: Compiled) -> dict[str, str]:
         if comment is not None and text and not path.startswith(copies):
             headed[path] = f"{comment.before}{banner(spec)}{comment.after}\n{text}"
     return headed
+
+
+def _with_records(target: Target, compiled: Compiled) -> dict[str, str]:
+    """Render the files of one target, and what is recorded of those that it brings as they are."""
+    files = render_target(target, compiled)
+    for folder in target.copies(compiled.model):
+        inside = {path: text for path, text in files.items() if path.startswith(f"{folder}/")}
+        if inside:
+            brought = {path.removeprefix(f"{folder}/"): text for path, text in inside.items()}
+            files[f"{folder}/{RECORD}"] = record(brought)
+    return files
 
 
 def snippets() -> Snippets:

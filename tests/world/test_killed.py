@@ -24,7 +24,7 @@ from tests.unit.writing.test_killed import (
     wholly,
 )
 from tests.unit.writing.test_places import root
-from tests.unit.writing.trees import AFTER, BEFORE, RENAMED, schema, snapshot, without_workshop
+from tests.unit.writing.trees import snapshot, without_workshop
 
 __all__ = ["no_power_fails", "root"]
 
@@ -98,5 +98,4 @@ def test_runs_at_once_take_turns(root: Path) -> None:
     assert [process.communicate()[1] for process in running] == ["", "", ""]
     assert [process.returncode for process in running] == [0, 0, 0]
     assert not (root / NAME).exists()
-    states = [[AFTER, schema()], [BEFORE, schema()], [RENAMED, schema()]]
-    assert [changes(root, state) for state in states].count([]) == 1
+    assert [changes(root, state) for state in EDITIONS.values()].count([]) == 1

@@ -163,7 +163,7 @@ def test_the_library_holds_nothing_of_its_generator(built: Path) -> None:
     (wheel,) = files_of(built, "busservo", ".whl")
     with zipfile.ZipFile(wheel) as archive:
         kinds = {Path(each).suffix for each in archive.namelist() if ".dist-info/" not in each}
-    assert kinds <= {".py", ".pyi", ".typed", ".json"}
+    assert kinds - {Path("LICENSE").suffix} <= {".py", ".pyi", ".typed", ".json"}
 
 
 @pytest.fixture(scope="module", params=TRIED)
@@ -204,10 +204,12 @@ def test_a_library_that_is_built_alone_carries_the_whole_runtime(built: Path, na
     wanted = {
         f"{name}/_runtime/{file.relative_to(shared).as_posix()}": file.read_bytes()
         for file in shared.rglob("*")
-        if file.suffix in {".py", ".typed"}
+        if file.suffix in {".py", ".typed"} or file.name == "LICENSE"
     }
     with zipfile.ZipFile(wheel) as archive:
         inside = [each for each in archive.namelist() if each.startswith(f"{name}/_runtime/")]
+        record = inside.pop(inside.index(f"{name}/_runtime/VENDORED.txt"))
+        assert archive.read(record).count(b"\n") > len(inside)
         assert {each: archive.read(each) for each in inside} == wanted
         assert b"framewire" not in archive.read(f"{name}/__init__.py")
 

@@ -11,6 +11,7 @@ from framewire.command.console import visible
 
 from framegen import __version__
 from framegen.output import banner
+from framegen.vendored import not_recorded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,7 +71,10 @@ class Manifest:
         return frozenset(path for path in several if len(self.files[path]) > 1)
 
     def text(self) -> str:
-        """Return the manifest as it is written, one sorted line for each file."""
+        """Return the manifest as it is written, one sorted line for each file.
+
+        Where a folder has a record of what is in it, that has one, except while a run is under way.
+        """
         facts = {
             "spec": visible(self.spec),
             "spec-sha256": self.digest,
@@ -80,10 +84,26 @@ class Manifest:
         head = [f"# {banner(self.spec)}", *(f"# {key}: {it}" for key, it in facts.items() if it)]
         lines = [
             f"{digest}  {path}"
-            for path in sorted(self.files)
+            for path in sorted(self.files if self.under_way else not_recorded(self.files))
             for digest in sorted(self.files[path])
         ]
         return "".join(f"{line}\n" for line in [*head, *lines])
+
+
+def read_record(data: bytes, folder: str) -> dict[str, frozenset[str]]:
+    """Return what the record of a folder says: the digests of its files, by path below the root."""
+    files: dict[str, frozenset[str]] = {}
+    for line in data.decode("utf-8", errors="replace").splitlines():
+        if listed := _listed(line):
+            path = f"{folder}/{listed[1]}"
+            files[path] = files.get(path, frozenset()) | {listed[0]}
+    return files
+
+
+def _listed(line: str) -> tuple[str, str] | None:
+    """Return the digest and the path of a line; None for any other."""
+    found = _LINE.fullmatch(line)
+    return None if found is None or _ASTRAY.match(found[2]) else (found[1], found[2])
 
 
 def read_manifest(data: bytes) -> Manifest:
@@ -96,8 +116,9 @@ def read_manifest(data: bytes) -> Manifest:
         if (comment := _COMMENT.fullmatch(line)) is not None:
             if comment[1]:
                 facts[comment[1]] = comment[2]
-        elif (listed := _LINE.fullmatch(line)) and _ASTRAY.match(listed[2]) is None:
-            files.setdefault(listed[2], set()).add(listed[1])
+        elif listed := _listed(line):
+            digest, path = listed
+            files.setdefault(path, set()).add(digest)
         else:
             whole = False
     return Manifest(

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, TypeAlias
 
 from framewire.command.console import visible
 
 from framegen.reading.yamltree import Unusable
+from framegen.vendored import recorded_folder
 from framegen.writing.change import Change
 from framegen.writing.kept import is_kept
-from framegen.writing.manifest import Manifest, content_digest, file_digest, holds, read_manifest
+from framegen.writing.manifest import (
+    Manifest,
+    content_digest,
+    file_digest,
+    holds,
+    read_manifest,
+    read_record,
+)
 from framegen.writing.marks import is_blank, is_conflicted, is_former_page, is_generated
 from framegen.writing.places import Places
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
     from framegen.output import Output
@@ -92,7 +100,7 @@ class _Surveyor:
             self._expect_own(output, force=force)
         former = dict(self._former())
         manifests = [*filter(None, self._manifests.values()), *former.values()]
-        self._known = _united(manifests)
+        self._known = _united([*(manifest.files for manifest in manifests), *self._lost()])
         self._joined = frozenset[str]().union(*(manifest.joined for manifest in manifests))
         self._folded = _folded(path for path in self._known if path not in self._wanted)
         for output in self._outputs:
@@ -101,6 +109,9 @@ class _Surveyor:
             for listed in manifest.files:
                 self._look_at_orphan(listed)
             self._found.manifests.add(path)
+            # What is recorded elsewhere is known until the end, too, however much is gone by then.
+            if any(map(recorded_folder, manifest.files)):
+                self._found.plans[path] = replace(manifest, under_way=True).text()
             text = self._text(self._places.look(path))
             self._found.changes.append(Change(path, "orphaned", text, None))
             self._found.left.add(path)
@@ -110,7 +121,24 @@ class _Surveyor:
 
     def _read(self, path: str) -> Manifest | None:
         standing = self._places.look(path)
-        return None if standing is None or standing.kind else read_manifest(standing.data)
+        if standing is None or standing.kind:
+            return None
+        manifest = read_manifest(standing.data)
+        recorded = [self._recorded(record, manifest) for record in manifest.files]
+        return replace(manifest, files=_united([manifest.files, *recorded]))
+
+    def _recorded(self, path: str, manifest: Manifest) -> Lines:
+        """Return what a listed file records of others in its folder, if it is framegen's own."""
+        folder = recorded_folder(path)
+        standing = self._places.look(path) if folder else None
+        if standing is None or standing.kind:
+            return {}
+        own = file_digest(standing.data) in manifest.files.get(path, ())
+        merged = path in manifest.joined or not manifest.whole
+        # Where git has merged, the file may hold the lines of both.
+        if own or is_conflicted(standing.data) or (merged and is_generated(standing.data)):
+            return read_record(standing.data, folder)
+        return {}
 
     def _expect_own(self, output: Output, *, force: bool) -> None:
         """Refuse to take over what another spec, which still exists, has made."""
@@ -139,6 +167,14 @@ class _Surveyor:
                 gone = str(PurePosixPath(manifest.spec).parent) == self._all_of
                 if gone or manifest.spec in specs:
                     yield path, manifest
+
+    def _lost(self) -> Iterable[Lines]:
+        """Yield what is recorded of files that a lost or damaged manifest does not know."""
+        for output in self._outputs:
+            manifest = self._manifests[output.manifest]
+            if manifest is None or not manifest.whole:
+                for path in (it for at in output.folders for it in self._places.files_below(at)):
+                    yield self._recorded(path, Manifest(output.spec, whole=False))
 
     def _look_at(self, output: Output) -> None:
         manifest = self._manifests[output.manifest]
@@ -232,11 +268,11 @@ class _Surveyor:
         adopted = []
         for folder in output.folders:
             for path in self._places.files_below(folder):
-                if path in self._wanted or path in self._known or is_kept(path):
+                if path in self._wanted or is_kept(path):
                     continue
                 if rebuilt and self._adopt(path, is_generated):
                     adopted.append(path)
-                else:
+                elif path not in self._known:
                     self._found.strangers.append(path)
         if rebuilt and output.folders and not output.others:
             for path in self._places.files_below(_FORMER_REFERENCE):
@@ -247,7 +283,11 @@ class _Surveyor:
         return adopted
 
     def _adopt(self, path: str, is_own: Callable[[bytes], bool]) -> bool:
-        """Treat an unlisted file as an orphan if its text shows that framegen wrote it."""
+        """Treat an unlisted file as an orphan if its text, or a record, shows that it is own."""
+        if path in self._known:
+            was_left = path in self._found.left
+            self._look_at_orphan(path)
+            return not was_left
         standing = self._places.look(path)
         if standing is None or standing.kind or not is_own(standing.data):
             return False
@@ -310,10 +350,10 @@ def _owners(outputs: Sequence[Output]) -> dict[str, Output]:
     return owners
 
 
-def _united(manifests: Iterable[Manifest]) -> Lines:
+def _united(lists: Iterable[Mapping[str, frozenset[str]]]) -> Lines:
     known: Lines = {}
-    for manifest in manifests:
-        for path, digests in manifest.files.items():
+    for files in lists:
+        for path, digests in files.items():
             known[path] = known.get(path, frozenset()) | digests
     return known
 

@@ -120,7 +120,7 @@ class _Writer:
         plans = self._found.plans if self._files else {}
         planned = {path: self._stage(path, text) for path, text in plans.items()}
         # Once a plan stands, its end has to be written, even if it is what was there before.
-        for path in plans.keys() - staged.keys():
+        for path in plans.keys() & self._found.finals.keys() - staged.keys():
             staged[path] = self._stage(path, self._found.finals[path])
         for change in self._manifests:
             if not change.ours:

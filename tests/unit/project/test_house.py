@@ -171,7 +171,9 @@ def test_what_packages_have_in_common_is_the_same() -> None:
     first, *others = ([line for line in each if line.startswith(common)] for each in lines)
     assert len(first) == 12
     assert others == [first]
-    assert len({texts()[f"{folder}LICENSE"] for folder in ("", "codegen/")}) == 1
+    assert (
+        len({texts()[f"{folder}LICENSE"] for folder in ("", "codegen/", "runtime/framewire/")}) == 1
+    )
 
 
 def test_a_declared_python_is_a_tested_one() -> None:

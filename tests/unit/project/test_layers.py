@@ -21,7 +21,7 @@ LAYERS = [
     {"checks", "cases"},
     {"compile", "explain", "witnesses"},
     {"audit", "guess", "output"},
-    {"conformance"},
+    {"conformance", "vendored"},
     {"targets.target", "targets.templates", "targets.filenames"},
     {"targets.python", "targets.docs", "targets.vectors", "targets.schema"},
     {"targets.table"},

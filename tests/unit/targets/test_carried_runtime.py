@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from framegen import __version__
 from framegen.render import render, render_target
 from framegen.targets import python
 
@@ -194,10 +195,15 @@ def test_all_of_the_runtime_is_in_the_library_as_it_is() -> None:
     files = render(replace(compiled_file(DEMO), carries_runtime=True)).files
     below = "generated/greenhouse/_runtime/"
     carried = {path: text for path, text in files.items() if path.startswith(below)}
+    record = carried.pop(f"{below}VENDORED.txt")
+    assert {f"# framegen: {__version__}", "# licence: MIT License"} <= {*record.splitlines()}
+    assert [line.partition("  ")[2] for line in record.splitlines() if line[0] != "#"] == sorted(
+        path.removeprefix(below) for path in carried
+    )
     assert carried == {
         f"{below}{file.relative_to(SHARED).as_posix()}": file.read_text(encoding="utf-8")
         for file in SHARED.rglob("*")
-        if file.suffix in {".py", ".typed"}
+        if file.suffix in {".py", ".typed"} or file.name == "LICENSE"
     }
 
 

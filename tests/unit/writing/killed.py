@@ -16,10 +16,10 @@ from typing import Any
 
 from framegen.writing import disk, write
 
-from tests.unit.writing.trees import AFTER, BEFORE, RENAMED, schema
+from tests.unit.writing.trees import NEWER, OLDER, RENAMED, schema
 
 STEPS = ("make_folder", "write_file", "move", "remove_file", "remove_folder")
-EDITIONS = {"first": [BEFORE, schema()], "next": [AFTER, schema()], "renamed": [RENAMED, schema()]}
+EDITIONS = {"first": [OLDER, schema()], "next": [NEWER, schema()], "renamed": [RENAMED, schema()]}
 
 
 @contextmanager

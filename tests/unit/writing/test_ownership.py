@@ -10,13 +10,17 @@ from typing import Any
 import pytest
 from framegen.output import Output, banner
 from framegen.reading.yamltree import Unusable
+from framegen.vendored import RECORD
 from framegen.writing import Change, changes, survey, write
 
 from tests.unit.writing.trees import (
     AFTER,
     BANNER,
     BEFORE,
+    BROUGHT,
     LIBRARY,
+    NEWER,
+    OLDER,
     PAGES,
     SPEC,
     output,
@@ -322,6 +326,94 @@ def test_a_manifest_line_that_leads_out_is_damage(root: Path, path: str) -> None
     file = root / MANIFEST
     file.write_text(file.read_text(encoding="utf-8") + f"{'0' * 64}  {path}\n", encoding="utf-8")
     assert survey(root, [BEFORE]).notices != []
+
+
+# ------------------------------------------------------------------ what is brought as it is
+
+
+def brought(found: list[Change]) -> dict[str, str]:
+    return {
+        path.removeprefix(f"{BROUGHT}/"): why
+        for path, why in whys(found).items()
+        if path.startswith(BROUGHT)
+    }
+
+
+def listed(root: Path) -> list[str]:
+    lines = (root / MANIFEST).read_text(encoding="utf-8").splitlines()
+    return [line.partition("  ")[2] for line in lines if BROUGHT in line]
+
+
+UPDATED = {
+    RECORD: "stale",
+    "changed.py": "stale",
+    "old/gone.py": "orphaned",
+    "new.py": "missing",
+}
+EDITED = "edited by hand"
+# Of the files of an older version, where nothing says any more that they are.
+UNKNOWN = {"changed.py": "foreign", "old/gone.py": None}
+RECORDED = f"{BROUGHT}/{RECORD}"
+BOTH = f"<<<<<<< a\n{OLDER.files[RECORDED]}=======\n{NEWER.files[RECORDED]}>>>>>>> b\n"
+
+
+def test_one_line_of_the_manifest_is_of_what_is_brought(tmp_path: Path) -> None:
+    write(tmp_path, [OLDER])
+    assert listed(tmp_path) == [RECORDED]
+    assert brought(changes(tmp_path, [NEWER])) == UPDATED
+    write(tmp_path, [NEWER])
+    assert (listed(tmp_path), changes(tmp_path, [NEWER])) == ([RECORDED], [])
+    assert fresh(tmp_path / "other", NEWER) == fresh(tmp_path / "third", NEWER)
+    # A run for another target leaves it alone, and knows it afterwards.
+    pages = {path: text for path, text in NEWER.files.items() if path.startswith(PAGES)}
+    others = {path: text for path, text in NEWER.files.items() if path not in pages}
+    assert changes(tmp_path, [replace(NEWER, files=pages, others=others, folders=(PAGES,))]) == []
+    # A library without it takes all of it away.
+    write(tmp_path, [AFTER])
+    assert not (tmp_path / BROUGHT).exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "older", "newer"),
+    [
+        ("same.py", "# mine\n", {"same.py": EDITED}, {"same.py": EDITED}),
+        ("changed.py", "# mine\n", {"changed.py": EDITED}, {"changed.py": EDITED}),
+        ("old/gone.py", None, {"old/gone.py": "missing"}, {"old/gone.py": None}),
+        ("more.py", "# mine\n", {}, {}),
+        (RECORD, None, {RECORD: "missing"}, {RECORD: "missing", **UNKNOWN}),
+        (RECORD, "# mine\n", {RECORD: EDITED}, {RECORD: EDITED, **UNKNOWN}),
+        (RECORD, BOTH, {RECORD: "conflicted"}, {RECORD: "conflicted"}),
+        ("../../kiln.manifest", None, {}, {}),
+        ("../../kiln.manifest", "half", {}, {}),
+    ],
+)
+def test_what_is_done_to_what_is_brought_is_seen(
+    tmp_path: Path, name: str, text: str | None, older: dict[str, str], newer: dict[str, str | None]
+) -> None:
+    """By the version that brought it, and by the next."""
+    write(tmp_path, [OLDER])
+    file = put(tmp_path, f"{BROUGHT}/{name}", text or "")
+    if text is None:
+        file.unlink()
+    assert brought(changes(tmp_path, [OLDER])) == older
+    expected = {path: why for path, why in {**UPDATED, **newer}.items() if why is not None}
+    assert brought(changes(tmp_path, [NEWER])) == expected
+    strangers = [f"{BROUGHT}/{name}"] if name == "more.py" else []
+    assert survey(tmp_path, [OLDER]).strangers == strangers
+
+
+def test_versions_that_git_has_joined_are_both_known(tmp_path: Path) -> None:
+    write(tmp_path, [OLDER])
+    ours = (tmp_path / MANIFEST).read_text(encoding="utf-8")
+    write(tmp_path, [NEWER])
+    joined = ours + (tmp_path / MANIFEST).read_text(encoding="utf-8")
+    put(tmp_path, MANIFEST, joined)
+    put(tmp_path, f"{BROUGHT}/changed.py", OLDER.files[f"{BROUGHT}/changed.py"])
+    for record in (BOTH, OLDER.files[RECORDED], f"{OLDER.files[RECORDED]}{'0' * 64}  a.py\n"):
+        put(tmp_path, RECORDED, record)
+        assert brought(changes(tmp_path, [NEWER])).get("changed.py") == "stale"
+    write(tmp_path, [NEWER])
+    assert changes(tmp_path, [NEWER]) == []
 
 
 # ------------------------------------------------------------------ several specs in one root

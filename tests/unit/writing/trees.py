@@ -2,10 +2,12 @@
 
 import hashlib
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
 from framegen.output import Output, banner
+from framegen.vendored import RECORD, record
 from framegen.writing.workshop import NAME
 
 Snapshot: TypeAlias = "dict[str, bytes | None]"
@@ -14,6 +16,7 @@ SPEC = "spec/kiln.yaml"
 BANNER = f"# {banner(SPEC)}\n"
 LIBRARY = "generated/kiln"
 PAGES = "docs/reference/kiln"
+BROUGHT = f"{LIBRARY}/_runtime"
 
 
 def snapshot(folder: Path) -> Snapshot:
@@ -58,6 +61,13 @@ def output(name: str = "kiln", spec: str = SPEC, **bodies: str) -> Output:
     )
 
 
+def bringing(made: Output, **bodies: str) -> Output:
+    """Return output with a folder of what is brought as it is, and recorded there."""
+    brought = {f"{body.replace('__', '/')}.py": text for body, text in bodies.items()}
+    recorded = {**brought, RECORD: record(brought)}
+    return replace(made, files=made.files | {f"{BROUGHT}/{it}": recorded[it] for it in recorded})
+
+
 def schema(text: str = "{}\n") -> Output:
     return Output("spec/framegen.manifest", "", {"spec/framegen.schema.json": text})
 
@@ -77,5 +87,8 @@ BEFORE = output(
 AFTER = output(
     same="x = 1\n", changed="x = 2\n", new="x = 1\n", deep__er__new="x = 1\n", Heat="new", Fan="fan"
 )
+# The same with what is brought as it is, in an older version and in a newer.
+OLDER = bringing(BEFORE, same="y = 1\n", changed="y = 1\n", old__gone="y = 1\n")
+NEWER = bringing(AFTER, same="y = 1\n", changed="y = 2\n", new="y = 1\n")
 # The library under another name: whole folders and a manifest go.
 RENAMED = output("furnace", SPEC, same="x = 1\n", Heat="new")

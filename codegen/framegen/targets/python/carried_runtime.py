@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 FOLDER = "_runtime"
 _SHARED = Path(framewire.__file__).parent
-_BROUGHT = frozenset({".py", ".typed"})
+_BROUGHT = ("*.py", "*.typed", "LICENSE")
 
 
 @cache
@@ -21,6 +21,6 @@ def carried_runtime() -> Mapping[str, str]:
     """Return the files of the runtime, by path below the package of the library."""
     return {
         f"{FOLDER}/{file.relative_to(_SHARED).as_posix()}": file.read_text(encoding="utf-8")
-        for file in sorted(_SHARED.rglob("*"))
-        if file.suffix in _BROUGHT
+        for pattern in _BROUGHT
+        for file in sorted(_SHARED.rglob(pattern))
     }
