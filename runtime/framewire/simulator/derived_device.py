@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from ..client.exchange import Exchange
-    from ..frame.items import Items
+    from ..frame.lists import List
     from ..frame.message import Message
     from .command import Simulator
 
@@ -177,7 +177,7 @@ class DerivedDevice(VirtualDevice):
         return found
 
     def _element(
-        self, request: Message, items: Items[Any], examples: list[Any], inner: str, value: int
+        self, request: Message, items: List[Any], examples: list[Any], inner: str, value: int
     ) -> dict[str, Any]:
         """Return the element with this value of its field `inner`: as it was set, or an example."""
         held = self._registers.load(request, key=value).get(items.name)
@@ -192,12 +192,12 @@ def _repeated(kind: type[Message], request: Message) -> dict[str, Any]:
     return {name: fields[name] for name in kind.__match_args__ if name in fields}
 
 
-def _as_many(values: list[Any], count: int, items: Items[Any]) -> list[Any]:
+def _as_many(values: list[Any], count: int, items: List[Any]) -> list[Any]:
     """Return so many elements: these again and again, or zeros where there are none."""
     return [*islice(cycle(values or [_zeros(items)]), count)]
 
 
-def _zeros(items: Items[Any]) -> Any:
+def _zeros(items: List[Any]) -> Any:
     """Return an element of zeros, or of the values next to 0 that its fields can have."""
     low_and_high = ((getattr(each, "low", 0), getattr(each, "high", 0)) for each in items.fields)
     values = [sorted((low, 0, high))[1] for low, high in low_and_high]

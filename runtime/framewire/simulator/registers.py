@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..frame.items import Items
+from ..frame.lists import List
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -133,7 +133,7 @@ def _likeness(kind: type[Message], *others: type[Message]) -> tuple[int, int]:
 def _form(kind: type[Message], name: str) -> tuple[object, ...]:
     """Return what two fields have in common where values of one are values of the other."""
     field: Any = getattr(kind, name)
-    field = getattr(field, "there", field)
-    if isinstance(field, Items):
-        return (Items, *((each.name, type(each), each.unit) for each in field.fields))
+    field = field.there
+    if isinstance(field, List):
+        return (List, *((each.name, type(each), each.unit) for each in field.fields))
     return type(field), getattr(field, "unit", "")
