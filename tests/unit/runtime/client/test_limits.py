@@ -19,49 +19,33 @@ from tests.timeouts import LIVE
 
 CLIENTS = (Controller, AsyncController)
 OWN = {1: (100, 900), 2: None, 3: (500, 2500)}
-PWM, USUAL = (
-    "limits=(500, 2500) is for PWM servo boards, ",
-    "limits=(0, 1000) is for what is usual, ",
-)
+PWM = "limits=(500, 2500) is for PWM servo boards, "
+USUAL, ANY = "limits=(0, 1000) is for what is usual, ", "limits=None for any"
 READ = "targets_of() makes targets of what was read; limits=None sends anything"
+
+
+def beyond(place: int, position: int, limits: str) -> str:
+    return f"targets[{place}].position: {position} is outside the limits {limits}; "
+
+
 # Under which limits what is sent to whom, and what refuses it: none if it is inside of them.
 SENT: list[tuple[Any, list[tuple[int, int]], str]] = [
     ((0, 1000), [(1, 0), (2, 1000)], ""),
     ((500, 2500), [(1, 500), (2, 2500)], ""),
     (None, [(1, 0), (2, 65535)], ""),
     ([3, 4], [(1, 3), (2, 4)], ""),
-    (
-        (0, 1000),
-        [(1, 800), (2, 1001)],
-        f"targets[1].position: 1001 is outside the limits 0..1000; {PWM}limits=None for any",
-    ),
-    (
-        (0, 1000),
-        [(1, 65535)],
-        f"targets[0].position: 65535 is outside the limits 0..1000; {READ}",
-    ),
-    (
-        (500, 2500),
-        [(1, 499)],
-        f"targets[0].position: 499 is outside the limits 500..2500; {USUAL}limits=None for any",
-    ),
-    (
-        (100, 800),
-        [(1, 900)],
-        f"targets[0].position: 900 is outside the limits 100..800; {USUAL}{PWM}limits=None for any",
-    ),
+    ((0, 1000), [(1, 800), (2, 1001)], beyond(1, 1001, "0..1000") + PWM + ANY),
+    ((0, 1000), [(1, 65535)], beyond(0, 65535, "0..1000") + READ),
+    ((500, 2500), [(1, 499)], beyond(0, 499, "500..2500") + USUAL + ANY),
+    ((100, 800), [(1, 900)], beyond(0, 900, "100..800") + USUAL + PWM + ANY),
     (OWN, [(1, 100), (1, 900)], ""),
-    (OWN, [(1, 99)], "targets[0].position: 99 is outside the limits 100..900 of servo 1; "),
-    (OWN, [(1, 901)], "targets[0].position: 901 is outside the limits 100..900 of servo 1; "),
+    (OWN, [(1, 99)], beyond(0, 99, "100..900 of servo 1")),
+    (OWN, [(1, 901)], beyond(0, 901, "100..900 of servo 1")),
     (OWN, [(2, 65535)], ""),
     (OWN, [(3, 2500), (4, 1000), (4, 0)], ""),
-    (OWN, [(3, 499)], "targets[0].position: 499 is outside the limits 500..2500 of servo 3; "),
-    (OWN, [(4, 1001)], "targets[0].position: 1001 is outside the limits 0..1000 of servo 4; "),
-    (
-        OWN,
-        [(2, 5000), (1, 500), (1, 950)],
-        "targets[2].position: 950 is outside the limits 100..900 of servo 1; ",
-    ),
+    (OWN, [(3, 499)], beyond(0, 499, "500..2500 of servo 3")),
+    (OWN, [(4, 1001)], beyond(0, 1001, "0..1000 of servo 4")),
+    (OWN, [(2, 5000), (1, 500), (1, 950)], beyond(2, 950, "100..900 of servo 1")),
 ]
 
 
@@ -159,15 +143,14 @@ def test_positions_that_were_read_are_held_within_the_limits_of_each() -> None:
 
 # ------------------------------------------------------------------ the ids of a client
 
+NO_IDS = [
+    ((0,), r"ids has 0, and a servo is 1\.\.253"),
+    ((254,), "ids has 254"),
+    ("1,2", "numbers"),
+]
 
-@in_turn(
-    "ids, problem",
-    lambda: [
-        ((0,), r"ids has 0, and a servo is 1\.\.253"),
-        ((254,), "ids has 254"),
-        ("1,2", "numbers"),
-    ],
-)
+
+@in_turn("ids, problem", lambda: NO_IDS)
 def test_ids_of_no_servo_are_refused(ids: Any, problem: str) -> None:
     for client in CLIENTS:
         with pytest.raises(ValueError, match=problem):
@@ -182,7 +165,7 @@ def test_a_protocol_without_a_pose_takes_no_ids_and_no_limits() -> None:
             client(VirtualLine(), limits={1: (0, 9)})
 
 
-NO_IDS = "ids: give them here, or as ids=… when the client is opened"
+GIVE_IDS = "ids: give them here, or as ids=… when the client is opened"
 
 
 def test_positions_are_read_of_the_ids_of_the_client() -> None:
@@ -197,6 +180,6 @@ def test_positions_are_read_of_the_ids_of_the_client() -> None:
         with client_of(Motor(), ids=(4, 9, 4)) as hub:
             assert [each.blind_id for each in hub.read_heights()] == [4, 9]
             assert [each.blind_id for each in hub.read_heights([5])] == [5]
-        with client_of(Motor()) as hub, pytest.raises(ValueError, match=NO_IDS):
+        with client_of(Motor()) as hub, pytest.raises(ValueError, match=GIVE_IDS):
             hub.read_heights()
         assert asked == [(4, 9), (5,)]

@@ -89,11 +89,12 @@ class Case(NamedTuple):
     answer: Callable[[Message], list[Message]] = where
 
 
-UNLOAD = {"on_exit": "unload"}
-BEYOND = "it is outside 1..253"
-LOST = "the line was lost"
+UNLOAD, NAMED = {"on_exit": "unload"}, {"ids": (2, 1)}
+BEYOND, SILENT, LOST = "it is outside 1..253", "no answer", "the line was lost"
 NO_ANSWER = [ServoPositionsRead([1])] * 3
-FIRST_OF_A_STREAM = ServoMove(LONG, [(1, 900)])
+STREAM = [move(1, latest=True)] * 5, [ServoMove(LONG, [(1, 900)]), *held((1, 433))]
+OUTSIDE, OWN = {3: "1500 is outside the limits"}, {"limits": {3: (500, 2500)}}
+LATE: Any = {"given": {"reply_timeout": 60.0}, "answer": unanswered}
 CASES = [
     Case("what was moved is held where it is", [move(1, 2)], held((1, 433), (2, 612))),
     Case("nothing was moved, so nothing is sent", [], []),
@@ -102,47 +103,19 @@ CASES = [
     Case("what is released already stays so", [move(1, 2), release(1)], held((2, 612))),
     Case("it is released no second time", [move(1), release(1)], [], given=UNLOAD),
     Case("it is held if moved again", [release(1), move(1)], held((1, 433))),
-    Case(
-        "whoever is named is held too", [move(1)], held((2, 612), (1, 433)), given={"ids": (2, 1)}
-    ),
+    Case("whoever is named is held too", [move(1)], held((2, 612), (1, 433)), given=NAMED),
     Case("it needs no move", [], held((2, 612)), given={"ids": (2,)}),
-    Case(
-        "the last of a stream goes before",
-        [move(1, latest=True)] * 5,
-        [FIRST_OF_A_STREAM, *held((1, 433))],
-    ),
-    Case(
-        "those outside the limits are named, the others held",
-        [move(3, 1)],
-        held((1, 433), asked=(3, 1)),
-        {3: "1500 is outside the limits"},
-    ),
-    Case(
-        "each has its own limits",
-        [move(3, 1)],
-        held((3, 1500), (1, 433)),
-        given={"limits": {3: (500, 2500)}},
-    ),
-    Case("one that is off is named", [move(4, 2)], held((2, 612), asked=(4, 2)), {4: "no answer"}),
-    Case("all may be off", [move(4)], [ServoPositionsRead([4])], {4: "no answer"}),
+    Case("the last of a stream goes before", *STREAM),
+    Case("outside the limits, one is named", [move(3, 1)], held((1, 433), asked=(3, 1)), OUTSIDE),
+    Case("each has its own limits", [move(3, 1)], held((3, 1500), (1, 433)), given=OWN),
+    Case("one that is off is named", [move(4, 2)], held((2, 612), asked=(4, 2)), {4: SILENT}),
+    Case("all may be off", [move(4)], [ServoPositionsRead([4])], {4: SILENT}),
     Case("nobody answers for all", [move(254, 1)], held((1, 433)), {254: BEYOND}),
     Case("and of these alone, none is", [move(254)], [], {254: BEYOND}),
     Case(
-        "it is asked three times",
-        [move(1)],
-        NO_ANSWER,
-        {1: "no answer"},
-        NoReplyError,
-        answer=unanswered,
+        "it is asked three times", [move(1)], NO_ANSWER, {1: SILENT}, NoReplyError, {}, unanswered
     ),
-    Case(
-        "it does not take for ever",
-        [move(1)],
-        NO_ANSWER[:1],
-        {1: "there was no time"},
-        given={"reply_timeout": 60.0},
-        answer=unanswered,
-    ),
+    Case("but not for ever", [move(1)], NO_ANSWER[:1], {1: "there was no time"}, **LATE),
     Case("a lost line", [move(1, 2), lose], [], {1: LOST, 2: LOST}, DisconnectedError),
     Case("a lost line frees nobody", [move(1), lose], [], {1: LOST}, DisconnectedError, UNLOAD),
 ]

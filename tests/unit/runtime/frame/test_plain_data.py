@@ -44,44 +44,28 @@ def test_elements_are_dicts_and_may_be_given_as_tuples() -> None:
 
 
 TARGET = {"servo_id": 1, "position": 800}
-OF_A_MOVE, OF_A_TARGET = "ServoMove has time_ms, targets", "ServoTarget has servo_id, position"
+HIGH = {**TARGET, "position": 70000}
+ABSENT, NONE = "it is missing;", "there is no such field;"
+MOVE_HAS, TARGET_HAS = "ServoMove has time_ms, targets", "ServoTarget has servo_id, position"
+FOLLOWS = "it follows from targets; leave it out"
+# The fields of a move beside its time, and what is said of them.
+NO_MOVES: list[tuple[dict[str, Any], str]] = [
+    ({}, f"targets: {ABSENT} {MOVE_HAS}"),
+    ({"targets": [TARGET], "speed": 2}, f"speed: {NONE} {MOVE_HAS}"),
+    ({"targets": [TARGET], "servo_count": 1}, f"servo_count: 1 is not given: {FOLLOWS}"),
+    ({"targets": [TARGET, {"servo_id": 1}]}, f"targets[1].position: {ABSENT} {TARGET_HAS}"),
+    ({"targets": [{**TARGET, "speed": 3}]}, f"targets[0].speed: {NONE} {TARGET_HAS}"),
+    ({"targets": [TARGET, HIGH]}, "targets[1].position: 70000 is outside 0..65535"),
+    ({"targets": TARGET}, "targets[0].servo_id: 'servo_id' is not a whole number, but a str"),
+]
 
 
 @in_turn(
     "kind, fields, said",
     lambda: [
-        *(
-            (ServoMove, {"time_ms": 1, **fields}, said)
-            for fields, said in (
-                ({}, f"targets: it is missing; {OF_A_MOVE}"),
-                (
-                    {"targets": [TARGET], "speed": 2},
-                    f"speed: there is no such field; {OF_A_MOVE}",
-                ),
-                (
-                    {"targets": [TARGET], "servo_count": 1},
-                    "servo_count: 1 is not given: it follows from targets; leave it out",
-                ),
-                (
-                    {"targets": [TARGET, {"servo_id": 1}]},
-                    f"targets[1].position: it is missing; {OF_A_TARGET}",
-                ),
-                (
-                    {"targets": [{**TARGET, "speed": 3}]},
-                    f"targets[0].speed: there is no such field; {OF_A_TARGET}",
-                ),
-                (
-                    {"targets": [TARGET, {**TARGET, "position": 70000}]},
-                    "targets[1].position: 70000 is outside 0..65535",
-                ),
-                (
-                    {"targets": TARGET},
-                    "targets[0].servo_id: 'servo_id' is not a whole number, but a str",
-                ),
-            )
-        ),
+        *((ServoMove, {"time_ms": 1, **fields}, said) for fields, said in NO_MOVES),
         (ServoUnload, {"servo_ids": [{"id": 1}]}, "servo_ids[0]: {'id': 1} is not a whole number"),
-        (ActionGroupStop, {"group": 1}, "group: there is no such field; ActionGroupStop has no"),
+        (ActionGroupStop, {"group": 1}, f"group: {NONE} ActionGroupStop has no"),
         (BatteryVoltage, {"voltage_mv": 7.5}, "voltage_mv: 7.5 is not a whole number"),
     ],
 )

@@ -40,47 +40,29 @@ def with_one_more(data: Any) -> Any:
     return more | {"of_tomorrow": [1]} if {"role", "title", "text", "summary"} & {*data} else more
 
 
+AT: Any = {"name": "x", "at": 3, "size": 4}
+RANGE: Any = {"low": 0, "high": 9}
+# What is written of a slot beside its name and place, and the record that it is.
 SLOTS = [
+    ({"bytes": "55 AA"}, Constant(role="constant", **AT, data=b"\x55\xaa", order="big")),
+    ({"type": "f32"}, Number(role="field", **AT, type="f32", order="big")),
     (
-        '"role": "constant", "name": "x", "at": 0, "size": 2, "bytes": "55 AA"',
-        Constant(role="constant", name="x", at=0, size=2, data=b"\x55\xaa", order="big"),
+        {"type": "u8", **RANGE, "byte_order": "little"},
+        Number(role="id", **AT, type="u8", **RANGE, order="little"),
     ),
+    ({"charset": "ascii"}, Text(**AT, charset="ascii")),
     (
-        '"role": "field", "name": "x", "at": -3, "size": 4, "type": "f32"',
-        Number(role="field", name="x", at=-3, size=4, type="f32", order="big"),
+        {"packed": "u12", "count": 2, **RANGE},
+        Packed(**AT, packed="u12", count=2, **RANGE, order="big"),
     ),
-    (
-        (
-            '"role": "id", "name": "x", "at": 1, "size": 1, "type": "u8", "low": 0, "high": 9,'
-            ' "byte_order": "little"'
-        ),
-        Number(role="id", name="x", at=1, size=1, type="u8", low=0, high=9, order="little"),
-    ),
-    (
-        '"role": "text", "name": "x", "at": 4, "size": 8, "charset": "ascii"',
-        Text(name="x", at=4, size=8, charset="ascii"),
-    ),
-    (
-        (
-            '"role": "packed", "name": "x", "at": 3, "size": 3, "packed": "u12", "count": 2,'
-            ' "low": 0, "high": 9'
-        ),
-        Packed(name="x", at=3, size=3, packed="u12", count=2, low=0, high=9, order="big"),
-    ),
-    (
-        (
-            '"role": "list", "name": "x", "at": 5, "size": 0, "low": 0, "high": 9, "fixed": true,'
-            ' "fields": []'
-        ),
-        List(name="x", at=5, size=0, low=0, high=9, is_fixed=True, fields=()),
-    ),
-    ('"role": "body", "name": "x", "at": 4, "size": 0', Body(name="x", at=4)),
+    ({**RANGE, "fixed": True, "fields": []}, List(**AT, **RANGE, is_fixed=True, fields=())),
+    ({}, Body(**AT)),
 ]
 
 
-@in_turn("text, slot", lambda: SLOTS)
-def test_a_slot_is_a_record_by_its_role(text: str, slot: Any) -> None:
-    facts, said = facts_of("tfmini"), json.loads(f"{{{text}}}")
+@in_turn("more, slot", lambda: SLOTS)
+def test_a_slot_is_a_record_by_its_role(more: Any, slot: Any) -> None:
+    facts, said = facts_of("tfmini"), {"role": slot.role, **AT, **more}
     assert facts.byte_order == "little"
     facts = replace(facts, byte_order="big", envelopes={"frame": replace(facts.frame, slots=())})
     (found,) = protocol_of(data_of(facts) | {"frame": [said]}).frame.slots

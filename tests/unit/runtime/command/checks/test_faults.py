@@ -50,117 +50,100 @@ LOST = dict.fromkeys(
     (UNKNOWN, "not looked at: see the check `rate`", ""),
 )
 BY_NOISE = failed(reply=("answered by bytes that are no reply", "loose plugs"))
-UNSOLICITED = "bytes that are no frame came unsolicited"
 NO_FRAME, SEE_RATE = "bytes that are no frame", "see that the rate"
-AT_WHICH = "at which rate the device is set"
+UNSOLICITED, AT_WHICH = f"{NO_FRAME} came unsolicited", "at which rate the device is set"
 NO_RATE = {"round-trip": (UNKNOWN, "this is no line of that rate", "baud=math.inf")}
-ECHO = {"local_echo": True}
-AT_ONCE = {"baud": None}
+ECHO: dict[str, Any] = {"local_echo": True}
+AT_ONCE: dict[str, Any] = {"baud": None}
+OFTEN_LATE, MORE = Faults(late=0.3, late_by=1.5, seed=3), "of 11 questions 11 answered"
+SUPPLY, TX, GROUNDS = "supply of the servos", "TX goes to RX", "grounds"
+NOT_THIS, REPORT_IT = "does not know this question", "send a report in"
+ALONE = failed(rate=("which are the question itself", TX), echo=("came back 2 of 2 times", "say"))
+LATE_AND_TWICE = failed(
+    reply=("1 answered more than once, 1 answered too late", "--timeout 2"),
+    round_trip=("before the line could have carried", "an earlier question"),
+)
 
+
+def spurious(board: VirtualController, **how: bool) -> None:
+    board.spurious_output(b"\x00\xf8", 20, **how)
+
+
+def heard(board: VirtualController) -> None:
+    spurious(board, ignore_input=False)
+
+
+def started(board: VirtualController) -> None:
+    board.report(ActionGroupStarted(3, 1))
+
+
+# What the checks `silence` and `look-alike` say of bytes that nobody asked for.
+SPURIOUS = failed(silence=(UNSOLICITED, SEE_RATE), reply=("answered with noise around it", GROUNDS))
+NOISE_ALONE = failed(silence=(UNSOLICITED, SEE_RATE), rate=("that are no reply", AT_WHICH))
+EDITION = failed(
+    silence=(f"5 {NO_FRAME}", SEE_RATE), look_alike=("a frame of command 99 came", REPORT_IT)
+)
+LENGTH = failed(
+    silence=(f"8 {NO_FRAME}", SEE_RATE),
+    look_alike=("BatteryVoltage came with 8 bytes, which none has", REPORT_IT),
+)
 CASES = {
     "nothing": Case(),
-    "noise": Case(
-        Faults(noise=1.0),
-        failed(reply=("of 11 questions 11 answered with noise around it", "grounds")),
-    ),
+    "noise": Case(Faults(noise=1.0), failed(reply=(f"{MORE} with noise around it", GROUNDS))),
     "some bits": Case(Faults(bit_flips=0.03, seed=3), BY_NOISE),
     "lost bytes": Case(Faults(lost_bytes=0.02, seed=1), BY_NOISE),
     "pieces": Case(Faults(splits=1.0)),
     "together": Case(Faults(coalesced=1.0)),
     "a little late": Case(Faults(late=1.0, late_by=0.2)),
-    "late": Case(
-        Faults(late=1.0, late_by=0.6),
-        failed(reply=("of 11 questions 11 answered too late", "--timeout 2")),
-    ),
+    "late": Case(Faults(late=1.0, late_by=0.6), failed(reply=(f"{MORE} too late", "--timeout 2"))),
     "far too late": Case(Faults(late=1.0, late_by=100.0), SILENT),
     "twice": Case(
-        Faults(duplicated=1.0),
-        failed(reply=("of 11 questions 11 answered more than once", "no other program")),
+        Faults(duplicated=1.0), failed(reply=(f"{MORE} more than once", "no other program"))
     ),
     "never": Case(Faults(dropped=1.0), SILENT),
     "sometimes": Case(
-        Faults(dropped=0.3, seed=6), failed(reply=("not answered", "retries=2 asks again"))
+        Faults(dropped=0.3, seed=6), failed(reply=("not answered", "retries=2 asks"))
     ),
     "reports": Case(Faults(unsolicited=1.0)),
     "hung up": Case(Faults(hang_up=1.0), LOST | failed(rate=("virtual board: ", "run this again"))),
     "pieces to the board": Case(Faults(splits_to_board=1.0)),
     "no servo": Case(
-        board={"servos": []},
-        expected=failed(present=("servos that are there: none", "supply of the servos")),
+        expected=failed(present=("servos that are there: none", SUPPLY)), board={"servos": []}
     ),
     "all servos off": Case(
-        Faults(absent=1.0), failed(present=("none; reported absent: 6", "supply of the servos"))
+        Faults(absent=1.0), failed(present=("none; reported absent: 6", SUPPLY))
     ),
     "some servos missing": Case(Faults(fewer=0.5, seed=1)),
     "wrong counts": Case(
-        Faults(wrong_count=1.0),
-        failed(present=("servos 1 to 84 was not answered", "does not know this question")),
+        Faults(wrong_count=1.0), failed(present=("servos 1 to 84 was not answered", NOT_THIS))
     ),
     "echo": Case(
-        board=ECHO,
         expected=failed(echo=("came back 1 of 1 times: a local echo", "say --local-echo")),
+        board=ECHO,
     ),
     "echo that is known": Case(board=ECHO, given=ECHO),
     "no echo, against expectation": Case(
         given=ECHO, expected=failed(echo=("came back 0 of 1 times", "leave out --local-echo"))
     ),
-    "echo alone": Case(
-        Faults(dropped=1.0),
-        NOTHING
-        | failed(
-            rate=("which are the question itself", "TX goes to RX"),
-            echo=("came back 2 of 2 times", "say --local-echo"),
-        ),
-        board=ECHO,
-    ),
+    "echo alone": Case(Faults(dropped=1.0), NOTHING | ALONE, ECHO),
     "as fast as can be": Case(board=AT_ONCE, expected=NO_RATE),
-    "as fast as can be, but for a pause": Case(
-        Faults(delays=0.5, longest_delay=0.1), NO_RATE, board=AT_ONCE
-    ),
-    "as fast as can be, and late": Case(
-        Faults(late=0.3, late_by=1.5, seed=3),
-        failed(
-            reply=("1 answered more than once, 1 answered too late", "--timeout 2"),
-            round_trip=("before the line could have carried", "an earlier question"),
-        ),
-        board=AT_ONCE,
-    ),
+    "and a pause": Case(Faults(delays=0.5, longest_delay=0.1), NO_RATE, AT_ONCE),
+    "as fast as can be, and late": Case(OFTEN_LATE, LATE_AND_TWICE, AT_ONCE),
     "as fast as can be, and said to be": Case(board=AT_ONCE, given={"baud": math.inf}),
-    "spurious output": Case(
-        before=lambda board: board.spurious_output(b"\x00\xf8", 20, ignore_input=False),
-        expected=failed(
-            silence=(UNSOLICITED, SEE_RATE), reply=("answered with noise around it", "grounds")
-        ),
-    ),
+    "spurious output": Case(expected=SPURIOUS, before=heard),
     "spurious output and nothing else": Case(
-        before=lambda board: board.spurious_output(b"\x00\xf8", 20),
-        expected=NO_REPLY
-        | failed(silence=(UNSOLICITED, SEE_RATE), rate=("that are no reply", AT_WHICH))
-        | {"look-alike": (UNKNOWN, "not recognised", AT_WHICH)},
+        expected=NO_REPLY | NOISE_ALONE | {"look-alike": (UNKNOWN, "not recognised", AT_WHICH)},
+        before=spurious,
     ),
-    "a report": Case(before=lambda board: board.report(ActionGroupStarted(3, 1))),
+    "a report": Case(before=started),
     "a report and nothing else": Case(
-        Faults(dropped=1.0),
-        NO_REPLY | failed(rate=("nothing came at all", "TX goes to RX")),
-        before=lambda board: board.report(ActionGroupStarted(3, 1)),
+        Faults(dropped=1.0), NO_REPLY | failed(rate=("nothing came at all", TX)), before=started
     ),
-    "another edition": Case(
-        before=sending("55 55 03 63 01"),
-        expected=failed(
-            silence=(f"5 {NO_FRAME}", SEE_RATE),
-            look_alike=("a frame of command 99 came", "send a report in"),
-        ),
-    ),
+    "another edition": Case(expected=EDITION, before=sending("55 55 03 63 01")),
     "the beginning of another length": Case(
-        before=sending("55 55 06 0F"), expected=failed(silence=(f"4 {NO_FRAME}", SEE_RATE))
+        expected=failed(silence=(f"4 {NO_FRAME}", SEE_RATE)), before=sending("55 55 06 0F")
     ),
-    "another length": Case(
-        before=sending("55 55 06 0F 4C 1D 00 00"),
-        expected=failed(
-            silence=(f"8 {NO_FRAME}", SEE_RATE),
-            look_alike=("BatteryVoltage came with 8 bytes, which none has", "send a report in"),
-        ),
-    ),
+    "another length": Case(expected=LENGTH, before=sending("55 55 06 0F 4C 1D 00 00")),
 }
 
 
