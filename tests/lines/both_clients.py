@@ -11,15 +11,9 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Iterable
 from functools import wraps
 from typing import Any, TypeVar
 
+import busservo
 import pytest
-from busservo import (
-    AsyncController,
-    AsyncMotion,
-    Controller,
-    Motion,
-    open_async_controller,
-    open_controller,
-)
+from busservo import AsyncController, AsyncMotion, Controller, Motion, open_async_controller
 
 from tests.lines.live_line import LiveLine
 from tests.lines.receiving import unanswered
@@ -115,7 +109,7 @@ def by_live_tasks(line: LiveLine, work: Work, **given: Any) -> None:
 
 
 def by_threads_at(port: str, work: Work, **given: Any) -> None:
-    with open_controller(port, **given) as made:
+    with busservo.open_controller(port, **given) as made:
         done_at_once(work(Awaited(made)))
 
 

@@ -47,35 +47,6 @@ def test_a_client_that_writes_in_two_parts_and_reads_two_bytes_too_many_is_serve
     assert (board.accepted, board.rejects.total) == (3, 0)
 
 
-def test_a_client_that_clears_its_input_first_is_served(
-    board: VirtualController, line: serial.Serial
-) -> None:
-    board.faults = Faults(seed=1, noise=0.5, splits=0.5, unsolicited=0.5)
-    for _ in range(10):
-        line.reset_input_buffer()
-        line.write(READ_TWO)
-        data = bytearray()
-
-        def answered(data: bytearray = data) -> bool:
-            data += line.read(max(1, line.in_waiting))
-            return b"\x55\x55\x09\x15\x02" in data[:-6]
-
-        await_that(answered)
-        found = data.index(b"\x55\x55\x09\x15\x02")
-        assert data[found + 5 : found + 11] == bytes.fromhex("01 F4 01 02 F4 01")
-    assert board.rejects.total == 0
-
-
-def test_a_client_that_sends_and_closes_is_served(board: VirtualController) -> None:
-    for _ in range(3):
-        with serial.Serial(board.port, 9600) as line:
-            line.write(bytes.fromhex("55 55 05 06 08 01 00"))
-            line.write(bytes.fromhex("55 55 08 03 01 E8 03 01 20 03"))
-    await_that(lambda: board.accepted >= 6)
-    assert (board.accepted, board.rejects.total) == (6, 0)
-    assert board.servos[1].target == 800
-
-
 # ------------------------------------------------------------------ the table
 
 GUIDE = Path(__file__).parents[3] / "docs" / "testing.md"

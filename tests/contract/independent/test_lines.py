@@ -15,7 +15,6 @@ from tests.contract.independent.conversation import (
     talking,
     wire_time,
 )
-from tests.contract.independent.firmware import COMPLETED, STARTED, STOPPED, report
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
 
@@ -34,8 +33,6 @@ def times(talk: Conversation) -> list[float]:
 
 
 # ------------------------------------------------------------------- faster than stated
-
-
 def test_a_line_is_learnt_to_be_faster_from_three_replies_that_were_impossible() -> None:
     """Each of these is held until the line has been quiet; from then on, none is."""
     talk, counters = conversation(Board(), 10)
@@ -48,14 +45,6 @@ def test_a_line_is_learnt_to_be_faster_from_three_replies_that_were_impossible()
     assert (talk.stale, talk.failed) == ([], [])
     assert counters.impossible == 0
     assert max(times(talk)) < 0.001
-
-
-@in_turn("baud", lambda: [BAUD, math.inf])
-def test_a_fast_line_that_gives_a_reply_twice_at_once_is_right(baud: float) -> None:
-    board = Board(thinks=0.002, faults={6: faults.duplicated()}.get)
-    talk, counters = conversation(board, 20, baud=baud)
-    assert (talk.stale, talk.failed) == ([], [])
-    assert counters.unsolicited == 1
 
 
 @in_turn("baud", lambda: [BAUD, math.inf])
@@ -77,18 +66,7 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
         assert talk.failed == []
 
 
-@in_turn("faster", lambda: [1.005, 1.02, 1.04])
-def test_a_board_whose_clock_runs_ahead_is_not_slowed(faster: float) -> None:
-    """The oscillators of two UARTs may differ by a few per cent, and nothing is wrong with that."""
-    talk, counters = conversation(Board(baud=BAUD * faster), 20)
-    assert (talk.stale, talk.failed) == ([], [])
-    assert max(times(talk)) <= wire_time(None, BAUD)
-    assert (counters.impossible, counters.unsolicited) == (0, 0)
-
-
 # ------------------------------------------------------------------- a process that pauses
-
-
 class Pausing(VirtualPort):
     """A process that stands still for a second behind a read that gave so many bytes in all."""
 
@@ -111,32 +89,6 @@ def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind
             positions = controller.read_servo_positions(SIX)
             assert {position for _, position in positions} == {number}
         assert controller.counters.noise == 0
-
-
-# ------------------------------------------------------------------- an echo
-
-
-def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
-    board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
-    with talking(board, local_echo=True, settle=None) as (_, controller):
-
-        def reports() -> list[bytes]:
-            return [each.encode() for each in controller.reports(timeout=0.3)]
-
-        controller.stop_action_group()
-        controller.run_action_group(9, times=1)
-        assert reports() == []
-        assert [controller.read_battery_voltage() for _ in range(3)] == [1, 2, 3]
-        assert {position for _, position in controller.read_servo_positions(SIX)} == {4}
-        controller.move_servos([(1, 500)], time_ms=1000)
-        controller.run_action_group(8, times=1)
-        assert reports() == [report(STARTED, 8, 1), report(COMPLETED, 8, 1)]
-        controller.run_action_group(8, times=0)
-        assert reports() == [report(STARTED, 8, 0)]
-        controller.stop_action_group()
-        assert reports() == [report(STOPPED)]
-        assert controller.counters.noise == 0
-    assert board.refused == []
 
 
 # ------------------------------------------------------------------- a stranger's reply

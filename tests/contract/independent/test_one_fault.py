@@ -5,11 +5,9 @@ The wire takes its time both ways, and the client is given the true baud rate.
 
 from typing import NamedTuple
 
-import pytest
-
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import BITS_PER_BYTE, Board
-from tests.contract.independent.conversation import BAUD, SIX, Requested, talking, wire_time
+from tests.contract.independent.conversation import BAUD, SIX, Requested, talking
 from tests.contract.independent.faults import Piece, Script
 from tests.in_turn import in_turn
 
@@ -126,23 +124,6 @@ def test_after_any_fault_the_second_next_read_is_right(
             assert run.talk.failed == []
 
 
-def test_without_faults_each_request_is_sent_and_counted_once() -> None:
-    for requested in READS.values():
-        for bench in BENCHES:
-            run = Run(requested, None, bench)
-            assert (run.talk.failed, run.talk.stale) == ([], [])
-            assert (run.counters.sent, run.counters.replies) == (9, 9)
-            assert (run.counters.unsolicited, run.counters.impossible) == (0, 0)
-
-
-def test_a_healthy_read_takes_what_the_wire_takes() -> None:
-    for requested in READS.values():
-        for thinks in (0.0, 0.002):
-            for call in Run(requested, None, Bench(thinks)).talk.calls:
-                taken = call.ended - call.began
-                assert taken == pytest.approx(wire_time(requested, BAUD) + thinks, abs=1e-4)
-
-
 @in_turn("read", lambda: READS)
 def test_a_duplicate_shifts_nothing(read: str) -> None:
     """A reply that came twice made 77 of 80 reads stale, without an error or a count."""
@@ -154,12 +135,6 @@ def test_a_duplicate_shifts_nothing(read: str) -> None:
         at_once = bench.latency > 0.01 and READS[read] is None
         assert (run.counters.unsolicited, run.counters.retries) == (1 + at_once, at_once)
         assert run.counters.replies == 80
-
-
-@in_turn("report", lambda: [STOPPED, REPORT])
-def test_a_report_that_fills_what_is_missing_is_no_part_of_the_reply(report: bytes) -> None:
-    run = Run(SIX, faults.cut(-len(report), later(0.0, report)), Bench())
-    run.check()
 
 
 BYTE = BITS_PER_BYTE / BAUD

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import busservo
 import pytest
 from busservo import (
     ActionGroupCompleted,
@@ -19,7 +20,8 @@ from busservo import (
     ServoPositionsRead,
     ServoUnload,
 )
-from busservo_simulator import ActionGroup, Step, VirtualController
+from busservo_simulator import ActionGroup, Faults, Step, VirtualController
+from framewire.simulator.line_faults import LineFaults
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import virtual_board
@@ -27,6 +29,8 @@ from tests.lines.hosts import Host, host_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from tests.lines.hosts import Host
 
 NOD = ActionGroup([Step(300, {1: 600}), Step(200, {1: 400})])
 
@@ -105,15 +109,6 @@ def test_a_servo_that_is_off_is_reported_as_65535_and_one_that_is_missing_not_at
     assert positions(host, 2) == [(2, 500)]
 
 
-def test_a_read_that_no_reply_could_hold_is_met_with_silence(
-    board: VirtualController, host: Host
-) -> None:
-    assert len(positions(host, *range(84))) == 6
-    assert host.ask(ServoPositionsRead(range(85))) is None
-    assert board.rejects.total == 0
-    assert "85 servos fit in no reply: silence" in str(board.log)
-
-
 # -------------------------------------------------------------------- action groups
 
 RUN, RUN_ON = ActionGroupRun(5, 1), ActionGroupRun(5, 0)
@@ -171,12 +166,6 @@ def test_the_report_that_a_group_starts_can_be_left_out() -> None:
         assert host_of(board).ask(RUN) == COMPLETED
 
 
-def test_groups_come_with_the_board(board: VirtualController, host: Host) -> None:
-    for group in board.board.groups:
-        assert host.ask(ActionGroupRun(group, 1)) == ActionGroupStarted(group, 1)
-        assert host.receive() == ActionGroupCompleted(group, 1)
-
-
 def test_an_action_group_without_steps_is_refused() -> None:
     with pytest.raises(ValueError, match="needs a step"):
         ActionGroup([])
@@ -210,8 +199,6 @@ def test_the_battery_has_the_voltage_of_the_moment(
 
 
 # -------------------------------------------------------------------- LED, buzzer, restart
-
-
 @pytest.mark.garbage
 def test_right_frames_blink_and_wrong_ones_beep(board: VirtualController, host: Host) -> None:
     host.say(BatteryVoltageRead())
@@ -227,13 +214,6 @@ def test_right_frames_blink_and_wrong_ones_beep(board: VirtualController, host: 
     assert not board.board.led_stays_on
 
 
-@pytest.mark.garbage
-def test_a_wrong_frame_is_met_with_silence(board: VirtualController, host: Host) -> None:
-    host.transport.write(bytes.fromhex("55 55 04 0F 4C 1D"))
-    assert host.receive() is None
-    assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
-
-
 def test_a_board_that_restarts_receives_nothing(board: VirtualController, host: Host) -> None:
     host.transport.write(b"\x55\x55\x08\x03")
     board.reboot(2.0)
@@ -242,3 +222,40 @@ def test_a_board_that_restarts_receives_nothing(board: VirtualController, host: 
     board.advance(0.1)
     assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)
     assert (board.accepted, board.rejects.total) == (1, 0)
+
+
+# -------------------------------------------------------------------- the faults of its line alone
+def test_a_reply_counts_one_too_many_or_too_few(board: VirtualController, host: Host) -> None:
+    board.faults = Faults(seed=7, wrong_count=1)
+    frames = set()
+    for _ in range(20):
+        host.say(ServoPositionsRead([1, 2]))
+        frames.add(board.transport.read(1).hex(" "))
+    assert frames == {f"55 55 09 15 {count} 01 f4 01 02 f4 01" for count in ("01", "03")}
+    assert host.ask(BatteryVoltageRead()) == BatteryVoltage(7500)  # it has no count
+
+
+def test_servos_are_left_out_or_reported_to_be_off(board: VirtualController, host: Host) -> None:
+    board.faults = Faults(seed=7, fewer=0.3, absent=0.3)
+    counts, values = set(), set()
+    for _ in range(50):
+        reply = host.ask(ServoPositionsRead(range(1, 7)))
+        assert isinstance(reply, busservo.ServoPositions)
+        counts.add(len(reply.positions))
+        values |= {position.position for position in reply.positions}
+    assert len(counts) > 2
+    assert values == {500, 65535}
+
+
+def test_unsolicited_reports_are_sent(board: VirtualController, host: Host) -> None:
+    board.faults = Faults(seed=7, unsolicited=1)
+    kinds = set()
+    for _ in range(30):
+        kinds.add(type(host.ask(BatteryVoltageRead())))
+        assert host.receive() == BatteryVoltage(7500)
+    assert kinds == {busservo.ActionGroupStarted, busservo.ActionGroupStopped, ActionGroupCompleted}
+
+
+def test_faults_of_any_line_are_not_enough() -> None:
+    with pytest.raises(TypeError, match="Faults are wanted, not LineFaults"):
+        VirtualController(faults=LineFaults())

@@ -1,4 +1,4 @@
-"""What the packages of the simulators export, and that the board waits until it is asked for."""
+"""What the packages of the simulators export, once it is asked for; and the fixtures for others."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import os
 import sys
 from typing import Any
 
+import busservo
 import busservo_simulator
 import busservo_simulator.virtual_loop
 import lxservo_simulator
 import pytest
+from busservo_simulator import VirtualController
+from busservo_simulator.fixtures import patient_controller, virtual_controller
 from framewire.simulator.virtual_loop import run_virtual
 
 from tests.in_turn import in_turn
@@ -37,3 +40,20 @@ def test_the_command_alone_imports_no_device(package: Any) -> None:
     devices = {f"{name}.{each}" for each in ("board", "bus", "virtual_controller", "virtual_bus")}
     assert f"{name}.cli" in loaded
     assert devices.isdisjoint(loaded)
+
+
+# -------------------------------------------------------------------- the fixtures
+
+
+__all__ = ["patient_controller", "virtual_controller"]
+
+
+def test_a_board_in_memory_answers(virtual_controller: VirtualController) -> None:
+    virtual_controller.transport.write(busservo.BatteryVoltageRead().encode())
+    assert virtual_controller.transport.read(5) == busservo.BatteryVoltage(7500).encode()
+
+
+def test_the_time_of_a_patient_board_goes_on_by_hand(patient_controller: VirtualController) -> None:
+    patient_controller.transport.write(busservo.ServoMove(1000, [(1, 900)]).encode())
+    patient_controller.advance(0.5)
+    assert patient_controller.servos[1].position == 700

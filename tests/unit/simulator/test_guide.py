@@ -10,17 +10,7 @@ from typing import TYPE_CHECKING, get_args
 
 import busservo
 import pytest
-from busservo import (
-    ActionGroupRun,
-    ActionGroupSpeed,
-    ActionGroupStop,
-    BatteryVoltageRead,
-    HostMessage,
-    Message,
-    ServoMove,
-    ServoPositionsRead,
-    ServoUnload,
-)
+from busservo import ActionGroupRun, ActionGroupSpeed, ActionGroupStop, Message, ServoMove
 from busservo_simulator import ActionGroup, Step
 from busservo_simulator.board import Board
 from busservo_simulator.cli import SIMULATOR
@@ -91,10 +81,10 @@ RUN = ActionGroupRun(group=8, times=1)
 # Every way in which a message can be received, with what has been received before it.
 RECEIVED: list[list[Message]] = [
     [ServoMove(time_ms=500, targets=[(1, 700), (2, 510)])],
-    [ServoUnload([1, 99])],
-    [ServoPositionsRead([1, 99])],
-    [ServoPositionsRead(range(1, 86))],
-    [BatteryVoltageRead()],
+    [busservo.ServoUnload([1, 99])],
+    [busservo.ServoPositionsRead([1, 99])],
+    [busservo.ServoPositionsRead(range(1, 86))],
+    [busservo.BatteryVoltageRead()],
     [RUN],
     [ActionGroupRun(group=99, times=1)],
     [RUN, RUN],
@@ -122,7 +112,7 @@ def sent_after(messages: Sequence[Message]) -> set[str]:
 
 
 def test_the_guide_says_what_each_message_has_the_board_send() -> None:
-    sent: dict[str, set[str]] = {each.__name__: set() for each in get_args(HostMessage)}
+    sent: dict[str, set[str]] = {each.__name__: set() for each in get_args(busservo.HostMessage)}
     for *before, message in RECEIVED:
         sent[type(message).__name__] |= sent_after([*before, message]) - sent_after(before)
     assert sent == REACTIONS

@@ -9,7 +9,6 @@ import lxservo
 import pytest
 import serial
 from busservo_simulator import VirtualClock
-from framewire.simulator.line_faults import LineFaults
 from lxservo_simulator import VirtualBus
 from lxservo_simulator.cli import main
 
@@ -84,13 +83,6 @@ def test_what_is_written_to_one_is_read_from_it(
     assert getattr(client, read)(2) == expected != before
 
 
-def test_a_move_ends_at_the_limits(bus: VirtualBus, client: lxservo.Controller) -> None:
-    client.write_position_limits(1, 200, 600)
-    client.move(1, position=1000, time_ms=0)
-    bus.advance(1)
-    assert client.read_position(1) == 600
-
-
 def test_a_saved_offset_outlives_the_power(bus: VirtualBus, client: lxservo.Controller) -> None:
     for number in (1, 2):
         client.adjust_offset(number, 20)
@@ -112,15 +104,6 @@ def test_a_limp_servo_is_turned_by_hand_and_held_again(
     assert client.read_position(1) == -12
 
 
-def test_a_dead_servo_delays_nobody_else(bus: VirtualBus, client: lxservo.Controller) -> None:
-    bus.servos[2].dead = True
-    with pytest.raises(lxservo.NoReplyError, match=r"PositionRead\(servo_id=2\)"):
-        client.read_position(2)
-    before = bus.clock.now()
-    assert client.read_position(3) == 500
-    assert bus.clock.now() - before < 0.01
-
-
 def test_a_servo_is_found_by_asking_all_and_given_a_number(
     bus: VirtualBus, client: lxservo.Controller
 ) -> None:
@@ -130,30 +113,6 @@ def test_a_servo_is_found_by_asking_all_and_given_a_number(
     client.write_servo_id(2, new_id=9)
     assert client.read_servo_id(9) == 9
     assert set(bus.servos) == {1, 3, 9}
-
-
-def test_a_broken_frame_is_met_with_silence(bus: VirtualBus) -> None:
-    frame = lxservo.PositionRead(servo_id=1).encode()
-    bus.transport.write(frame[:-1] + b"\x00")
-    assert bus.transport.read(0.1) == b""
-    assert (bus.accepted, bus.rejected) == (0, 1)
-    bus.transport.write(frame)
-    assert bus.transport.read(0.1) != b""
-
-
-def test_faults_happen_and_replies_are_matched_all_the_same() -> None:
-    clock = VirtualClock(follow_reads=True)
-    faults = LineFaults(seed=3, noise=0.3, bit_flips=0.01, dropped=0.1, duplicated=0.2, splits=0.3)
-    with (
-        VirtualBus(servos=[1, 2], baud=BAUD, clock=clock, faults=faults) as bus,
-        client_at(bus, lxservo.Controller, retries=8, settle=None) as client,
-    ):
-        bus.servos[2].move(300, 0)
-        bus.advance(2)
-        read = [client.read_position(number) for number in (1, 2) for _ in range(40)]
-        assert read == [500] * 40 + [300] * 40
-        assert client.counters.noise > 0
-        assert client.counters.retries > 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")

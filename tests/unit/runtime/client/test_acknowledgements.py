@@ -1,9 +1,7 @@
 """Runs, and the reports that acknowledge them: what the result of a run says, and when."""
 
-import math
 from collections import deque
 from collections.abc import Iterable
-from functools import partial
 from itertools import accumulate
 from typing import Any
 
@@ -13,8 +11,7 @@ from framewire.client.session import Session
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.lines.both_clients import both, both_live, until
-from tests.lines.live_line import LiveLine
+from tests.lines.both_clients import both
 from tests.lines.questions import REPLY_TIMEOUT, session
 from tests.lines.stories import (
     Step,
@@ -142,16 +139,6 @@ test_a_run = told(
 )
 
 
-def test_more_runs_than_are_followed_do_no_harm() -> None:
-    it = Told(session(baud=math.inf))
-    for group in range(100):
-        run(group)(it)
-    for group in range(100):
-        hear(0.1, ActionGroupStarted(group, 1))(it)
-    assert {each.sent.started for each in it.requests} == {None, True}
-    assert it.requests[-1].sent.started is True
-
-
 class Board:
     """A board that reports after how many milliseconds each group has started; None for never."""
 
@@ -220,8 +207,6 @@ def test_acknowledgements_match_what_the_board_has_done(
 
 
 # -------------------------------------------------------------------- both clients
-
-
 def of_group_8(message: Message) -> Iterable[tuple[float, Message]]:
     """Yield the messages of a board that has group 8 and no other."""
     if isinstance(message, ActionGroupRun) and message.group == 8:
@@ -254,15 +239,3 @@ async def test_a_run_that_the_board_ignores_is_seen(controller: Any, line: Any) 
 
 def known(run: busservo.Run) -> bool:
     return run.started is not None
-
-
-def on_group_8() -> LiveLine:
-    return LiveLine(lambda message: [each for _, each in of_group_8(message)])
-
-
-@both_live(on_group_8, reply_timeout=0.05)
-async def test_a_run_that_the_board_ignores_is_seen_where_nobody_asks(controller: Any) -> None:
-    for group in (8, 7):
-        run = await controller.run_action_group(group, times=1)
-        await until(controller, partial(known, run))
-        assert run.started is (group == 8)

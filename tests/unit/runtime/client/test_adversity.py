@@ -5,7 +5,6 @@ happens, a call ends with the right value or with a declared error, in bounded t
 lives on, so does the client.
 """
 
-import asyncio
 import os
 import socket
 import struct
@@ -31,7 +30,6 @@ from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.both_clients import PORT_TALKS, Awaited, Talk, done_at_once, until
 from tests.lines.conversation import again
-from tests.lines.live_line import in_a_loop
 from tests.lines.rfc2217_server import Rfc2217Server
 from tests.timeouts import GENEROUS, LIVE, await_that
 
@@ -72,8 +70,6 @@ def client_on_its_time(board: VirtualController) -> Any:
 
 
 # -------------------------------------------------------------------- pulled, stolen
-
-
 @both_clients
 def test_pulled_in_the_middle_of_a_reply(board: VirtualController, talk: Talk) -> None:
     async def work(controller: Any) -> None:
@@ -113,8 +109,6 @@ def test_a_connection_that_is_reset_in_the_middle_of_a_reply() -> None:
 
 
 # -------------------------------------------------------------------- rebooted
-
-
 def test_a_board_that_reboots_is_silent_and_then_back_by_itself() -> None:
     with virtual_board() as board, client_on_its_time(board) as controller:
         assert controller.request(BatteryVoltageRead()) == ANSWER
@@ -152,8 +146,6 @@ def test_a_board_whose_port_goes_away_while_it_reboots(board: VirtualController)
 
 
 # -------------------------------------------------------------------- flooded
-
-
 @contextmanager
 def flooded(board: VirtualController, counters: Any) -> Iterator[list[int]]:
     """Flood the line with reports, as many as it takes; yield a list whose sum is their number."""
@@ -210,8 +202,6 @@ def test_a_board_that_sends_nonsense_alone_ends_in_an_error(nonsense: bytes) -> 
 
 
 # -------------------------------------------------------------------- closed, cancelled
-
-
 def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
     board.faults = Faults(dropped=1)
     controller = open_controller(board.port, **LIVE)
@@ -228,22 +218,7 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
         assert listening.result(GENEROUS) == []
 
 
-@in_a_loop
-async def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -> None:
-    async with busservo.open_async_controller(board.port, **LIVE) as controller:
-        for turn in range(20):
-            asking = asyncio.ensure_future(controller.read_servo_positions([1, 2]))
-            moving = asyncio.ensure_future(controller.move_servos([(1, 500)], 0))
-            await asyncio.sleep(0.0005 * turn)
-            asking.cancel()
-            moving.cancel()
-            assert await controller.read_servo_positions([3]) == ((3, 500),)
-            await asyncio.gather(asking, moving, return_exceptions=True)
-
-
 # -------------------------------------------------------------------- ports by other names
-
-
 @needs_pty
 @pytest.mark.filterwarnings("ignore:set(Daemon|Name):DeprecationWarning")
 def test_a_port_over_rfc_2217(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,30 +13,10 @@ from framewire.client.base_client import POLL_INTERVAL
 
 from tests.lines.live_line import LiveLine, answered, in_a_loop
 from tests.lines.receiving import unanswered
-from tests.lines.virtual_line import VirtualLine, client, in_virtual_time, run
+from tests.lines.virtual_line import VirtualLine, client, in_virtual_time
 from tests.timeouts import GENEROUS, LIVE
 
 STOPPED = ActionGroupStopped()
-
-
-@in_a_loop
-async def test_a_hundred_tasks_share_a_controller() -> None:
-    line = LiveLine()
-    async with AsyncController(line, baud=math.inf, reply_timeout=GENEROUS) as controller:
-
-        async def ask(number: int) -> None:
-            for _ in range(2):
-                servos = [number + 1, number + 2]
-                found = await controller.read_servo_positions(servos)
-                assert found == tuple((s, 10 * s) for s in servos)
-                line.say(busservo.ActionGroupCompleted(number, 1))
-
-        await asyncio.gather(*(ask(number) for number in range(100)))
-        while controller.counters.reports < 200:
-            await asyncio.sleep(0.001)
-        received = [report async for report in controller.reports(timeout=0.02)]
-        assert len(received) == 200
-        assert controller.counters.unsolicited == 0
 
 
 @in_virtual_time
@@ -56,41 +36,6 @@ async def test_a_cancelled_question_leaves_the_line_usable() -> None:
         line.say(BatteryVoltage(7400))  # the late reply of the first
         assert await controller.read_battery_voltage() == 7500
         assert controller.counters.unsolicited == 1
-
-
-@in_virtual_time
-async def test_unplugged_while_questions_are_under_way() -> None:
-    line = VirtualLine()
-    async with client(line, **LIVE) as controller:
-        asking = [controller.read_battery_voltage() for _ in range(5)]
-        waiting = controller.wait_for(ActionGroupStopped, timeout=GENEROUS)
-        tasks = [asyncio.ensure_future(each) for each in (*asking, waiting)]
-        await asyncio.sleep(0.02)
-        line.unplug()
-        for task in tasks:
-            with pytest.raises(busservo.DisconnectedError):
-                await task
-        await controller.reconnect()
-        assert not controller.closed
-        await controller.stop_action_group()
-
-
-@in_virtual_time
-async def test_close_ends_the_waits_of_other_tasks_and_the_reports() -> None:
-    line = VirtualLine()
-    controller = client(line, **LIVE)
-    line.say(STOPPED)
-
-    async def listen() -> list[object]:
-        return [report async for report in controller.reports()]
-
-    listening = asyncio.ensure_future(listen())
-    asking = asyncio.ensure_future(controller.read_battery_voltage())
-    await asyncio.sleep(0.02)
-    await asyncio.gather(controller.close(), controller.close())
-    with pytest.raises(busservo.ClosedError):
-        await asking
-    assert await listening == [STOPPED]
 
 
 @in_a_loop
@@ -164,23 +109,3 @@ async def test_a_client_without_threads_that_is_forgotten_gives_its_line_back() 
     line.say(STOPPED)
     await asyncio.sleep(1)
     assert line.closed
-
-
-def test_what_a_loop_left_open_is_closed_in_another() -> None:
-    line = VirtualLine()
-    moves = [busservo.ServoMove(20, [(1, position)]) for position in (1, 2)]
-
-    async def use() -> AsyncController:
-        controller = client(line)
-        for each in moves:
-            controller.send_latest(each)
-        return controller
-
-    async def close(controller: AsyncController) -> None:
-        await controller.close()
-
-    controller = run(use(), line)
-    line.say(STOPPED)
-    run(close(controller), line)
-    assert line.closed
-    assert line.received == moves

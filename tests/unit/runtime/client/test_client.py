@@ -1,12 +1,14 @@
 """The promises of both clients, each told once; and those of one to the threads that share it."""
 
 import logging
+import math
 import os
 import pickle
 import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -14,10 +16,22 @@ from typing import Any
 import busservo
 import framewire
 import pytest
-from busservo import ActionGroupCompleted, ActionGroupStopped, Controller, Message, NoReportError
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupStopped,
+    Controller,
+    EncodeError,
+    Message,
+    NoReplyError,
+    NoReportError,
+)
 from busservo.__main__ import main
+from busservo.strategies import messages
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
+from tests.lines.at_board import client_at, virtual_board
 from tests.lines.both_clients import both
 from tests.lines.live_line import LiveLine, answered
 from tests.lines.timed_line import ScriptedLine, client_on
@@ -42,16 +56,6 @@ def test_both_clients_have_the_same_methods_and_defaults() -> None:
 
 
 # -------------------------------------------------------------------- commands and questions
-
-
-@in_turn("count", lambda: [1, 84, 85, 168, 200])
-@both(answered)
-async def test_positions_are_requested_in_parts(controller: Any, line: Any, count: int) -> None:
-    servos = range(1, count + 1)
-    found = await controller.read_servo_positions(servos)
-    assert found == tuple((servo, 10 * servo) for servo in servos)
-    sizes = [len(each.servo_ids) for each in line.received]
-    assert sizes == [min(84, count - at) for at in range(0, count, 84)]
 
 
 NO_LISTS: list[tuple[Any, str]] = [
@@ -119,27 +123,7 @@ async def test_send_and_request_know_commands_from_questions(controller: Any) ->
     assert await controller.read_battery_voltage() == 7500
 
 
-@both()
-async def test_moves_faster_than_the_line_do_not_pile_up(controller: Any, line: Any) -> None:
-    for _ in range(20):
-        sent = await controller.move_servos([(servo, 500) for servo in range(1, 7)], 20)
-        assert sent.delay < 0.005
-        assert sent.duration == pytest.approx(25 / 960)
-    assert line.now == pytest.approx(19 * 25 / 960 - 0.004, abs=0.001)
-
-
 # -------------------------------------------------------------------- reports
-
-
-@both()
-async def test_reports_come_in_order_and_end_in_silence(controller: Any, line: Any) -> None:
-    said = [STARTED, STOPPED, COMPLETED]
-    for at, report in enumerate(said):
-        line.say(report, at * 0.1)
-    for expected in (said, []):
-        assert [each async for each in controller.reports(timeout=0.5)] == expected
-
-
 @both(report_limit=4)
 async def test_the_oldest_reports_go_when_there_are_too_many(controller: Any, line: Any) -> None:
     said = [ActionGroupCompleted(8, times) for times in range(10)]
@@ -251,8 +235,6 @@ async def test_a_callback_that_fails_affects_no_other_and_can_be_removed(
 
 
 # -------------------------------------------------------------------- its end
-
-
 @both()
 async def test_close_waits_until_the_last_byte_is_out(controller: Any, line: Any) -> None:
     await controller.move_servos([(servo, 500) for servo in range(1, 60)], 100)
@@ -291,12 +273,6 @@ async def test_a_lost_line_says_so_until_it_is_opened_again(
         await controller.reconnect()
 
 
-@both()
-async def test_a_client_that_was_never_used_can_be_closed(controller: Any, line: Any) -> None:
-    await controller.close()
-    assert line.closed
-
-
 def test_a_line_that_cannot_be_opened_again_says_so() -> None:
     controller = client_on(ScriptedLine(lambda _: b""), Controller)
     with pytest.raises(TypeError, match="no method reopen"):
@@ -304,15 +280,7 @@ def test_a_line_that_cannot_be_opened_again_says_so() -> None:
     controller.close()
 
 
-def test_errors_are_of_one_family() -> None:
-    error = busservo.TransportError("COM7", "it is in use", "close the other program")
-    assert isinstance(error, OSError)
-    assert str(error) == str(error.again()) == "COM7: it is in use; close the other program"
-
-
 # -------------------------------------------------------------------- what it tells
-
-
 @both(answered, trace="line.log")
 async def test_every_frame_is_logged_and_traced(
     controller: Any, line: Any, in_a_folder: Path, caplog: Any, capsys: Any
@@ -364,8 +332,6 @@ async def test_statistics_are_shown_and_nothing_is_logged_by_default(
 
 
 # -------------------------------------------------------------------- threads
-
-
 def test_callbacks_may_use_the_client_for_threads() -> None:
     line = VirtualLine(answered)
     with client_on(line, Controller) as controller:
@@ -414,3 +380,24 @@ def test_a_report_reaches_a_callback_while_somebody_waits_for_another_or_nobody_
         assert not pending.done()
         line.say(COMPLETED)
         assert pending.result(GENEROUS) == COMPLETED
+
+
+def at(board: Any, **more: Any) -> Any:
+    return client_at(board, Controller, baud=math.inf, settle=None, **more)
+
+
+@given(st.lists(messages(), max_size=20))
+def test_any_message_is_sent_whole_or_refused(requests: list[Message]) -> None:
+    with virtual_board() as board, at(board, reply_timeout=0.01) as controller:
+        sent = 0
+        for message in requests:
+            for way in (controller.send, controller.request, controller.send_latest):
+                try:
+                    with suppress(NoReplyError):
+                        way(message)
+                    sent += 1
+                except (TypeError, EncodeError):
+                    continue
+        controller.close()
+        assert board.accepted + controller.counters.replaced == sent
+        assert board.rejects.total == 0

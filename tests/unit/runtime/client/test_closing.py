@@ -13,7 +13,6 @@ from typing import Any
 import busservo
 import pytest
 from busservo import AsyncController, ClosedError, Controller, DisconnectedError, ServoUnload
-from busservo_simulator import VirtualController
 from framewire.client.awaited import Awaited as Opening
 
 from tests.in_turn import in_turn
@@ -60,8 +59,6 @@ async def cancelled(task: asyncio.Task[Any]) -> None:
 
 
 # -------------------------------------------------------------------- closed by several
-
-
 def test_whoever_closes_second_waits_for_whoever_closes_first() -> None:
     draining = Gate()
     line = LiveLine(drain=draining)
@@ -131,8 +128,6 @@ def test_a_controller_that_is_not_open_yet_says_how_to_open_it() -> None:
 
 
 # -------------------------------------------------------------------- forgotten
-
-
 def test_a_client_that_is_forgotten_says_so_and_gives_everything_back(tmp_path: Path) -> None:
     line, trace = LiveLine(), tmp_path / "line.log"
     controller = Controller(line, **LIVE, trace=trace)
@@ -247,16 +242,7 @@ def test_the_warning_is_a_resource_warning() -> None:
     controller.__del__()  # and says nothing
 
 
-def test_what_could_not_be_made_has_nothing_to_give_back() -> None:
-    for kind in (Controller, AsyncController):
-        with pytest.raises(ValueError, match="reply_timeout"):
-            kind(VirtualLine(), reply_timeout=0)
-    gc.collect()
-
-
 # -------------------------------------------------------------------- a line that fails
-
-
 @pytest.mark.parametrize("talk", LIVE_TALKS)
 @in_turn("call", lambda: ["stop_action_group", "read_battery_voltage"])
 def test_what_the_port_does_not_take_fails_at_once(talk: Talk, call: str) -> None:
@@ -291,8 +277,6 @@ async def test_a_transport_with_a_bug_ends_in_an_error_that_says_so(controller: 
 
 
 # -------------------------------------------------------------------- closed
-
-
 def press_ctrl_c() -> None:
     raise KeyboardInterrupt
 
@@ -388,21 +372,7 @@ def test_pending_frames_are_sent_although_the_machine_pauses_while_closing() -> 
     assert line.received[-1] == ServoUnload([7])
 
 
-@in_turn("via", lambda: ["memory", "tcp", *(["pty"] if sys.platform != "win32" else [])])
-def test_nothing_of_the_last_frame_is_cut_off(via: Any) -> None:
-    with VirtualController(via, baud=9600) as board:
-        transport = board.transport if via == "memory" else busservo.open_transport(board.port)
-        began = time.monotonic()
-        with Controller(transport) as controller:
-            controller.unload_servos(range(1, 61))
-        assert time.monotonic() - began >= 65 / 960
-        await_that(lambda: board.accepted == 1)
-        assert board.rejects.total == 0
-
-
 # -------------------------------------------------------------------- opened again
-
-
 def absent() -> None:
     raise busservo.PortNotFoundError(LiveLine.name, "there is no such port", "plug it in")
 
@@ -582,8 +552,6 @@ def test_the_end_of_a_read_of_the_line_before_does_not_end_the_new_one(
 
 
 # -------------------------------------------------------------------- a driver that gives trouble
-
-
 def fail() -> None:
     raise OSError("it is gone")
 
@@ -660,8 +628,6 @@ async def test_what_arrives_after_a_line_was_given_up_is_not_reported() -> None:
 
 
 # -------------------------------------------------------------------- a loop that is no more
-
-
 def test_a_line_goes_quiet_when_its_loop_has_ended() -> None:
     line = LiveLine()
 
@@ -756,8 +722,6 @@ def test_what_was_closed_by_a_loop_that_ended_meanwhile_may_be_closed_again() ->
 
 
 # -------------------------------------------------------------------- a port that opens too late
-
-
 @in_a_loop
 async def test_opening_that_is_cancelled_leaves_no_port_open() -> None:
     line, gate = LiveLine(), Gate()

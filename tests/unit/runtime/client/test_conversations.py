@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 import pytest
-from busservo import AsyncController, Controller, NoReplyError
+from busservo import AsyncController, Controller
 from busservo_simulator import Faults, VirtualClock, VirtualController
 from framewire.simulator.virtual_loop import run_virtual
 from hypothesis import given
@@ -20,8 +20,6 @@ from hypothesis import strategies as st
 from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.conversation import FAULTS, Ledger, converse, converse_async
-from tests.lines.timed_line import client_on
-from tests.lines.virtual_line import VirtualLine
 
 REPLY_TIMEOUT = 0.25
 # A reply may come long after its request has timed out, but not so late that nothing could tell it
@@ -115,22 +113,6 @@ def test_requests_that_arrive_damaged_give_no_wrong_value(seed: int, flips: floa
     board, ledger, clock = virtual(Faults(seed=seed, bit_flips_to_board=flips, noise_to_board=0.5))
     with board, client_at(board, Controller, **LINE) as controller:
         converse(controller, ledger, seed, 15, clock.now, bound=MOST)
-
-
-@given(
-    st.lists(st.sampled_from([b"\x55", b"\x55\x55", b"\x55\x55\x15"]), max_size=40), st.booleans()
-)
-def test_a_board_that_sends_nothing_but_headers_ends_in_an_error(
-    spurious: list[bytes], flood: bool
-) -> None:
-    line = VirtualLine()
-    for at, data in enumerate(spurious):
-        line.say(data * (40 if flood else 1), 0.02 * at)
-    with client_on(line, Controller, reply_timeout=REPLY_TIMEOUT, settle=None) as controller:
-        with pytest.raises(NoReplyError) as caught:
-            controller.read_battery_voltage()
-        assert caught.value.waited <= 1
-        assert line.now <= 1
 
 
 @in_turn("seed", lambda: range(4))

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import sys
-
 import busservo
 import pytest
 from busservo import (
-    MESSAGES,
     ActionGroupCompleted,
-    ActionGroupStop,
     BatteryVoltage,
     BatteryVoltageRead,
-    Direction,
     Noise,
     Reason,
     strategies,
@@ -24,9 +18,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.programs import ran
 
-HOST = Direction.HOST_TO_CONTROLLER
+HOST = busservo.Direction.HOST_TO_CONTROLLER
 ASK, REPLY = BatteryVoltageRead().encode(), BatteryVoltage(7500).encode()
 
 
@@ -49,11 +42,11 @@ def test_a_handler_answers_its_request_behind_reports_of_its_own_accord() -> Non
 def test_there_is_a_handler_for_each_message_of_the_host_and_for_no_other() -> None:
     handlers = {name for name in dir(Device) if name.startswith("on_")}
     assert handlers == {
-        f"on_{snake_case(kind.__name__)}" for kind in MESSAGES if kind.DIRECTION is HOST
+        f"on_{snake_case(kind.__name__)}" for kind in busservo.MESSAGES if kind.DIRECTION is HOST
     }
     assert {"on_servo_move", "on_action_group_run", "on_battery_voltage_read"} <= handlers
     device = Device()
-    assert device.receive(ASK + ActionGroupStop().encode()) == b""
+    assert device.receive(ASK + busservo.ActionGroupStop().encode()) == b""
     assert device.rejects.total == 0
 
 
@@ -128,42 +121,6 @@ def test_legal_traffic_is_never_refused_however_it_is_cut(
 ) -> None:
     device = told(b"".join(message.encode() for message in messages), size)
     assert (device.heard, device.rejects.total) == (messages, 0)
-
-
-FRAMES = strategies.messages(HOST).map(lambda message: message.encode())
-
-
-@given(st.lists(st.binary() | FRAMES))
-@pytest.mark.garbage
-def test_no_bytes_can_make_it_raise(chunks: list[bytes]) -> None:
-    device = Meter()
-    for chunk in chunks:
-        device.receive(chunk)
-    device.quiet()
-    assert sum(device.rejects.by_reason.values()) == device.rejects.total
-
-
-FRAGMENTS = (
-    st.sampled_from([b"\x55", b"\x55\x55", b"\x02", b"\x0f", b"\x08\x03"])
-    | st.binary(max_size=6)
-    | FRAMES
-)
-
-
-@given(st.lists(FRAGMENTS, max_size=12).map(b"".join), st.integers(1, 9))
-@pytest.mark.garbage
-def test_how_bytes_are_cut_makes_no_difference_to_what_is_refused(data: bytes, size: int) -> None:
-    refused = []
-    for device in (told(data, size), told(data)):
-        device.quiet()
-        refused.append(device.rejects.by_reason)
-    assert refused[0] == refused[1]
-
-
-def test_the_codec_alone_does_not_import_it() -> None:
-    script = "import sys, busservo; print(*[name for name in sys.modules if 'device' in name])"
-    search = {"PYTHONPATH": os.pathsep.join(sys.path)}
-    assert ran(sys.executable, "-c", script, environment=search).stdout == "\n"
 
 
 @pytest.mark.garbage

@@ -1,7 +1,6 @@
 """What a device refuses or fails to carry out is an error; a reply is as long as was asked for."""
 
 import importlib
-import math
 import pickle
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -10,7 +9,6 @@ import pytest
 from framegen.model.codec import encode
 
 from tests.bad_specs import BASES
-from tests.contract.independent.memory import MemoryPort
 from tests.factories import (
     compiled_file,
     data_of,
@@ -22,7 +20,6 @@ from tests.factories import (
 )
 from tests.in_turn import in_turn
 from tests.lines.timed_line import Pieces, ScriptedLine, TimedLine, client_of, client_on
-from tests.lines.virtual_line import in_virtual_time
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
@@ -57,8 +54,6 @@ def client(name: str, answer: bytes, **settings: Any) -> Any:
 
 
 # ------------------------------------------------------------------ refusals
-
-
 def test_a_refusal_is_an_error_that_carries_it() -> None:
     modbus = lib("modbus")
     with client("modbus", frame("modbus", "HoldingReadRefused", unit=17, reason=2)) as bus:
@@ -104,8 +99,6 @@ def test_a_handler_may_refuse() -> None:
 
 
 # ------------------------------------------------------------------ failures
-
-
 def test_a_failure_names_the_bits_that_are_set() -> None:
     dynamixel = lib("dynamixel1")
     reply = status(1, 0x24)
@@ -124,15 +117,6 @@ def test_a_failure_names_the_bits_that_are_set() -> None:
             bus.device(1).ping()
 
 
-@in_virtual_time
-async def test_failures_are_raised_with_asyncio_as_well() -> None:
-    dynamixel = lib("dynamixel1")
-    line = ScriptedLine(lambda _: status(1, 1))
-    async with client_on(line, dynamixel.AsyncController) as bus:
-        with pytest.raises(dynamixel.FailureError, match="input_voltage"):
-            await bus.ping(servo_id=1)
-
-
 def test_who_answers_all_is_gathered_whatever_has_failed() -> None:
     dynamixel = lib("dynamixel1")
     with client("dynamixel1", status(1, 1) + status(2, 2)) as bus:
@@ -143,8 +127,6 @@ def test_who_answers_all_is_gathered_whatever_has_failed() -> None:
 
 
 # ------------------------------------------------------------------ a frame that may be both
-
-
 def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
     """The ping of servo 1 is, to the byte, a status of servo 1 whose supply is out of bounds."""
     dynamixel = lib("dynamixel1")
@@ -176,20 +158,11 @@ def test_a_status_with_another_good_value_fails_with_all_others() -> None:
 
 
 # ------------------------------------------------------------------ as many items as were asked for
-
-
 def memory_client(*answers: Pieces) -> Any:
     """Return a client; each of its frames is answered by bytes, each so many seconds later."""
     script = [*answers]
     line = TimedLine(lambda _: script.pop(0) if script else [], in_order=False)
     return client_on(line, lib("memory").Controller, reply_timeout=0.25)
-
-
-def test_the_right_size_is_taken_among_others() -> None:
-    two, one = (frame("memory", "Bytes", stored=stored) for stored in ([1, 2], [7]))
-    with memory_client([(0.02, two), (0.03, one), (0.04, two)]) as host:
-        assert host.read_bytes(16, count=1) == (7,)
-        assert host.counters.unsolicited == 1
 
 
 @in_turn(
@@ -261,13 +234,3 @@ def test_the_vectors_say_which_replies_answer(name: str) -> None:
         fits = exchanges[type(request)].counted.fits(request, reply)
         assert fits is vector["answers"], vector["title"]
     assert {vector["answers"] for vector in vectors} == {True, False}
-
-
-def test_a_memory_written_by_hand_answers_as_the_vectors_say() -> None:
-    for vector in vectors_of(compiled_file(MEMORY))["replies"]:
-        if vector["title"].startswith("BytesRead"):
-            port = MemoryPort(late={})
-            port.write(bytes.fromhex(vector["request"]))
-            answer = port.read(math.inf)
-            same_size = len(answer) == len(bytes.fromhex(vector["reply"]))
-            assert same_size is vector["answers"], vector["title"]

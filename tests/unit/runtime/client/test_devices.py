@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.factories import library, library_of
-from tests.lines.servo_bus import MOVE, READ_ID, READ_POSITION, ServoBus, frame
-from tests.lines.timed_line import ScriptedLine, client_of, client_on
+from tests.lines.servo_bus import READ_ID, READ_POSITION, ServoBus, frame
+from tests.lines.timed_line import ScriptedLine, client_on
 from tests.protocols.specs import FILES
 
 # Which servo is asked; after how many seconds it answers, and how often.
@@ -33,16 +33,6 @@ def took(line: ServoBus, call: Any) -> float:
 
 
 # ------------------------------------------------------------------ one device of many
-
-
-def test_a_servo_is_named_by_its_number_or_asked_as_a_device() -> None:
-    with client(ServoBus(1, 3)) as bus:
-        assert bus.read_position(servo_id=3) == 3001
-        third = bus.device(3)
-        assert (third.address, third.read_position()) == (3, 3002)
-        assert bus.device(1).read_position() == 1001
-
-
 def test_a_device_has_each_method_that_is_for_one() -> None:
     named = {name for name in vars(lxservo.Controller) if not name.startswith("_")}
     for kind in (lxservo.OneDevice, lxservo.AllDevices):
@@ -50,28 +40,7 @@ def test_a_device_has_each_method_that_is_for_one() -> None:
         assert own == named - {"device", "broadcast", "gather"}
 
 
-def test_a_command_goes_to_its_servo_alone() -> None:
-    line = ServoBus(1, 2)
-    with client(line) as bus:
-        bus.device(2).move(500, time_ms=10).wait()
-    assert [len(servo.moves) for servo in line.servos.values()] == [0, 1]
-
-
-def test_a_reply_of_another_servo_answers_nothing() -> None:
-    line = ServoBus(1, 2)
-    with client(line) as bus:
-        line.servos[2].delay = 0.15  # later than the client waits: it comes when another is asked
-        with pytest.raises(lxservo.NoReplyError):
-            bus.read_position(2)
-        assert bus.read_position(1) == 1001
-        line.servos[2].delay = 0.001
-        assert bus.read_position(2) == 2002
-        assert bus.counters.unsolicited == 1
-
-
 # ------------------------------------------------------------------ a dead servo
-
-
 def test_a_dead_servo_delays_no_question_to_another() -> None:
     line = ServoBus(1, 2, 3)
     line.servos[2].dead = True
@@ -124,18 +93,7 @@ def test_nothing_is_sent_while_a_servo_may_answer() -> None:
     assert len(line.servos[1].moves) == 20
 
 
-def test_a_reply_that_comes_twice_never_answers_the_next_question() -> None:
-    line = ServoBus(1, 2)
-    line.servos[1].copies = 2
-    with client(line) as bus:
-        for count in range(1, 20):
-            assert bus.read_position(2) == 2000 + count
-            assert bus.read_position(1) == 1000 + count
-
-
 # ------------------------------------------------------------------ all at once
-
-
 def test_nobody_is_awaited_who_never_answers() -> None:
     line = ServoBus(1, 2)
     with client(line) as bus:
@@ -145,14 +103,6 @@ def test_nobody_is_awaited_who_never_answers() -> None:
         with pytest.raises(lxservo.EncodeError, match=r"`broadcast\(\)`"):
             bus.request(lxservo.PositionRead(254))
         assert line.commands == []
-
-
-def test_a_command_goes_to_all_at_once() -> None:
-    line = ServoBus(1, 2, 3)
-    with client(line) as bus:
-        assert took(line, lambda: bus.broadcast().move(500, 20)) < 0.01
-    assert line.commands == [(254, MOVE)]
-    assert [len(servo.moves) for servo in line.servos.values()] == [1, 1, 1]
 
 
 def test_a_question_to_all_gathers_who_answers_in_time() -> None:
@@ -167,30 +117,7 @@ def test_a_question_to_all_gathers_who_answers_in_time() -> None:
                 bus.broadcast().read_servo_id(within=wrong)
 
 
-def test_who_answers_all_too_late_does_not_answer_what_is_asked_next() -> None:
-    line = ServoBus(1)
-    with client(line) as bus:
-        line.servos[1].delay = 0.06
-        assert bus.broadcast().read_servo_id(within=0.05) == []
-        line.servos[1].delay = 0.001
-        assert bus.read_servo_id(1) == 1
-        assert bus.counters.unsolicited == 1
-
-
-def test_all_are_asked_with_asyncio() -> None:
-    line = ServoBus(1, 2)
-
-    async def ask() -> Any:
-        async with client_on(line, lxservo.AsyncController) as bus:
-            await bus.broadcast().move(500, 20)
-            return await bus.broadcast().read_servo_id(within=0.05)
-
-    assert [each.own_id for each in run_virtual(ask(), line.timer)] == [1, 2]
-
-
 # ------------------------------------------------------------------ a line with an echo
-
-
 def test_nothing_answers_a_question_that_has_not_come_back_yet() -> None:
     """On a line of no rate, a reply that comes twice would look like the next one."""
     replies = [frame(1, READ_POSITION, number, 0) for number in range(20)]
@@ -206,14 +133,6 @@ def test_nothing_answers_a_question_that_has_not_come_back_yet() -> None:
         for number in range(2, 20):
             assert bus.read_position(1) == number
         assert (bus.counters.unsolicited, bus.counters.echoes) == (18, 19)
-
-
-def test_an_echo_that_nobody_spoke_of_is_noise() -> None:
-    line = ServoBus(1, echo=True)
-    with client(line) as bus:
-        assert bus.read_position(1) == 1001
-        assert line.commands == [(1, READ_POSITION)]
-        assert bus.counters.noise == 6
 
 
 # ------------------------------------------------------------------ each with its faults
@@ -277,8 +196,6 @@ def test_many_tasks_each_have_their_own_answer(rounds: list[list[int]], turns: l
 
 
 # ------------------------------------------------------------------ the other end
-
-
 def servos(*addresses: int) -> Any:
     """Return a device that answers two questions, and keeps what it is called for."""
 
@@ -315,14 +232,6 @@ def test_what_is_for_all_is_handled_and_only_answered_by_who_says_so() -> None:
     assert [message.servo_id for message in device.called] == [254]
     # Its handler sends, and what it returns is not sent.
     assert device.receive(frame(254, READ_ID)) == frame(1, READ_ID, 1) + frame(2, READ_ID, 2)
-
-
-def test_a_client_and_a_device_of_one_library_agree() -> None:
-    with client_of(servos(1, 2)) as bus:
-        assert [bus.device(each).read_position() for each in (1, 2)] == [1, 2]
-        assert [each.own_id for each in bus.broadcast().read_servo_id(within=0.1)] == [1, 2]
-        with pytest.raises(lxservo.NoReplyError):
-            bus.read_position(3)
 
 
 def test_a_client_numbers_its_frames() -> None:

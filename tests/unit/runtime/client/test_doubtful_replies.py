@@ -25,8 +25,6 @@ OVERDUE = 2 * (TRIP + REPLY_TIMEOUT)
 
 
 # ---------------------------------------------------------------- a value that only rises
-
-
 class Reply(NamedTuple):
     """When a reply of a rising servo was asked for, in how many bytes, when it came, and what."""
 
@@ -99,8 +97,6 @@ def test_a_servo_that_only_rises_is_never_read_going_down(
 
 
 # ---------------------------------------------------------------- what is in doubt, and what not
-
-
 class Doubt(NamedTuple):
     """A question at 0 s, the replies to it, and its answer; None where it is asked again.
 
@@ -179,8 +175,6 @@ def test_an_only_reply_as_late_as_the_lost_one_is_not_believed() -> None:
 
 
 # ---------------------------------------------------------------- how it ends
-
-
 def always_in_doubt(line: Session) -> Request:
     request, now = ask(line), 0.0
     while not request.done:

@@ -1,14 +1,10 @@
 """A frame with a gap is no frame, and a silence tells that no longer one comes."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from busservo import (
-    ActionGroupCompleted,
     BatteryVoltage,
-    BatteryVoltageRead,
-    Controller,
     NoReplyError,
     ServoPositionsRead,
 )
@@ -17,27 +13,13 @@ from framewire.codec.gap import GAP
 from tests.factories import data_of, files_of, imported, library_of
 from tests.in_turn import in_turn
 from tests.lines import questions
-from tests.lines.questions import REPLY_TIMEOUT, TRIP, asked, say, session
+from tests.lines.questions import REPLY_TIMEOUT, TRIP, asked, say
 from tests.lines.stories import ask, counted, failed, hear, pending, replied, tick, told
-from tests.lines.timed_line import client_on
-from tests.lines.virtual_line import VirtualLine
 from tests.mutations.places import having
 from tests.protocols.specs import FILES
 
 FRAME = BatteryVoltage(7500).encode()
 TORN = FRAME[:4]
-REPORT = ActionGroupCompleted(8, 1)
-
-
-@in_turn("gap", lambda: [0.0, 0.001, 0.005, 0.03, 0.049, 0.06, 0.1, 0.2])
-def test_a_hole_and_a_report_after_any_time_are_an_error_and_that_report(gap: float) -> None:
-    line = VirtualLine(
-        lambda it: [(0.015, TORN), (gap, REPORT)] if it == BatteryVoltageRead() else []
-    )
-    with client_on(line, Controller) as controller:
-        with pytest.raises(NoReplyError, match="4 bytes came that are no frame"):
-            controller.read_battery_voltage()
-        assert list(controller.reports(timeout=1)) == [REPORT]
 
 
 END = TRIP + REPLY_TIMEOUT
@@ -82,26 +64,7 @@ test_a_gap_ends_a_frame = told(
 )
 
 
-def test_the_next_tick_is_due_when_a_gap_is_over() -> None:
-    line = session()
-    say(line, 1.0, TORN)
-    assert line.tick_at == pytest.approx(1.0 + GAP)
-    line.tick(1.0 + GAP)
-    assert line.tick_at is None
-    assert line.counters.noise == len(TORN)
-
-
-def test_a_frame_that_breaks_off_is_marked_in_the_trace(tmp_path: Path) -> None:
-    line = VirtualLine(lambda _: [(0.0, b"\x55\x55\x04")])
-    trace = tmp_path / "line.log"
-    with client_on(line, Controller, trace=trace) as controller, pytest.raises(NoReplyError):
-        controller.read_battery_voltage()
-    assert "# quiet" in trace.read_text(encoding="utf-8")
-
-
 # ------------------------------------------------------------------ the beginning of a longer one
-
-
 @pytest.fixture(scope="module")
 def libraries() -> Iterator[None]:
     """Import libraries; in one, the fault of the gauges may come instead of a pressure, too."""

@@ -18,7 +18,6 @@ from framewire.line.hid_port import HidPort, open_hid
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import PORT_TALKS, Talk
-from tests.lines.gates import closing_ends_a_read
 from tests.lines.receiving import answered
 from tests.timeouts import LIVE
 
@@ -208,20 +207,6 @@ def test_what_fails_as_it_is_closed_is_closed() -> None:
     device.write = write  # type: ignore[method-assign]
     with pytest.raises(busservo.ClosedError):
         port.write(b"UU")
-
-
-def test_closing_ends_a_read_in_another_thread() -> None:
-    closing_ends_a_read(port_on(Device()))
-
-
-def test_the_same_board_is_opened_again(library: Library) -> None:
-    with busservo.open_controller("hid://", **LIVE) as controller:
-        library.devices[0].lost = True
-        with pytest.raises(DisconnectedError):
-            controller.stop_action_group()
-        controller.reconnect()
-        assert controller.read_battery_voltage() == 7500
-    assert len(library.devices) == 2
 
 
 TWO, CHOICE = (

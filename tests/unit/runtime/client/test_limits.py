@@ -5,15 +5,12 @@ from typing import Any
 
 import lxservo
 import pytest
-from busservo import AsyncController, Controller, EncodeError, LimitError, ServoMove, ServoPositions
-from busservo._exchanges import LIMITS, POSE
+from busservo import AsyncController, Controller, LimitError, ServoMove
 from busservo_simulator import VirtualController
-from framewire.client.limits import Limits
 
-from tests.factories import DEMO, library, library_of
 from tests.in_turn import in_turn
 from tests.lines.both_clients import PORT_TALKS, Talk
-from tests.lines.timed_line import client_of, client_on
+from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
 from tests.timeouts import LIVE
 
@@ -72,13 +69,6 @@ def test_what_is_outside_the_limits_is_refused_and_never_sent(
     assert line.received == ([] if refusal else [move, move])
 
 
-def test_a_refusal_is_an_encode_error() -> None:
-    error = LimitError("targets[0].position", 1500, (0, 1000), LIMITS.way_out(1500))
-    assert isinstance(error, EncodeError)
-    assert isinstance(error, ValueError)
-    assert (error.path, error.value, error.limits) == ("targets[0].position", 1500, (0, 1000))
-
-
 LOWEST = r"limits is .* must be the lowest and the highest.* such as \(0, 1000\), or None for any"
 
 
@@ -95,19 +85,6 @@ def test_limits_that_can_be_nobodys_are_refused_with_what_can(limits: Any, probl
     for client in CLIENTS:
         with pytest.raises(ValueError, match=problem):
             client(VirtualLine(), limits=limits)
-
-
-def test_nothing_else_has_limits() -> None:
-    beyond = ServoMove(time_ms=100, targets=[(1, 800), (2, 1001)])
-    assert ServoMove.decode(beyond.encode()) == beyond
-    line = VirtualLine()
-    with client_on(line, Controller, settle=None) as controller:
-        controller.set_action_group_speed(255, percent=65535)
-        controller.run_action_group(255, times=65535)
-    assert len(line.received) == 2
-    assert Limits().chosen(None) is None
-    with pytest.raises(ValueError, match="nothing that is sent here has limits"):
-        Limits().chosen((0, 1))
 
 
 @pytest.mark.parametrize("talk", PORT_TALKS)
@@ -133,14 +110,6 @@ def test_a_port_is_opened_with_limits_and_ids(talk: Talk) -> None:
             talk(board.port, chosen, **LIVE, ids=[3, 2], limits=limits)
 
 
-def test_positions_that_were_read_are_held_within_the_limits_of_each() -> None:
-    assert POSE is not None
-    read = ServoPositions([(1, 95), (4, 1010), (2, 4000)]).positions
-    assert POSE.targets_of(read, LIMITS.chosen(OWN)) == [(1, 100), (4, 1000), (2, 4000)]
-    with pytest.raises(LimitError, match=r"50 is outside the limits 100\.\.900 of servo 1; "):
-        POSE.targets_of(ServoPositions([(1, 50)]).positions, LIMITS.chosen(OWN))
-
-
 # ------------------------------------------------------------------ the ids of a client
 
 NO_IDS = [
@@ -163,23 +132,3 @@ def test_a_protocol_without_a_pose_takes_no_ids_and_no_limits() -> None:
             client(VirtualLine(), ids=(1,))
         with pytest.raises(ValueError, match="nothing that is sent here has limits"):
             client(VirtualLine(), limits={1: (0, 9)})
-
-
-GIVE_IDS = "ids: give them here, or as ids=… when the client is opened"
-
-
-def test_positions_are_read_of_the_ids_of_the_client() -> None:
-    with library(library_of(DEMO.with_name("blinds.yaml"))) as blinds:
-        asked: list[tuple[int, ...]] = []
-
-        class Motor(blinds.Device):  # type: ignore[misc, name-defined]
-            def on_blinds_read(self, message: Any) -> Any:
-                asked.append(tuple(message.blind_ids))
-                return blinds.BlindsState([(each, 7) for each in message.blind_ids])
-
-        with client_of(Motor(), ids=(4, 9, 4)) as hub:
-            assert [each.blind_id for each in hub.read_heights()] == [4, 9]
-            assert [each.blind_id for each in hub.read_heights([5])] == [5]
-        with client_of(Motor()) as hub, pytest.raises(ValueError, match=GIVE_IDS):
-            hub.read_heights()
-        assert asked == [(4, 9), (5,)]

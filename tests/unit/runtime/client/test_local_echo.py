@@ -4,20 +4,9 @@ import logging
 from collections.abc import Callable, Iterable
 from typing import Any
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupRun,
-    ActionGroupStarted,
-    ActionGroupStop,
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    Controller,
-    EchoError,
-    Message,
-    ServoMove,
-    TransportError,
-)
+from busservo import ActionGroupRun, ActionGroupStop, BatteryVoltageRead, EchoError, Message
 from busservo._exchanges import EXCHANGES
 from framewire.client.local_echo import LocalEcho
 from framewire.client.request import Request
@@ -25,17 +14,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import both_live
-from tests.lines.live_line import LiveLine, answered
 from tests.lines.questions import session
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
-from tests.timeouts import LIVE
 
 Incoming = Iterable[tuple[float, bytes | Message]]
 
-STARTED = ActionGroupStarted(8, 1)
+STARTED = busservo.ActionGroupStarted(8, 1)
 
 
 def wire(message: Message) -> float:
@@ -45,19 +31,13 @@ def wire(message: Message) -> float:
 def replies(message: Message) -> Incoming:
     """Yield the replies of a board with a voltage only."""
     if isinstance(message, BatteryVoltageRead):
-        yield wire(message) + 0.02, BatteryVoltage(7500)
+        yield wire(message) + 0.02, busservo.BatteryVoltage(7500)
 
 
 def echoing(message: Message) -> Incoming:
     """Yield the echo of a half-duplex adapter, and the replies."""
     yield wire(message), message.encode()
     yield from replies(message)
-
-
-def one_that_starts(message: Message) -> Incoming:
-    yield from echoing(message)
-    if isinstance(message, ActionGroupRun):
-        yield wire(message) + 0.02, STARTED
 
 
 def in_pieces(message: Message) -> Incoming:
@@ -75,7 +55,7 @@ def changed(message: Message) -> Incoming:
 
 
 def virtual(answer: Callable[[Message], Any], *, local_echo: bool = True) -> Any:
-    return client_on(VirtualLine(answer), Controller, local_echo=local_echo)
+    return client_on(VirtualLine(answer), busservo.Controller, local_echo=local_echo)
 
 
 @in_turn("answer", lambda: [echoing, in_pieces])
@@ -88,12 +68,6 @@ def test_what_was_sent_comes_back_and_is_dropped(answer: Callable[[Message], Inc
         assert list(controller.reports(timeout=1)) == received
         assert controller.counters.echoes == 3
         assert controller.counters.noise == 0
-
-
-def test_a_report_like_the_command_is_distinguished_from_its_echo() -> None:
-    with virtual(one_that_starts) as controller:
-        controller.run_action_group(8, times=1)
-        assert list(controller.reports(timeout=1)) == [STARTED]
 
 
 def test_an_echo_that_a_later_one_overtakes_is_missing() -> None:
@@ -113,55 +87,19 @@ def test_a_missing_echo_is_an_error(answer: Callable[[Message], Incoming]) -> No
     with virtual(answer) as controller:
         with pytest.raises(EchoError, match="leave out local_echo") as caught:
             controller.move_servos([(1, 500)], time_ms=0)
-        assert isinstance(caught.value, TransportError)
+        assert isinstance(caught.value, busservo.TransportError)
         with pytest.raises(EchoError):
             controller.read_battery_voltage()
 
 
-def test_after_a_missing_echo_the_line_goes_on() -> None:
-    line = VirtualLine(unanswered)
-    with client_on(line, Controller, local_echo=True) as controller:
-        with pytest.raises(EchoError):
-            controller.stop_action_group()
-        line.answer = echoing
-        assert controller.read_battery_voltage() == 7500
-        assert list(controller.reports(timeout=1)) == []
-
-
 def test_a_motion_that_nobody_waits_for_says_so_in_the_log(caplog: Any) -> None:
     with virtual(unanswered) as controller:
-        controller.send_latest(ServoMove(0, [(1, 500)]))
+        controller.send_latest(busservo.ServoMove(0, [(1, 500)]))
         assert list(controller.reports(timeout=1)) == []
     assert "has not come back" in caplog.text
 
 
-def test_closing_waits_for_the_last_echo() -> None:
-    controller = virtual(echoing)
-    controller.send_latest(ServoMove(0, [(1, 500)]))
-    controller.close()
-    assert controller.counters.echoes == 1
-
-
-def live(answer: Callable[[Message], list[Message]] = answered) -> LiveLine:
-    return LiveLine(lambda message: [message, *answer(message)])
-
-
-@both_live(live, local_echo=True, **LIVE)
-async def test_the_same_in_real_time(controller: Any) -> None:
-    await controller.stop_action_group()
-    assert await controller.read_battery_voltage() == 7500
-    assert [report async for report in controller.reports(timeout=0.05)] == []
-
-
-@both_live(LiveLine, local_echo=True, settle=0)
-async def test_a_missing_echo_is_an_error_in_real_time(controller: Any) -> None:
-    with pytest.raises(EchoError):
-        await controller.stop_action_group()
-
-
 # ---------------------------------------------------------------- unless it is said
-
-
 def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(caplog: Any) -> None:
     with caplog.at_level(logging.WARNING), virtual(echoing, local_echo=False) as controller:
         for _ in range(3):
@@ -175,28 +113,24 @@ def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(caplog: Any)
 def test_a_report_like_a_command_is_no_sign_of_an_echo(message: Message) -> None:
     with virtual(echoing, local_echo=False) as controller:
         controller.send(message)
-        reported = [STARTED] if isinstance(message, ActionGroupRun) else [ActionGroupStopped()]
+        reported = (
+            [STARTED] if isinstance(message, ActionGroupRun) else [busservo.ActionGroupStopped()]
+        )
         assert list(controller.reports(timeout=1)) == reported
         assert controller.counters.echoes == 0
 
 
-@in_turn("message", lambda: [ServoMove(0, [(1, 500)]), ActionGroupStop()])
-def test_noise_is_no_echo(message: Message) -> None:
-    with virtual(lambda _: [(0.01, b"\x00\x55\x55\x02")], local_echo=False) as controller:
-        controller.send(message)
-        assert list(controller.reports(timeout=1)) == []
-        assert controller.counters.echoes == 0
-        assert controller.counters.noise == 4
-
-
 # ---------------------------------------------------------------- the filter alone
-
-
 def request(message: Message) -> Request:
     return Request(message, EXCHANGES[type(message)])
 
 
-SENT = [ActionGroupStop(), ActionGroupRun(8, 1), BatteryVoltageRead(), ServoMove(0, [(85, 85)])]
+SENT = [
+    ActionGroupStop(),
+    ActionGroupRun(8, 1),
+    BatteryVoltageRead(),
+    busservo.ServoMove(0, [(85, 85)]),
+]
 
 
 @given(
@@ -226,15 +160,3 @@ def test_all_that_others_send_comes_through_however_it_is_cut(
     assert found == b"".join(others[: len(sent) + 1])
     assert came == requests
     assert echo.due is None
-
-
-def test_what_is_forgotten_is_no_longer_expected_and_everything_else_is() -> None:
-    echo = LocalEcho()
-    first, second = request(ActionGroupStop()), request(BatteryVoltageRead())
-    for each in (first, second):
-        echo.sent(each, each.message.encode(), 1.0)
-    echo.forget(first)
-    assert not echo.expects(first)
-    assert echo.expects(second)
-    frames = ActionGroupStop().encode() + BatteryVoltageRead().encode()
-    assert [*echo.take_out(frames)] == [(ActionGroupStop().encode(), second, []), (b"", None, [])]

@@ -1,13 +1,12 @@
 """Motions: when they end, and waiting for that; moves of which the latest wins."""
 
 import asyncio
-import math
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import busservo
 import pytest
-from busservo import ActionGroupStopped, AsyncMotion, ClosedError, DisconnectedError, ServoMove
+from busservo import ActionGroupStopped, ClosedError, DisconnectedError, ServoMove
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both
@@ -23,8 +22,6 @@ LONG = 60_000
 
 
 # -------------------------------------------------------------------- when it ends
-
-
 @in_turn("time_ms", lambda: [0, 1, 1000, 65535])
 @both()
 async def test_a_motion_ends_once_its_frame_has_left_and_its_time_is_over(
@@ -40,24 +37,6 @@ async def test_a_motion_ends_once_its_frame_has_left_and_its_time_is_over(
     assert await motion.wait(), "it may be waited for again"
 
 
-@both()
-async def test_what_stands_before_it_on_the_wire_puts_off_its_end(
-    controller: Any, line: Any
-) -> None:
-    await controller.move_servos([(servo, 500) for servo in range(1, 80)], 0)
-    began = line.now
-    motion = await controller.move_servos([(1, 800)], 100)
-    queued = motion.delay + (line.now - began)
-    assert queued == pytest.approx((7 + 79 * 3) / 960, abs=0.001)
-    assert motion.ends_at == pytest.approx(began + queued + MOVE + 0.1, abs=0.001)
-
-
-@both(baud=math.inf)
-async def test_a_line_that_takes_no_time_takes_none_of_a_motion(controller: Any, line: Any) -> None:
-    motion = await controller.move_servos(SIX, 500)
-    assert motion.ends_at == line.now + 0.5
-
-
 def test_whatever_sends_it_a_move_is_a_motion() -> None:
     with client_on(VirtualLine(), busservo.Controller) as controller:
         assert isinstance(controller.move_servos(SIX, 0), busservo.Motion)
@@ -69,16 +48,7 @@ def test_whatever_sends_it_a_move_is_a_motion() -> None:
         assert sent.wait()
 
 
-@in_virtual_time
-async def test_whatever_sends_it_a_move_in_a_task_is_a_motion() -> None:
-    async with client(VirtualLine()) as controller:
-        assert isinstance(await controller.move_servos(SIX, 0), AsyncMotion)
-        assert isinstance(await controller.send(ServoMove(0, SIX)), AsyncMotion)
-
-
 # -------------------------------------------------------------------- while it is waited for
-
-
 @both()
 async def test_reports_are_kept_and_delivered_while_a_motion_is_waited_for(
     controller: Any, line: Any
@@ -146,8 +116,6 @@ async def test_a_wait_that_is_cancelled_leaves_the_line_usable() -> None:
 
 
 # -------------------------------------------------------------------- of which the latest wins
-
-
 @both()
 async def test_the_latest_move_takes_the_place_of_what_waits(controller: Any, line: Any) -> None:
     first, second, third = [
@@ -166,29 +134,3 @@ async def test_the_latest_move_takes_the_place_of_what_waits(controller: Any, li
     assert await other.wait()
     assert line.received == [ServoMove(100, [each]) for each in [(1, 10), (1, 30), (2, 40)]]
     assert controller.counters.replaced == 1
-
-
-@in_virtual_time
-async def test_in_a_task_all_that_wait_for_moves_learn_which_have_left() -> None:
-    line = VirtualLine()
-    async with client(line, baud=1000) as controller:
-        motions = [
-            await controller.move_servos([(1, position)], 20, latest=True) for position in range(50)
-        ]
-        pending = asyncio.gather(*(motion.wait() for motion in motions))
-        ended = await asyncio.wait_for(pending, GENEROUS)
-        assert ended == [not motion.replaced for motion in motions]
-        assert (ended[0], ended[-1], sum(ended)) == (True, True, 2)
-        left = [position for position, each in enumerate(motions) if not each.replaced]
-        assert line.received == [ServoMove(20, [(1, position)]) for position in left]
-
-
-@both()
-async def test_a_move_that_never_left_ends_with_the_error(controller: Any, line: Any) -> None:
-    await controller.move_servos([(1, 10)], 100, latest=True)
-    motion = await controller.move_servos([(1, 20)], 100, latest=True)
-    line.unplug()
-    for _ in range(2):
-        with pytest.raises(DisconnectedError, match="the line was lost"):
-            await motion.wait()
-    assert not motion.replaced

@@ -2,8 +2,6 @@
 
 import asyncio
 import inspect
-import math
-import pickle
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -24,9 +22,7 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
     ServoUnload,
-    open_async_controller,
 )
-from busservo_simulator import VirtualController
 from framewire.client.line_threads import LineThreads
 
 from tests.factories import DEMO, library, library_of
@@ -175,16 +171,7 @@ def test_an_exception_that_is_under_way_wins(
         assert [each.partition(": ")[2] for each in shown] == notes
 
 
-def test_the_error_says_who_and_why() -> None:
-    error = NotHeldError("servos not held", {3: "no answer", 1: "too far", 4: "no answer"})
-    assert str(error) == "servos not held: 3, 4 (no answer); 1 (too far)"
-    again = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
-    assert (again.left, str(again)) == (error.left, str(error))
-
-
 # -------------------------------------------------------------------- Ctrl-C
-
-
 class Pressed(VirtualLine):
     """A line whose reads are interrupted at these times, as Ctrl-C does it."""
 
@@ -287,8 +274,6 @@ def test_a_line_that_is_lost_while_it_carries_the_last_command_has_held_nobody(
 
 
 # -------------------------------------------------------------------- closed by hand
-
-
 def test_closing_by_hand_holds_as_well_and_lets_an_exception_go_on() -> None:
     def closed(under_way: bool) -> None:
         line = VirtualLine()
@@ -387,8 +372,6 @@ def test_a_signal_handler_may_close_while_a_stream_of_commands_is_sent() -> None
 
 
 # -------------------------------------------------------------------- what it may be
-
-
 def test_what_is_nothing_to_do_on_exit_is_refused() -> None:
     wrong: Any
     for kind in (Controller, AsyncController):
@@ -423,18 +406,3 @@ def test_other_protocols_hold_and_release_in_words_of_their_own() -> None:
         assert rolled == [[(4, 50), (9, 50)], [(4, 7)], (5,)]
         with pytest.raises(ValueError, match="must be 'hold', 'release' or None"):
             client_of(Motor(), on_exit="unload")
-
-
-def test_a_port_that_is_opened_for_asyncio_is_left_in_the_same_way() -> None:
-    async def work(port: str, error: BaseException | None) -> None:
-        async with open_async_controller(port, baud=math.inf, on_exit="hold") as arm:
-            await arm.move_servos([(1, 900), (99, 900)], 60_000)
-            if error is not None:
-                raise error
-
-    with VirtualController("tcp") as board:
-        with pytest.raises(NotHeldError, match=r"servos not held: 99 \(no answer\)"):
-            asyncio.run(work(board.port, None))
-        with pytest.raises(Stopped):
-            asyncio.run(work(board.port, Stopped()))
-        assert board.servos[1].position < 600

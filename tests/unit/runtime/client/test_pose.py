@@ -3,34 +3,22 @@
 import importlib
 import re
 from collections.abc import Iterator
-from functools import partial
 from typing import Any
 
 import busservo
 import pytest
-from busservo import Controller, EncodeError, ServoMove, ServoPosition, ServoPositions
-from busservo._exchanges import LIMITS, POSE
-from busservo_simulator import VirtualController
+from busservo import Controller, ServoMove, ServoPosition, ServoPositions
 
 from tests.factories import DEMO, library, library_of
-from tests.handed import handed_by, program_of
+from tests.handed import program_of
 from tests.in_turn import in_turn
 from tests.lines import timed_line
-from tests.lines.at_board import client_at, virtual_board
-from tests.lines.both_clients import PORT_TALKS, Talk
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
-from tests.timeouts import LIVE
 
 Positions = list[tuple[int, int]]
 
 OFF = ServoPosition.POSITION_ABSENT
-
-
-def virtual(**given: Any) -> tuple[VirtualController, Any]:
-    """Return a board in virtual time, and a function that makes a client of it."""
-    board = virtual_board(**{"servos": range(1, 7), **given})
-    return board, partial(client_at, board, Controller, settle=None)
 
 
 def moves(line: VirtualLine) -> list[ServoMove]:
@@ -39,16 +27,6 @@ def moves(line: VirtualLine) -> list[ServoMove]:
 
 def client_of(line: VirtualLine, **given: Any) -> Any:
     return client_on(line, Controller, settle=None, **given)
-
-
-def test_the_pose_of_the_protocol() -> None:
-    assert (POSE.read, POSE.move, POSE.release) == (
-        busservo.ServoPositionsRead,
-        ServoMove,
-        busservo.ServoUnload,
-    )
-    assert POSE.ids == range(1, 254)
-    assert (LIMITS.usual, LIMITS.others) == ((0, 1000), {"PWM servo boards": (500, 2500)})
 
 
 @in_turn(
@@ -73,49 +51,7 @@ def test_a_position_stays_raw_and_has_its_meaning_beside_it(
             setattr(read, name, 1)
 
 
-# ------------------------------------------------------------------ who is there
-
-
-def test_present_servos_are_found_without_an_error() -> None:
-    board, client = virtual(servos=[1, 2, 84, 85, 86, 253])
-    with board, client() as controller:
-        board.servos[2].off = True
-        assert controller.present_servos() == (1, 84, 85, 86, 253)
-        assert controller.present_servos([9, 253, 2, 1]) == (253, 1)
-        assert controller.present_servos([7]) == ()
-        assert controller.counters.timeouts == 0
-
-
-def test_all_servos_are_requested_in_as_many_parts_as_replies_need() -> None:
-    board, client = virtual(servos=range(1, 254), baud=9600)
-    with board, client(settle=0) as controller:
-        began = board.clock.now()
-        assert controller.present_servos() == (*range(1, 254),)
-        # 84, 84, 84 and 1 of them: the bytes of four questions and their replies, and no more.
-        size = 3 * (89 + 257) + (6 + 8)
-        assert controller.counters.sent == 4
-        assert board.clock.now() - began == pytest.approx(size / 960, abs=0.06)
-
-
-def test_silence_while_looking_for_servos_is_an_error() -> None:
-    answered = ServoPositions([(1, 500)])
-    line = VirtualLine(lambda _: [] if line.received[1:] else [answered])
-    with client_of(line) as controller, pytest.raises(busservo.NoReplyError):
-        controller.present_servos(range(1, 100))
-
-
-def test_servo_ids_are_checked_before_anything_is_sent() -> None:
-    line = VirtualLine()
-    with client_of(line) as controller:
-        for wrong in ([300], ["1"], 5, []):
-            with pytest.raises(EncodeError):
-                controller.present_servos(wrong)
-    assert line.received == []
-
-
 # ------------------------------------------------------------------ holding, and going back
-
-
 def answering(positions: Positions) -> VirtualLine:
     """Return a line to a board that answers every question about positions alike."""
     reply = [ServoPositions(positions)]
@@ -132,14 +68,6 @@ def test_nothing_is_sent_where_one_of_those_to_hold_is_not_there() -> None:
     assert isinstance(refused.value, busservo.IncompleteReplyError)
     problem = "nothing was sent, since these are off or missing: servo_ids 2, 3; "
     assert str(refused.value) == problem + "2 did arrive"
-
-
-def test_more_than_one_frame_moves_are_held_by_none() -> None:
-    line = answering([(number, 500) for number in range(84)])
-    problem = r"84 items is outside 1\.\.83"
-    with client_of(line) as controller, pytest.raises(EncodeError, match=problem):
-        controller.hold_servos(range(84))
-    assert moves(line) == []
 
 
 @in_turn(
@@ -186,23 +114,7 @@ def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
     assert moves(line) == []
 
 
-@pytest.mark.parametrize("talk", PORT_TALKS)
-def test_the_same_at_a_port(talk: Talk) -> None:
-    async def work(controller: Any) -> None:
-        assert await controller.present_servos() == (1, 2, 3)
-        await controller.hold_servos([1, 2])
-        with pytest.raises(busservo.AbsentError):
-            await controller.hold_servos([1, 7])
-        pose = [ServoPosition(1, OFF), ServoPosition(2, 65531)]
-        assert controller.targets_of(pose) == [(2, 0)]
-
-    with VirtualController("tcp", servos=[1, 2, 3]) as board:
-        talk(board.port, work, **LIVE)
-
-
 # ------------------------------------------------------------------ in words of another protocol
-
-
 @pytest.fixture(scope="module")
 def blinds() -> Iterator[Any]:
     """Return the library of a protocol that shares no name with the one that this was made for."""
@@ -225,29 +137,6 @@ def motor(blinds: Any, heights: dict[int, int]) -> Any:
             heights.update(dict.fromkeys(message.blind_ids, 0))
 
     return Motor()
-
-
-def test_present_actuators_are_found_held_and_released(blinds: Any) -> None:
-    heights = {4: 200, 9: 300}
-    with timed_line.client_of(motor(blinds, heights)) as hub:
-        assert hub.present() == (4, 9)
-        found = hub.read_heights([4, 9])
-        assert [(each.blind_id, each.height) for each in found] == [(4, 200), (9, 300)]
-        hub.blinds_release([4])
-        assert heights == {4: 0, 9: 300}
-        hub.roll(hub.heights_of(found), roll_ms=10).wait()
-        assert heights == {4: 200, 9: 300}
-        hub.hold([9], roll_ms=10).wait()
-        with pytest.raises(blinds.AbsentError, match="5"):
-            hub.hold([4, 5])
-
-
-def test_verbs_name_actuators_in_the_words_of_the_spec(blinds: Any) -> None:
-    positions = importlib.import_module("framewire.command.positions")
-    pose = positions.the_pose(handed_by(blinds.__name__))
-    assert positions.listed(pose, [4]) == "blind 4"
-    assert positions.listed(pose, [4, 9]) == "blinds 4, 9"
-    assert list(pose.ids) == [*range(1, 21)]
 
 
 def examined(device: Any) -> dict[str, Any]:

@@ -143,50 +143,7 @@ test_what_came_before_the_question_was_sent_is_not_even_held = story.told(
 )
 
 
-# ---------------------------------------------------------------- a board that takes its time
-
-
-def thinking(line: Session, *latencies: float) -> float:
-    """Read from a board that needs so long for each answer, in a loop without a pause."""
-    now = 0.0
-    for number, latency in enumerate(latencies):
-        request = ask(line, now)
-        now += TRIP + latency
-        say(line, now, number)
-        assert request.reply == BatteryVoltage(number)
-    return now
-
-
-def early(line: Session, now: float) -> float:
-    """Return when the question may be sent that follows a reply which was quick for once."""
-    ask(line, now)
-    say(line, now + TRIP + 0.002, 1)
-    line.submit(BatteryVoltageRead())
-    at = line.send_at(now + TRIP + 0.002)
-    assert at is not None
-    return at
-
-
-def test_the_right_reply_has_as_long_as_the_slowest_of_the_latest() -> None:
-    line = session()
-    now = thinking(line, 0.02, 0.035, 0.02, 0.03, 0.025)
-    assert early(line, now) >= now + TRIP + 0.035
-
-
-def test_a_board_that_is_quick_for_once_costs_a_moment_and_nothing_else() -> None:
-    line = session()
-    now = thinking(line, *[0.02] * 8)
-    at = early(line, now)
-    assert at < now + TRIP + 0.02 + 0.01
-    assert line.outgoing(at) == [QUESTION]
-    say(line, at + TRIP + 0.002, 7501)
-    assert line.idle
-    ask(line, at + TRIP + 0.002)  # it is usual now, and costs nothing more
-
-
 # ---------------------------------------------------------------- what was there before
-
-
 @in_turn(
     "given, heard, behind_a_command, after",
     lambda: [
@@ -224,8 +181,6 @@ def test_a_first_question_waits_until_replies_to_others_have_come(
 
 
 # ---------------------------------------------------------------- what is said
-
-
 def test_what_is_dropped_and_why_is_logged(caplog: pytest.LogCaptureFixture) -> None:
     line = session()
     with caplog.at_level(logging.DEBUG, "busservo"):

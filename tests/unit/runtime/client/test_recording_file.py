@@ -1,6 +1,5 @@
 """The recordings of a client and a monitor: their form, and that no byte is lost."""
 
-import math
 import os
 import re
 import stat
@@ -9,8 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from busservo import ActionGroupStopped, Controller, NoReplyError, open_controller
-from busservo.__main__ import main
+from busservo import Controller, NoReplyError, open_controller
 from busservo._library import CODEC
 from framewire.command.recorder import Recorder
 from framewire.recording.file import RecordingFile
@@ -42,25 +40,6 @@ def test_a_recording_is_never_overwritten(record: Callable[[Path], object], tmp_
         record(path)
     assert caught.value.filename == str(path)
     assert path.read_text() == RECORDED
-
-
-def test_an_existing_recording_is_refused_with_advice(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "line.hex"
-    path.write_text(RECORDED)
-    assert main(["monitor", "--port", "loop://", "--log", str(path)]) == 2
-    assert capsys.readouterr().err == f"busservo: error: {path} cannot be written: {PROBLEM}\n"
-    assert path.read_text() == RECORDED
-
-
-def test_an_empty_file_is_accepted(tmp_path: Path) -> None:
-    path = tmp_path / "line.hex"
-    path.touch()
-    file = RecordingFile(path)
-    file.write(b"\x55", 1.5, "noise", "too short")
-    file.close()
-    assert path.read_text() == "55  # 1.500000 s, noise: too short\n"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="only POSIX has these")
@@ -97,18 +76,6 @@ def test_a_recording_says_when_it_began_and_when_the_line_fell_silent(tmp_path: 
         "# recorded of 'virtual line' from DAY on",
         "55 55 02 0F  # T s, host: BatteryVoltageRead()",
         "55 55 05 08  # T s, noise: too short",
-        "# quiet",
-    ]
-
-
-def test_what_has_begun_to_arrive_when_it_is_closed_is_recorded(tmp_path: Path) -> None:
-    line, path = VirtualLine(), tmp_path / "line.hex"
-    with client_on(line, Controller, trace=path, baud=math.inf) as controller:
-        line.say(ActionGroupStopped().encode() + bytes.fromhex("55 55 04"))
-        assert controller.wait_for(ActionGroupStopped, timeout=1.0) == ActionGroupStopped()
-    assert lines_of(path)[1:] == [
-        "55 55 02 07  # T s, controller: ActionGroupStopped()",
-        "55 55 04  # T s, noise: too short",
         "# quiet",
     ]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import busservo
 import pytest
@@ -22,7 +22,7 @@ from framewire.line.serial_port import SerialPort
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import PORT_TALKS, Talk
-from tests.lines.gates import Gate, closing_ends_a_read, whoever_closes_second_waits
+from tests.lines.gates import Gate, whoever_closes_second_waits
 from tests.lines.live_line import in_a_loop
 from tests.timeouts import GENEROUS, LIVE
 
@@ -43,24 +43,6 @@ def board(tmp_path: Path) -> Iterator[VirtualController]:
 def tcp() -> Iterator[VirtualController]:
     with VirtualController("tcp") as made:
         yield made
-
-
-@pytest.mark.parametrize("talk", PORT_TALKS)
-@pytest.mark.parametrize("way", ["board", "tcp"])
-def test_a_session_over_a_port(way: str, talk: Talk, request: pytest.FixtureRequest) -> None:
-    board: VirtualController = request.getfixturevalue(way)
-
-    async def work(controller: Any) -> None:
-        assert await controller.read_battery_voltage() == 7500
-        await controller.reconnect()
-        assert await controller.read_servo_positions([1, 2]) == ((1, 500), (2, 500))
-        board.report(busservo.ActionGroupStopped())
-        stopped = await controller.wait_for(busservo.ActionGroupStopped, timeout=GENEROUS)
-        assert stopped == busservo.ActionGroupStopped()
-        await controller.close()
-        assert controller.closed
-
-    talk(board.port, work, **LIVE)
 
 
 def test_what_a_socket_holds_is_read_at_once_and_not_byte_by_byte(
@@ -103,12 +85,6 @@ async def test_a_client_for_asyncio_is_opened_by_awaiting_it(board: VirtualContr
     with pytest.raises(PortNotFoundError):
         async with busservo.open_async_controller(f"{board.port}0000"):
             pass
-
-
-def test_a_port_of_pyserial_that_answers_itself() -> None:
-    # What is sent comes back: it is the host's own, and no reply.
-    with open_controller("loop://", reply_timeout=0.01) as controller, pytest.raises(TimeoutError):
-        controller.read_battery_voltage()
 
 
 def test_a_port_is_exclusive_by_default(board: VirtualController) -> None:
@@ -232,19 +208,6 @@ def test_an_error_has_the_words_of_the_system_and_not_those_of_pyserial(
     assert not any(word in refused for word in ("could not", "Could not", "Errno", "Failed"))
 
 
-def test_a_scheme_may_be_written_in_capitals(monkeypatch: pytest.MonkeyPatch) -> None:
-    looked_for: list[str] = []
-
-    def grep(pattern: str) -> list[object]:
-        looked_for.append(pattern)
-        return []
-
-    monkeypatch.setattr("serial.tools.list_ports.grep", grep)
-    with pytest.raises(PortNotFoundError):
-        open_transport("HWGREP://CH340")
-    assert looked_for == ["CH340"]
-
-
 def test_an_error_at_opening_comes_with_advice_or_in_its_own_words(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -298,10 +261,6 @@ def test_a_read_waits_for_its_timeout(board: VirtualController, port: str, timeo
     transport.close()
 
 
-def test_closing_ends_a_read_in_another_thread(board: VirtualController) -> None:
-    closing_ends_a_read(open_transport(board.port))
-
-
 @pytest.mark.parametrize("talk", PORT_TALKS)
 def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(
     board: VirtualController, talk: Talk
@@ -314,8 +273,6 @@ def test_a_port_is_given_back_where_no_controller_can_be_made_of_it(
 
 
 # ------------------------------------------------------------- drivers that cannot be had here
-
-
 @dataclass
 class Driver:
     """The part of a pyserial port that a test needs; its attributes say what it does."""

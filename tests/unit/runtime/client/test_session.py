@@ -137,15 +137,6 @@ def test_the_time_for_an_answer_begins_when_the_port_has_the_question() -> None:
     assert line.outgoing(5.5) == []
 
 
-def test_a_question_that_the_port_never_takes_ends_all_the_same() -> None:
-    line = session()
-    request = line.submit(BatteryVoltageRead())
-    line.outgoing(0.0)
-    assert expires(line) < 2
-    line.tick(expires(line))
-    assert isinstance(request.error, NoReplyError)
-
-
 def timed_out(line: Session, _: Request) -> float:
     line.tick(0.3)
     return 0.3
@@ -189,18 +180,6 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply(
     assert line.counters.unsolicited == 1
 
 
-def test_the_next_question_of_a_kind_waits_no_longer_than_twice_the_reply_time() -> None:
-    line = session()
-    questions.ask(line)
-    line.tick(END)
-    line.submit(BatteryVoltageRead())
-    at = line.send_at(END)
-    assert at is not None
-    assert at == pytest.approx(4 / 960 + 2 * (REPLY_TIMEOUT + 6 / 960))
-    assert line.outgoing(at - 0.001) == []
-    assert line.outgoing(at) == [QUESTION.encode()]
-
-
 def test_a_reader_may_sleep_until_what_has_begun_can_be_complete_and_no_longer() -> None:
     line = session()
     assert line.resting_until(1.0) == 1.0
@@ -209,17 +188,6 @@ def test_a_reader_may_sleep_until_what_has_begun_can_be_complete_and_no_longer()
     questions.ask(line, 1.0, ServoPositionsRead(range(84)))
     assert line.resting_until(1.0) == expires(line) == pytest.approx(1.0 + GAP)
     assert line.resting_until(2.0) == 2.0
-
-
-def test_questions_are_sent_one_at_a_time_in_order() -> None:
-    line = session(baud=math.inf)
-    asked = [ServoPositionsRead([servo]) for servo in (1, 2, 3)]
-    for each in asked:
-        line.submit(each)
-    for each in asked:
-        assert line.outgoing(0.0) == [each.encode()]
-        assert line.outgoing(0.0) == []
-        say(line, 0.0, ServoPositions([(each.servo_ids[0], 5)]))
 
 
 def test_frames_are_handed_over_no_faster_than_the_line_takes_them() -> None:
@@ -259,25 +227,6 @@ test_the_latest_command_takes_the_place_of_others = told(
         ],
     }
 )
-
-
-def test_what_cannot_be_asked_or_sent_is_refused() -> None:
-    line = session()
-    line.submit(ServoPositionsRead(range(84)))
-    problem = "85 items are requested at once, and a reply has room for 84"
-    with pytest.raises(busservo.EncodeError, match=problem):
-        line.submit(ServoPositionsRead(range(85)))
-    with pytest.raises(TypeError, match="nothing that this end sends"):
-        line.submit(busservo.BatteryVoltage(7500))
-
-
-def test_a_lost_line_ends_everything() -> None:
-    line = session()
-    requests = [questions.ask(line), line.submit(ServoPositionsRead([1]))]
-    error = busservo.TransportError("port", "gone", "look for it")
-    line.fail(error)
-    assert [request.error for request in requests] == [error, error]
-    assert line.idle
 
 
 WRONG = [("baud", 0), ("baud", -1), ("baud", math.nan), ("reply_timeout", 0), ("report_limit", 0)]

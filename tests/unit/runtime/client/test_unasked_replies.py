@@ -79,16 +79,7 @@ def taken(line: Session) -> Iterator[Message]:
         yield report
 
 
-def test_another_line_is_learnt_anew() -> None:
-    line = session(now=0.0)
-    line.restart(5)
-    say(line, 5.2, 1)
-    assert (line.counters.unsolicited, line.counters.reports) == (1, 0)
-
-
 # ------------------------------------------------------------------ a receiver
-
-
 @pytest.fixture(scope="module")
 def receiver() -> Iterator[Any]:
     """Import the library of a protocol whose length counts to 65535, and return its spec.

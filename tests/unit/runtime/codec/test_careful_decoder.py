@@ -4,17 +4,8 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupStarted,
-    ActionGroupStopped,
-    BatteryVoltage,
-    Direction,
-    Message,
-    Noise,
-    ServoPositions,
-    StreamDecoder,
-)
+import busservo
+from busservo import ActionGroupStopped, BatteryVoltage, Direction, Message, Noise, ServoPositions
 from busservo._library import CODEC
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,16 +16,16 @@ from tests.mutations.places import having
 from tests.strategies import bytes_of, joined, messages_in
 
 RECEIVED = Direction.CONTROLLER_TO_HOST
-REPORT = ActionGroupCompleted(8, 1)
+REPORT = busservo.ActionGroupCompleted(8, 1)
 MESSAGES = [
     BatteryVoltage(7500),
     BatteryVoltage(0x5555),
     BatteryVoltage(0x5504),
     ServoPositions([(1, 500), (2, 0x5555)]),
     ServoPositions([(85, 85), (85, 0x0155)]),
-    ActionGroupStarted(8, 1),
+    busservo.ActionGroupStarted(8, 1),
     ActionGroupStopped(),
-    ActionGroupCompleted(85, 0x5555),
+    busservo.ActionGroupCompleted(85, 0x5555),
     REPORT,
 ]
 
@@ -75,22 +66,6 @@ def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], p
     assert messages_in(careful(line, flushed=True)) == [*follows, REPORT]
 
 
-@in_turn("message", lambda: MESSAGES)
-def test_a_message_alone_is_reported_at_once_or_when_the_line_is_quiet(message: Message) -> None:
-    assert careful(message.encode(), flushed=True) == [message]
-    doubtful = message.encode()[-1] == 0x55 or message == BatteryVoltage(0x5504)
-    if message.encode().find(b"\x55", 2) < 0:
-        assert careful(message.encode()) == [message]
-    elif doubtful and message.encode().endswith(b"\x55"):
-        assert careful(message.encode()) == []
-
-
-@in_turn("first", lambda: MESSAGES)
-@in_turn("second", lambda: MESSAGES)
-def test_whole_messages_are_reported_whatever_they_end_in(first: Message, second: Message) -> None:
-    assert careful(first.encode() + second.encode(), flushed=True) == [first, second]
-
-
 def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
     decoder = CODEC.careful_decoder(RECEIVED)
     doubtful = BatteryVoltage(0x5555)
@@ -100,18 +75,6 @@ def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
     assert decoder.feed(b"\x55") == []  # though none of command 85: a byte later it still may
     assert decoder.feed(b"\x02") == [doubtful]  # but none of command 2
     assert decoder.feed(b"\x07") == [ActionGroupStopped()]
-
-
-@in_turn(
-    "message",
-    lambda: [
-        ServoPositions([(1, 0x5555), (2, 500)]),
-        ServoPositions([(1, 0x5555), (2, 0x5555), (3, 500)]),
-        ServoPositions([(0x55, 0x0255), (7, 500)]),
-    ],
-)
-def test_a_header_in_the_middle_of_a_message_is_no_reason_to_wait(message: Message) -> None:
-    assert careful(message.encode()) == [message]
 
 
 def test_how_much_is_held_and_how_much_is_missing() -> None:
@@ -162,14 +125,9 @@ def test_how_the_line_is_cut_makes_no_difference(line: list[bytes], data: st.Dat
     assert joined(careful(*cut, flushed=True)) == joined(careful(whole, flushed=True))
 
 
-@given(st.lists(st.sampled_from(MESSAGES), max_size=8))
-def test_a_line_of_whole_frames_is_reported_as_it_is(line: list[Message]) -> None:
-    assert careful(*(each.encode() for each in line), flushed=True) == line
-
-
 @given(pieces)
 def test_without_doubtful_messages_it_agrees_with_the_stream_decoder(line: list[bytes]) -> None:
-    plain, doubting = StreamDecoder(RECEIVED), CODEC.careful_decoder(RECEIVED)
+    plain, doubting = busservo.StreamDecoder(RECEIVED), CODEC.careful_decoder(RECEIVED)
     whole = b"".join(line).replace(b"\x55\x55\x55", b"\x55\x55\x04")
     expected = [*plain.feed(whole), *plain.flush()]
     found = [*doubting.feed(whole)]

@@ -104,9 +104,8 @@ nobody_traces = pytest.mark.skipif(
     sys.gettrace() is not None, reason="somebody else traces already"
 )
 
+
 # --- From the text to the files ------------------------------------------------------------------
-
-
 def generated(number: int, *, bus: bool) -> None:
     """Make all files of a spec of so many messages."""
     compiled = compile_spec(many(number, bus=bus))

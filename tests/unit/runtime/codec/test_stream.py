@@ -15,7 +15,6 @@ from busservo import (
     ActionGroupStop,
     ActionGroupStopped,
     BatteryVoltage,
-    Counters,
     Direction,
     Message,
     Noise,
@@ -30,7 +29,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests import oracle
-from tests.cases import CASES, CONTROLLER, EITHER, HOST, BadFrame, Case, each_bad_frame, each_case
+from tests.cases import CONTROLLER, EITHER, HOST, Case, each_case
 from tests.in_turn import in_turn
 from tests.strategies import (
     DIRECTIONS,
@@ -63,81 +62,15 @@ def unknown(hex_data: str) -> UnknownFrame:
 
 
 # --- The table of truth --------------------------------------------------------------------------
-
-
-@each_case
-def test_a_frame_is_read_byte_by_byte(case: Case) -> None:
-    decoder = StreamDecoder(case.direction)
-    *beginning, last = single_bytes(case.frame)
-
-    assert [decoder.feed(byte) for byte in beginning] == [[] for _ in beginning]
-    assert decoder.pending == len(beginning)
-    assert decoder.feed(last) == [case.message]
-    assert decoder.pending == 0
-
-
-@each_case
-def test_a_frame_is_read_with_trailing_data(case: Case) -> None:
-    decoder = StreamDecoder(case.direction)
-
-    assert decoder.feed(case.frame + b"\x55\x55\x02") == [case.message]
-    assert decoder.pending == 3
-    assert joined(decoder.flush()) == [noise("55 55 02", SHORT)]
-
-
 @each_case
 def test_a_frame_is_read_with_leading_noise(case: Case) -> None:
     for digits in ("00", "55", "13 55 AA", "55 55 01", "55 55 63", "00 55 55"):
         leading = bytes.fromhex(digits)
         for chunks in ([leading, case.frame], [leading + case.frame]):
             *before, message = read(case.direction, chunks, quiet=False)
-
             assert message == case.message, digits
             assert bytes_of(before) == leading
             assert not messages_in(before)
-
-
-@each_case
-def test_a_frame_is_read_without_a_direction(case: Case) -> None:
-    assert read(EITHER, [case.frame]) == [decode(case.frame, EITHER)]
-
-
-@each_case
-def test_a_frame_is_read_after_any_frame(case: Case) -> None:
-    friends = [other for other in CASES if other.direction is case.direction]
-
-    line = b"".join(friend.frame + case.frame for friend in friends)
-
-    assert read(case.direction, [line]) == [
-        message for friend in friends for message in (friend.message, case.message)
-    ]
-
-
-@each_bad_frame
-def test_a_bad_frame_is_noise(bad: BadFrame) -> None:
-    events = read(bad.direction, [bad.frame])
-
-    assert bytes_of(events) == bad.frame
-    if bad.reason is not Reason.TRAILING_BYTES and STOP not in bad.frame:
-        assert not messages_in(events)
-
-
-class OwnBytes(bytes):
-    """Bytes of somebody's own class."""
-
-
-@in_turn("convert", lambda: [bytes, bytearray, memoryview, OwnBytes])
-def test_any_kind_of_bytes_is_taken(convert: Callable[[bytes], Any]) -> None:
-    assert read(HOST, [convert(STOP)]) == [ActionGroupStop()]
-
-
-def test_what_was_fed_may_change_afterwards() -> None:
-    decoder = StreamDecoder(CONTROLLER)
-    buffer = bytearray.fromhex("55 55 04 0F C9")
-    decoder.feed(buffer)
-    buffer[:] = bytes(5)
-
-    assert decoder.feed(b"\x1e") == [BatteryVoltage(voltage_mv=7881)]
 
 
 @in_turn("data", lambda: ["55", 0x55, None, [0x55], object()])
@@ -146,7 +79,6 @@ def test_what_is_no_bytes_is_refused_and_changes_nothing(data: Any) -> None:
     decoder.feed(STOP[:3])
     with pytest.raises(TypeError, match="bytes, bytearray or memoryview expected"):
         decoder.feed(data)
-
     assert decoder.counters.fed == 3
     assert decoder.feed(STOP[3:]) == [ActionGroupStop()]
 
@@ -197,15 +129,12 @@ def test_a_copy_goes_on_by_itself(
     other = copy(decoder)
     other.feed(b"\x55\x55\x00" * 90)
     other.flush()
-
     rest = decoder.feed(line[cut:]) + decoder.flush()
     assert joined(before + rest) == joined(read(direction, [line]))
     assert decoder.counters.fed == len(line)
 
 
 # --- The invariants ------------------------------------------------------------------------------
-
-
 @given(lines, directions, st.data())
 def test_1_2_nothing_is_lost_all_is_counted_and_chunking_does_not_matter(
     line: bytes, direction: Direction | None, data: st.DataObject
@@ -224,7 +153,6 @@ def test_1_2_nothing_is_lost_all_is_counted_and_chunking_does_not_matter(
         assert counters.unknown_frames == len(unknown_in(events))
         assert counters.noise == len(reported) - len(bytes_of(messages))
     assert (bytes_of(events), decoder.pending) == (2 * line, 0)
-
     # Messages, unknown frames and the reason of every byte of noise: all but where noise was cut.
     assert joined(read(direction, data.draw(pieces(line)))) == joined(read(direction, [line]))
 
@@ -234,7 +162,6 @@ def test_3_noise_that_holds_no_complete_header_never_costs_a_frame(
     direction: Direction | None, data: st.DataObject
 ) -> None:
     line, sent = data.draw(strategies.noisy_streams(direction))
-
     expected = [decode(message.encode(), direction) for message in sent]
     assert messages_in(read(direction, data.draw(pieces(line)))) == expected
     # Nor is any of them held back until the line goes quiet.
@@ -307,7 +234,6 @@ def test_5_flush_rescans_what_a_false_header_was_holding_back(
     decoder = StreamDecoder(direction)
     reported = bytes_of(event for chunk in data.draw(pieces(line)) for event in decoder.feed(chunk))
     last = decoder.flush()
-
     assert scanned(last) == oracle.scan(line[len(reported) :], oracles(direction))
     # After silence nothing is remembered: the decoder is as good as new.
     assert (decoder.pending, decoder.flush()) == (0, [])
@@ -321,9 +247,7 @@ def test_6_an_unknown_command_never_swallows_what_follows(
     # However much of the unknown frame there is, and however much of what follows it claims.
     message = data.draw(strategies.messages(direction))
     line = unknown[: 4 + kept] + message.encode()
-
     found = messages_in(read(direction, data.draw(pieces(line)), quiet=False))
-
     assert found == [decode(message.encode(), direction)]
 
 
@@ -333,7 +257,6 @@ def test_6_an_unknown_frame_is_shown(
 ) -> None:
     # As soon as it is whole, whatever may follow.
     events = read(direction, data.draw(pieces(b"".join(frames))), quiet=False)
-
     assert unknown_in(events) == events
     assert [event.data for event in unknown_in(events)] == frames
     assert [event.command for event in unknown_in(events)] == [frame[3] for frame in frames]
@@ -422,7 +345,6 @@ def test_a_stream_reads_as_expected(
     direction: Direction | None, line: str, events: list[Message | Noise]
 ) -> None:
     data = bytes.fromhex(line)
-
     assert joined(read(direction, [data])) == events
     assert joined(read(direction, single_bytes(data))) == events
 
@@ -476,7 +398,6 @@ def test_an_unknown_frame_that_begins_in_a_run_is_seen_however_the_run_was_cut(
 ) -> None:
     run, rest = (first + second) * b"\x55", bytes(100)
     claimed = 2 + 0x55
-
     # What ends within the run may go on; the first to end behind it stands alone.
     void = max(0, len(run) + 1 - claimed)
     line = run + rest
@@ -487,76 +408,20 @@ def test_an_unknown_frame_that_begins_in_a_run_is_seen_however_the_run_was_cut(
     ]
 
 
-@in_turn(
-    "line, pieces_",
-    lambda: [
-        # A piece of noise runs from a refused header to the next.
-        (
-            "13 55 55 00 01 55 55 01 02 03",
-            [noise("13", HEADER), noise("55 55 00 01", LENGTH), noise("55 55 01 02 03", LENGTH)],
-        ),
-        ("55 55 00 55 55 00", [noise("55 55 00", LENGTH)] * 2),
-        # A run of headers, each a byte after the other, is one piece: if it is for one reason.
-        ("55 55 55 03 03 00", [noise("55 55 55 03 03 00", LENGTH)]),
-        ("55 55 55 0B 03 05 00", [noise("55", LENGTH), noise("55 55 0B 03 05 00", COUNT)]),
-    ],
-)
-def test_each_refused_header_is_a_piece_of_noise(line: str, pieces_: list[Noise]) -> None:
-    assert read(HOST, [bytes.fromhex(line)]) == pieces_
-
-
-@in_turn(
-    "direction, head, reason",
-    lambda: [
-        # A length that none can have, or that this command cannot have, and a wrong count.
-        (HOST, "55 55 01", LENGTH),
-        (HOST, "55 55 09 03", LENGTH),
-        (HOST, "55 55 FE 03 01", COUNT),
-        (HOST, "55 55 FF 14 01", COUNT),
-        (CONTROLLER, "55 55 FF 15 01", COUNT),
-        (EITHER, "55 55 FF 15 01", COUNT),
-    ],
-)
-def test_a_header_is_refused_at_the_first_byte_that_is_wrong(
-    direction: Direction | None, head: str, reason: Reason
-) -> None:
-    decoder = StreamDecoder(direction)
-    *before, last = single_bytes(bytes.fromhex(head))
-
-    assert [decoder.feed(byte) for byte in before] == [[]] * len(before)
-    assert decoder.feed(last) == [noise(head, reason)]
-
-
 @each_direction
 def test_an_empty_feed_is_no_sign_of_silence(direction: Direction | None) -> None:
     for head in HEADS:
         decoder = StreamDecoder(direction)
         decoder.feed(head)
         pending = decoder.pending
-
         assert decoder.feed(b"") == []
         assert decoder.pending == pending
 
 
-def test_noise_is_judged_anew_after_silence() -> None:
-    decoder = StreamDecoder(HOST)
-    decoder.feed(b"\x55\x55\x00\x07")
-    decoder.flush()
-
-    assert decoder.feed(b"\x13") == [noise("13", HEADER)]
-
-
-def test_silence_without_anything_held_says_nothing() -> None:
-    assert StreamDecoder(HOST).flush() == []
-
-
 # --- Noise as a value ----------------------------------------------------------------------------
-
-
 def test_noise_is_equal_by_value_and_kind() -> None:
     data = bytes.fromhex("55 55 02 63")
     plain, odd = Noise(data, HEADER), UnknownFrame(data, HEADER)
-
     assert plain == Noise(data, HEADER) != odd == UnknownFrame(data, HEADER)
     assert hash(plain) == hash(Noise(data, HEADER))
     for other in (Noise(data, SHORT), Noise(data[1:], HEADER), odd, data):
@@ -566,7 +431,6 @@ def test_noise_is_equal_by_value_and_kind() -> None:
 
 def test_noise_cannot_be_changed() -> None:
     piece: Any = noise("00", HEADER)
-
     for name in ("data", "reason", "colour"):
         with pytest.raises(AttributeError):
             setattr(piece, name, b"")
@@ -585,9 +449,6 @@ def test_noise_shows_itself_and_can_be_taken_apart() -> None:
         assert type(event).__match_args__ == ("data", "reason")
 
 
-# --- Counters ------------------------------------------------------------------------------------
-
-
 @in_turn("size", lambda: [1, 3, 1000])
 def test_every_event_is_counted(size: int) -> None:
     line = bytes.fromhex("00 13 55 55 02 07 55 55 02 07 01 55 55 03 01 2A 55 55 02 07")
@@ -597,25 +458,6 @@ def test_every_event_is_counted(size: int) -> None:
             decoder.feed(line[at : at + size])
         counted = f"fed={20 * turn}, messages={3 * turn}, noise={8 * turn}, unknown_frames={turn}"
         assert repr(decoder.counters) == f"Counters({counted})"
-
-
-def test_noise_is_reported_while_what_begins_behind_it_is_held() -> None:
-    decoder = StreamDecoder(HOST)
-    assert decoder.feed(bytes.fromhex("00 13 55 55")) == [Noise(b"\x00\x13", HEADER)]
-    assert decoder.pending == 2
-
-
-def test_what_ends_behind_an_unknown_frame_is_no_part_of_it_as_soon_as_that_is_whole() -> None:
-    decoder = StreamDecoder(HOST)
-    assert decoder.feed(bytes.fromhex("55 55 07 01 55 55 05 06")) == []
-    assert bytes_of(decoder.feed(b"\x08")) == bytes.fromhex("55 55 07 01")
-    assert decoder.pending == 5
-
-
-def test_the_counters_show_themselves() -> None:
-    counters = StreamDecoder(CONTROLLER).counters
-    assert isinstance(counters, Counters)
-    assert repr(counters) == "Counters(fed=0, messages=0, noise=0, unknown_frames=0)"
 
 
 # --- Work ----------------------------------------------------------------------------------------
@@ -663,5 +505,4 @@ def test_no_pattern_is_found_that_costs_more(
 ) -> None:
     line = ((pattern or b"\0") * 1200)[:1200]
     chunks = cut(line)
-
     assert calls(lambda: read(direction, chunks)) <= CALLS_PER_BYTE * len(line) + 200

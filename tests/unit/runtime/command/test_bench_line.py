@@ -36,14 +36,6 @@ def test_round_trips_and_the_share_of_the_line_rate_are_reported() -> None:
     assert errors == "  errors          none"
 
 
-def test_json_has_the_same_in_seconds() -> None:
-    with VirtualController("tcp") as board:
-        (found,) = records("bench-line", "--port", board.port, "-n", "3", "--json", *PATIENT)
-    assert (found["question"], found["requests"], found["answered"]) == ("BatteryVoltageRead", 3, 3)
-    assert (found["errors"], found["wire"], found["baud"]) == ({}, 0.010417, 9600)
-    assert 0 < found["min"] <= found["median"] <= found["max"]
-
-
 def test_a_line_that_takes_no_time_allows_any_rate() -> None:
     with VirtualController("tcp") as board:
         words = ("bench-line", "--port", board.port, "-n", "3", "--baud", "inf", *PATIENT)
@@ -119,12 +111,6 @@ def test_without_a_reply_there_are_no_times() -> None:
         "  errors          2 no reply",
         "  without a reply 8 bytes came that are no frame: wrong baud rate?",
     ]
-
-
-def test_silence_is_said_to_be_that() -> None:
-    status, output, _ = measured(VirtualLine(lambda _: []), "-n", "2")
-    assert status == 1
-    assert "  without a reply nothing came at all: is the device" in output
 
 
 def test_a_question_must_be_named_where_each_has_fields(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead, ServoUnload
+from busservo import BatteryVoltage, BatteryVoltageRead
 from busservo.__main__ import main
 from framewire.command import recording
 from framewire.command.progress import Progress
@@ -19,7 +19,6 @@ from framewire.command.progress_bar import progress_bar
 
 from tests.commands import Terminal, records, run
 from tests.in_turn import in_turn
-from tests.programs import ran
 from tests.timeouts import GENEROUS
 
 STOP = "55 55 02 07"
@@ -66,14 +65,6 @@ def test_the_bytes_may_be_words_or_a_file_or_standard_input(tmp_path: Path) -> N
         assert (shown.status, shown.out) == (0, SHOWN), words
 
 
-def test_long_raw_input_is_read_in_pieces(tmp_path: Path) -> None:
-    recorded = tmp_path / "long.bin"
-    recorded.write_bytes(ServoUnload(range(200)).encode() * 1000)
-    status, output, errors = run("decode", recorded)
-    assert (status, output.count("ServoUnload servo_ids=0,1,2,")) == (0, 1000)
-    assert "1000 messages, 0 bytes of noise" in errors
-
-
 def test_a_pipe_that_pauses_within_a_byte_holds_hex_all_the_same() -> None:
     words = [sys.executable, "-m", "busservo", "decode", "--direction", "host"]
     pipe = subprocess.PIPE
@@ -95,16 +86,6 @@ def test_what_is_hex_at_first_and_then_is_not_is_refused(log: Path) -> None:
     assert errors.startswith(f"busservo: error: {log}, line 2: no hex: '\\x00'")
     assert errors.endswith("raw bytes need --format raw, in Python form='raw'\n")
     assert run("decode", log, "--format", "raw", "--strict").status == 1
-
-
-def test_a_recording_can_be_replayed_from_a_pipe(log: Path) -> None:
-    words = ("-m", "busservo", "replay", "--dry-run", "--skip-noise", "-")
-    shown = ran(sys.executable, *words, input=log.read_text())
-    sent = [line.split()[1:3] for line in shown.stdout.splitlines()]
-    assert sent == 2 * [["host", "BatteryVoltageRead"]]
-    left, totals = shown.stderr.splitlines()
-    assert left == "left out: 2 frames of controller, 2 pieces of noise"
-    assert totals.startswith("2 frames, 8 bytes in ")
 
 
 # ------------------------------------------------------------------ what is printed
@@ -132,12 +113,6 @@ def test_the_times_and_the_senders_of_a_recording_are_kept(
     assert run("decode", log, *words) == (0, "".join(lines), TOTALS)
 
 
-def test_each_of_several_recordings_has_a_time_of_its_own(log: Path) -> None:
-    log.write_text(CUT_OFF + CUT_OFF.replace("2026", "2027", 1))
-    lines = run("decode", log, "-t", "delta").out.splitlines()
-    assert [line.split()[0] for line in lines] == 2 * DELTA
-
-
 def as_csv(*words: object) -> list[dict[str, str]]:
     text = io.StringIO(run("decode", "--csv", *words).out, newline="")
     return [*csv.DictReader(text, strict=True)]
@@ -160,12 +135,6 @@ def test_json_and_csv_say_the_same(log: Path) -> None:
         assert (json.loads(row["fields"]) if row["fields"] else None) == record.get("fields")
         assert row["hex"] == record.get("hex", record.get("noise"))
         assert row["reason"] == record.get("reason", "")
-
-
-def test_csv_marks_what_either_end_may_have_sent() -> None:
-    (row,) = as_csv(STARTED)
-    names = ("time", "from", "message", "or")
-    assert [row[name] for name in names] == ["", "either", "ActionGroupRun", "ActionGroupStarted"]
 
 
 @in_turn(

@@ -1,7 +1,6 @@
 """`decode --parquet`, `--arrow`, `--csv-tables`: what the library makes, and nothing by halves."""
 
 import csv
-import io
 import re
 import sys
 from datetime import datetime
@@ -11,19 +10,10 @@ from typing import Any
 import lxservo
 import lxservo.__main__
 import pytest
-from busservo import (
-    ActionGroupStop,
-    BatteryVoltage,
-    Direction,
-    ServoPositions,
-    ServoPositionsRead,
-    tables,
-)
-from busservo.__main__ import main
+from busservo import ActionGroupStop, Direction, ServoPositions, ServoPositionsRead, tables
 from framewire.command import csv_tables
 from framewire.command import recording as reading
 from framewire.tables.extra import are_there
-from framewire.tables.files import parquet
 
 from tests.commands import run
 from tests.in_turn import in_turn
@@ -128,32 +118,6 @@ def test_a_csv_table_is_the_same_bytes_everywhere(tmp_path: Path) -> None:
     assert datetime.fromisoformat(row["clock"].replace("Z", "+00:00")).timestamp() == 1767344888.75
 
 
-def test_the_bytes_may_be_words_or_standard_input(tmp_path: Path) -> None:
-    frame = BatteryVoltage(7881).encode()
-    ways = [
-        (frame.hex(" ").split(), b""),
-        (["-"], frame),
-        (["--format", "hex"], frame.hex().encode()),
-    ]
-    for number, (words, given) in enumerate(ways):
-        folder = tmp_path / str(number)
-        errors = run("decode", *words, "--parquet", folder, given=given).err
-        assert errors == "6 bytes: 1 message, 0 bytes of noise\n"
-        tables.write_parquet(frame, tmp_path / "expected")
-        assert files_in(folder) == files_in(tmp_path / "expected")
-
-
-def test_an_arrow_file_of_standard_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Pipe(io.BytesIO):
-        def seekable(self) -> bool:
-            return False
-
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(Pipe(NOISY.read_bytes())))
-    assert main(["decode", "--arrow", str(tmp_path / "a.arrow")]) == 0
-    assert run("decode", NOISY, "--arrow", tmp_path / "b.arrow").status == 0
-    assert (tmp_path / "a.arrow").read_bytes() == (tmp_path / "b.arrow").read_bytes()
-
-
 def test_strict_tells_noise_by_the_exit_status(tmp_path: Path) -> None:
     assert run("decode", NOISY, "--strict", "--parquet", tmp_path / "a").status == 1
     assert run("decode", "55550207", "--strict", "--arrow", tmp_path / "b").status == 0
@@ -211,15 +175,6 @@ def test_a_target_that_cannot_be_used_is_reported_in_a_line(
     assert notes.read_text() == "mine"
 
 
-@each_form
-def test_a_name_that_is_hex_is_written_with_its_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: str
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert run("decode", "55550207", option, "./cafe").status == 0
-    assert [each.name for each in tmp_path.iterdir()] == ["cafe"]
-
-
 def test_the_capture_itself_is_never_overwritten(tmp_path: Path) -> None:
     line = tmp_path / "line.hex"
     line.write_text(CUT_OFF.read_text())
@@ -264,19 +219,6 @@ def test_ctrl_c_leaves_what_was_there(
     monkeypatch.setattr(reading.Recording, "read", interrupted)
     status, output, _ = run("decode", CUT_OFF, option, target)
     assert (status, output, files_in(target)) == (130, "", before)
-
-
-def test_a_full_disk_is_reported_and_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(*arguments: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(parquet, "_writer", full)
-    target = tmp_path / "tables"
-    problem = f"busservo: error: {target} cannot be written: No space left on device\n"
-    assert run("decode", NOISY, "--parquet", target) == (2, "", problem)
-    assert not target.exists()
 
 
 def test_what_is_missing_is_said_once() -> None:

@@ -11,7 +11,6 @@ from typing import Any, TypeAlias
 import pytest
 from framegen.cases.invalid import invalid_frames
 from framegen.cases.valid import valid_frames
-from framegen.cli import main as framegen_main
 from framegen.explain import explain
 from framegen.model.model import Model
 from framegen.model.protocol import protocol_of
@@ -94,20 +93,6 @@ def test_any_library_explains_as_framegen_does(other: tuple[Data, ModuleType]) -
     assert [*map(explained, frames)] == [*map(expected, frames)]
 
 
-PASTED = [
-    *("55 55 08 03 01 E8 03 01 20 03", "0x55,0x55,0x09,0x03,0x01,0xE8", "00"),
-    *("5555040F4C1D", "5555040F4C1D --direction controller", "5555040F4C1D --direction host"),
-    *("55 55 01 07 01 20 03 E8 03 E8", "55 55 05 06 02 00 00 --json", "55 55 02 08 --json"),
-]
-
-
-@in_turn("words", lambda: PASTED)
-def test_both_commands_print_the_same(words: str) -> None:
-    printed = run("explain", *words.split())
-    assert printed == run("explain", BUSSERVO, *words.split(), main=framegen_main)
-    assert (printed.err, "55 55" in printed.out) == ("", True)
-
-
 # ---------------------------------------------------------------------------- the model as data
 @pytest.mark.parametrize(("spec", "model"), [(BUSSERVO, SERVO), (DEMO, HOUSE)])
 def test_a_library_carries_the_model_that_framegen_explains_by(spec: Path, model: Model) -> None:
@@ -167,10 +152,6 @@ FOUND = [
 @in_turn("words, names", lambda: FOUND)
 def test_a_message_is_found(words: str, names: list[str]) -> None:
     assert [each["name"] for each in records("docs", *words.split(), "--json")] == names
-
-
-def test_a_message_with_a_word_in_its_name_is_before_those_with_it_in_their_text() -> None:
-    assert records("docs", "unload", "--json")[0]["name"] == "ServoUnload"
 
 
 @in_turn(
@@ -236,11 +217,6 @@ def test_any_library_has_its_pages(other: tuple[Data, ModuleType]) -> None:
         (said,) = records("docs", name, "--json", main=command)
         encoded = run(*said["shell"][0].split()[1:], main=command)
         assert (encoded.status, encoded.out) == (0, f"{said['examples'][0]['hex']}\n")
-
-
-def test_each_byte_of_an_example_is_shown() -> None:
-    line = "       4  4C 1D  voltage_mv  7500 mV = 7.500 V, low byte first\n"
-    assert line in printed("BatteryVoltage")
 
 
 @in_turn("name", lambda: SERVO.messages)

@@ -16,8 +16,7 @@ from busservo import Controller, Device, ServoPositions, ServoPositionsRead
 from busservo.__main__ import main
 from busservo._command import PROGRAM
 from busservo.simulator import VirtualDevice
-from busservo_simulator import Faults, VirtualController
-from framewire.client import session
+from busservo_simulator import VirtualController
 from framewire.command import link, send, simulate
 from framewire.command.method_verb import MethodVerb
 from framewire.command.questions import in_parts
@@ -57,14 +56,6 @@ def test_a_command_arrives_and_prints_nothing() -> None:
         assert run(*words, "BatteryVoltageRead", *PATIENT).status == 0
         assert (board.servos[1].loaded, board.servos[3].loaded) == (False, True)
         assert board.rejects.total == 0
-
-
-def test_an_incomplete_reply_is_printed_and_what_is_missing_is_named() -> None:
-    with VirtualController("tcp", servos=[1, 3]) as board:
-        words = ("ServoPositionsRead", "servo_ids=1,2,3,9")
-        status, output, errors = run("send", "--port", board.port, *words, *PATIENT)
-    assert (status, errors) == (1, "the reply is incomplete: nothing of servo_ids 2, 9\n")
-    assert "ServoPositions positions=1:500,3:500" in output
 
 
 def test_a_question_too_large_for_one_reply_is_sent_in_parts() -> None:
@@ -122,14 +113,6 @@ def test_a_verb_that_takes_a_port_takes_its_rate(name: str) -> None:
     assert ("--port" in options) == ("--baud" in options)
 
 
-@in_turn("baud", lambda: ["19200", "inf"])
-@in_turn("line", lambda: ["send BatteryVoltageRead", "bench-line", "monitor", f"{REPLAY} --raw"])
-def test_a_rate_is_that_of_the_port(monkeypatch: pytest.MonkeyPatch, line: str, baud: str) -> None:
-    opened = refused_port(monkeypatch)
-    assert run(*line.split(), "--port", "COM7", "--baud", baud).status == 2
-    assert opened == [("COM7", float(baud))]
-
-
 ADAPTER = SerialPortSeen("COM3", "1A86:7523", "USB Serial")
 # What is foreign stays in its line.
 OTHER = SerialPortSeen("/dev/cu.01", "10C4:EA60", "CP\n2102")
@@ -171,16 +154,6 @@ def test_the_port_is_by_option_environment_or_the_only_one(monkeypatch: pytest.M
         assert status == 2
         found.append(opened.pop()[0] if opened else errors)
     assert found == [expected for *_, expected in PORTS]
-
-
-@pytest.mark.parametrize("echoes", [True, False])
-def test_a_local_echo_is_expected_if_said(monkeypatch: pytest.MonkeyPatch, *, echoes: bool) -> None:
-    monkeypatch.setattr(session, "_ECHO_LATENCY", GENEROUS)
-    words = ("BatteryVoltageRead", "--baud", "inf", "--local-echo")
-    with VirtualController("tcp", local_echo=echoes) as board:
-        status, output, errors = run("send", "--port", board.port, *words, *PATIENT)
-    assert (status, "7500 mV" in output) == ((0, True) if echoes else (2, False))
-    assert ("leave out local_echo" in errors) == (not echoes)
 
 
 USB0 = "/dev/ttyUSB0"
@@ -231,14 +204,6 @@ def test_ports_are_listed_and_boards_without_one(
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
     monkeypatch.setattr("framewire.command.ports.hid_devices_at_hand", lambda _link: devices)
     assert run(*words.split()) == (0, output, errors)
-
-
-def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own() -> None:
-    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
-        status, _, errors = run("send", "--port", board.port, "BatteryVoltageRead", *PATIENT)
-    assert status == 3
-    assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
-    assert errors.endswith("; check the cable and the power, then run this again\n")
 
 
 def test_simulate_runs_the_simulator() -> None:
@@ -334,14 +299,6 @@ def test_an_example_is_a_command_line(line: str) -> None:
         assert given.message is None or in_parts(given.message, given.fields, library)[0].encode()
     if isinstance(verb, MethodVerb):
         assert all(each.encode() for each in verb.messages(given))
-
-
-def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(send, "open_client", interrupted)
-    assert run("send", "--port", "loop://", "ActionGroupStop") == (130, "", "")
 
 
 def test_a_verb_can_be_run_from_any_thread() -> None:

@@ -1,20 +1,11 @@
 """The verbs that send one message, and those that stop and hold what moves."""
 
 import argparse
-import json
 from collections.abc import Mapping
-from types import ModuleType
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupRun,
-    ActionGroupSpeed,
-    ActionGroupStop,
-    Message,
-    ServoMove,
-    ServoPositionsRead,
-    ServoUnload,
-)
+from busservo import ActionGroupRun, Message, ServoMove, ServoPositionsRead, ServoUnload
 from busservo._command import PROGRAM
 from busservo._exchanges import EXCHANGES
 from busservo_simulator import VirtualController
@@ -56,7 +47,7 @@ def sent_by(*words: str) -> list[Message]:
         ("move 1:500 --in 65535ms", ServoMove(time_ms=65535, targets=[(1, 500)])),
         ("run 8 1", ActionGroupRun(8, 1)),
         ("run 8 unlimited", ActionGroupRun(8, 0)),
-        ("speed all 50", ActionGroupSpeed(255, 50)),
+        ("speed all 50", busservo.ActionGroupSpeed(255, 50)),
         ("unload 1 2", ServoUnload([1, 2])),
         ("unload 1,2 3", ServoUnload([1, 2, 3])),
         ("positions 1 2", ServoPositionsRead([1, 2])),
@@ -107,13 +98,6 @@ def test_a_move_ends_when_the_motion_is_over_or_is_not_waited_for(board: Virtual
     await_that(lambda: board.servos[1].travelling)
 
 
-def test_positions_of_all_that_answer(board: VirtualController) -> None:
-    status, output, _ = at(board, "positions")
-    assert (status, " ServoPositions positions=1:500,2:500,3:500 |" in output) == (0, True)
-    fields = json.loads(at(board, "positions 2 --json").out)["fields"]
-    assert fields == {"positions": [{"servo_id": 2, "position": 500}]}
-
-
 def test_hold_holds_what_answers_and_names_the_rest(board: VirtualController) -> None:
     assert at(board, "unload 1 2 3").status == 0
     held = "servos 1, 2 held\nservo 9 not held: no answer\n"
@@ -136,7 +120,7 @@ def test_stop_ends_the_group_before_it_holds(board: VirtualController) -> None:
     assert at(board, "stop 1-2") == (0, "", "servos 1, 2 held\n")
     assert at(board, "battery").status == 0
     kinds = [type(message) for message in received]
-    assert kinds[:4] == [ActionGroupRun, ActionGroupStop, ServoPositionsRead, ServoMove]
+    assert kinds[:4] == [ActionGroupRun, busservo.ActionGroupStop, ServoPositionsRead, ServoMove]
 
 
 def test_nobody_to_hold_is_told() -> None:
@@ -157,11 +141,6 @@ def test_a_method_has_its_long_verb_as_well(board: VirtualController) -> None:
     assert {*PROGRAM.long.values()} == {*PROGRAM.methods, *PROGRAM.pose_methods, "stop"}
     status, output, _ = at(board, "read-battery-voltage")
     assert (status, " BatteryVoltage voltage_mv=7500 mV |" in output) == (0, True)
-
-
-@in_turn("verb", lambda: VERBS)
-def test_every_own_verb_has_a_module(verb: str) -> None:
-    assert isinstance(verb_named(verb, PROGRAM), ModuleType)
 
 
 def verbs_of(data: Data) -> Mapping[str, str]:

@@ -11,21 +11,12 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import Any, cast
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupRun,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    DisconnectedError,
-    ServoMove,
-    ServoPositions,
-    ServoPositionsRead,
-    ServoUnload,
-)
+from busservo import ActionGroupRun, BatteryVoltage, BatteryVoltageRead, DisconnectedError
 from busservo._command import PROGRAM
 from busservo._library import CODEC
 from framewire.command import monitor
-from framewire.command.progress import Progress
 from framewire.command.recorder import Recorder
 from framewire.command.usage_error import UsageError
 
@@ -94,12 +85,6 @@ def test_a_line_for_each_frame_and_for_noise(form: str, seconds: list[int]) -> N
     assert watched("-t", form) == [f"    {at}.000000  {what}" for at, what in said]
 
 
-def test_the_time_of_day_is_as_on_a_clock() -> None:
-    line = Line(b"", FRAME)
-    line.now += 0.25
-    assert watched("-t", "absolute", line=line) == [f"09:08:09.250000  {BATTERY}"]
-
-
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
@@ -114,20 +99,14 @@ def test_only_the_requested_messages_are_shown(words: list[str], expected: list[
     assert events(*words) == expected
 
 
-def test_a_frame_of_unknown_command_is_shown_as_one_and_as_noise() -> None:
-    for only in ("unknown", "noise"):
-        line = Line(bytes.fromhex("55 55 03 01 2A"), FRAME)
-        shown = events("--only", only, line=line)
-        assert shown == ["unknown     command=1 parameters=2A | 55 55 03 01 2A"]
-
-
 BOTH = (
     BatteryVoltageRead().encode(),
     FRAME,
-    ServoPositionsRead([1, 2]).encode() + ServoPositions([(1, 5), (2, 6)]).encode(),
-    ServoMove(time_ms=9, targets=[(1, 2)]).encode(),
+    busservo.ServoPositionsRead([1, 2]).encode()
+    + busservo.ServoPositions([(1, 5), (2, 6)]).encode(),
+    busservo.ServoMove(time_ms=9, targets=[(1, 2)]).encode(),
     ActionGroupRun(group=8, times=1).encode(),
-    ServoUnload([1]).encode(),
+    busservo.ServoUnload([1]).encode(),
 )
 
 
@@ -141,22 +120,6 @@ def test_both_ends_on_one_line_are_distinguished_where_possible() -> None:
         "either      ActionGroupRun or ActionGroupStarted group=8 times=1 | 55 55 05 06 08 01 00",
         "host        ServoUnload servo_ids=1 | 55 55 04 14 01 01",
     ]
-
-
-@pytest.mark.parametrize(
-    ("words", "commands"),
-    [
-        (["--only", "ActionGroupStarted"], [6]),
-        (["--only", "host"], [15, 21, 3, 6, 20]),
-        (["--only", "controller"], [15, 21, 6]),
-        (["--only", "either"], [6]),
-        (["--hide", "controller"], [15, 21, 3, 6, 20]),
-        (["--hide", "host", "--hide", "either"], [15, 21]),
-    ],
-)
-def test_what_either_end_may_have_sent_is_kept(words: list[str], commands: list[int]) -> None:
-    shown = watched("--direction", "any", *words, line=Line(*BOTH))
-    assert [int(line.rpartition(" | ")[2].split()[3], 16) for line in shown] == commands
 
 
 def test_json_says_the_same() -> None:
@@ -210,20 +173,6 @@ def test_decode_prints_of_the_log_what_the_monitor_printed(
     shown = watched(*words, line=Line(*pieces, silence=1), log=log)
     output = "".join(f"{line}\n" for line in shown)
     assert run("decode", *words, log) == (0, output, capsys.readouterr().err)
-
-
-def test_a_log_keeps_what_is_not_shown(tmp_path: Path) -> None:
-    log = tmp_path / "line.hex"
-    watched("--only", "noise", log=log)
-    first, *lines = log.read_text().splitlines()
-    assert first.startswith("# recorded of 'COM7' from 20")
-    battery = "controller: BatteryVoltage(voltage_mv=7500)"
-    assert lines == [
-        f"55 55 04 0F 4C 1D  # 1.000000 s, {battery}",
-        "13  # 2.000000 s, noise: bad header",
-        f"55 55 04 0F 4C 1D  # 2.000000 s, {battery}",
-        f"55 55 04 0F 4C 1D  # 3.000000 s, {battery}",
-    ]
 
 
 @pytest.mark.parametrize(
@@ -293,11 +242,3 @@ def test_a_recording_whose_end_does_not_fit_is_reported(tmp_path: Path) -> None:
     # The first error is the one that is reported.
     with pytest.raises(DisconnectedError), recorder:
         raise DisconnectedError("COM7", "the line was lost", "plug it in again")
-
-
-def test_an_unchanged_progress_text_is_written_once() -> None:
-    screen = Terminal()
-    progress = Progress(screen)
-    for text in ("opening COM7, 1 s", "opening COM7, 1 s", "opening COM7, 2 s"):
-        progress.show(text)
-    assert screen.getvalue() == "\ropening COM7, 1 s\ropening COM7, 2 s"

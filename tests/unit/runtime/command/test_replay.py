@@ -6,17 +6,9 @@ import time
 from pathlib import Path
 from unittest import mock
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupRun,
-    BatteryVoltageRead,
-    Message,
-    Noise,
-    ServoMove,
-    ServoPositionsRead,
-    ServoUnload,
-    open_controller,
-)
+from busservo import ActionGroupRun, Message, Noise, ServoMove, ServoPositionsRead, ServoUnload
 from busservo_simulator import Faults, VirtualController
 from framewire.command import link, playback
 from framewire.command.playback import Playback
@@ -26,7 +18,7 @@ from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
 
 MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
-ASK = BatteryVoltageRead()
+ASK = busservo.BatteryVoltageRead()
 READ = ServoPositionsRead([1])
 RUN = ActionGroupRun(group=8, times=1)
 HEX = "55 55 02 0F"
@@ -93,7 +85,7 @@ def test_a_trace_is_played_without_what_came_back(
     prolong_waits(monkeypatch, 0, 0, 0, 5)
     with (
         VirtualController("tcp") as board,
-        open_controller(board.port, reply_timeout=GENEROUS, trace=log) as controller,
+        busservo.open_controller(board.port, reply_timeout=GENEROUS, trace=log) as controller,
     ):
         controller.move_servos([(1, 600)], time_ms=100)
         board.send_bytes(b"\x13")
@@ -134,15 +126,6 @@ def test_half_a_frame_that_comes_back_is_given_up_when_the_line_is_quiet(
     assert (status, said) == (0, ["host", "noise", "host", "controller"])
 
 
-def test_raw_bytes_and_plain_hex_are_played(log: Path) -> None:
-    data = MOVE.encode() + ASK.encode()
-    log.write_bytes(data)
-    assert sent_by(log) == [MOVE, ASK]
-    # Pasted hex may break its lines anywhere.
-    log.write_text(f"{data.hex(' ')[:14]}\n{data.hex(' ')[14:]}")
-    assert sent_by(log) == [MOVE, ASK]
-
-
 @in_turn(
     "words, times",
     lambda: [
@@ -163,15 +146,6 @@ def test_a_replay_keeps_the_recorded_pace_or_that_of_the_line(
     seconds = float(times[-1]) + 6 * 10 / 9600
     said = f"3 frames, 20 bytes in {seconds:.3f} s: nothing was sent\n"
     assert (status, errors) == (0, said)
-
-
-def test_the_pace_is_kept_on_a_port(log: Path) -> None:
-    log.write_text(at(1, ASK) + at(1.4, ASK))
-    ended, received = replayed(log, "--speed", "2")
-    assert (ended.status, received) == (0, [ASK, ASK])
-    sent = [line for line in ended.out.splitlines() if " host " in line]
-    first, second = (float(line.split()[0]) for line in sent)
-    assert 0 <= first < first + 0.19 <= second < GENEROUS
 
 
 EITHER = at(0.1, RUN, "either")
@@ -197,12 +171,6 @@ def test_ambiguous_frames_are_sent_on_request(
 ) -> None:
     log.write_text(text)
     assert sent_by(log, "--speed", "inf", *words) == received
-
-
-def test_received_frames_may_be_recorded_out_of_order(log: Path) -> None:
-    late = "55 55 04 0F 4C 1D  # 1 s, controller: late\n13  # 0.5 s, noise: bad header\n"
-    log.write_text(at(2, MOVE) + late + at(2, ASK))
-    assert sent_by(log) == [MOVE, ASK]
 
 
 @pytest.mark.garbage

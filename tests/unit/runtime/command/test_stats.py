@@ -7,17 +7,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import busservo
 import lxservo
 import lxservo.__main__
 import pytest
-from busservo import (
-    ActionGroupStop,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ServoMove,
-    ServoPosition,
-    ServoPositions,
-)
+from busservo import BatteryVoltage, BatteryVoltageRead, ServoMove, ServoPosition, ServoPositions
 from framewire.recording.excerpt import Moment
 from framewire.tables.stats import extremes
 
@@ -27,7 +21,7 @@ ABSENT = 65535
 SERVOS = [
     ServoMove(800, [(1, 500), (7, 600)]),
     ServoMove(20, [(1, 40)]),
-    ActionGroupStop(),
+    busservo.ActionGroupStop(),
     BatteryVoltageRead(),
     BatteryVoltage(7412),
     BatteryVoltage(8001),
@@ -86,13 +80,6 @@ def test_messages_and_noise_are_counted_with_their_bytes(raw: Path) -> None:
     assert picked(noise["unknown_frames"], "command", "count", "bytes") == [(77, 2, 12), (78, 1, 6)]
     assert (noise["bytes"], found["bytes"]) == (25, 87)
     assert sum(each["bytes"] for each in found["sent"]) == 87
-
-
-def test_the_bytes_of_noise_are_whose_line_it_is(raw: Path) -> None:
-    raw.write_bytes(SERVOS[0].encode() + b"noise")
-    either, host = stats(raw)["sent"], stats(raw, "--direction", "host")["sent"]
-    assert picked(either, "from", "bytes") == [("host", 13), ("controller", 0), ("either", 5)]
-    assert picked(host, "from", "bytes") == [("host", 18), ("controller", 0)]
 
 
 def test_values_are_given_for_each_servo_and_absent_ones_are_only_counted(raw: Path) -> None:
@@ -176,15 +163,6 @@ def test_without_times_there_is_no_rate(raw: Path) -> None:
     assert "No times in this capture. At 9600 baud, its bytes take 27.1 ms." in page
     assert "per second" not in page
     assert "servo_id 1:500, 7:600" in page
-
-
-@pytest.mark.parametrize("data", [b"", b"U", b"noise and nothing else" * 9])
-def test_a_capture_without_a_message_has_statistics_too(data: bytes) -> None:
-    found = stats("--format", "raw", "-", given=data)
-    assert (found["bytes"], found["noise"]["bytes"]) == (len(data), len(data))
-    assert (found["messages"], found["values"]) == ([], [])
-    status, output, _ = run("stats", "--format", "raw", given=data)
-    assert (status, output.startswith(f"standard input: {len(data)} byte")) == (0, True)
 
 
 @pytest.mark.parametrize(

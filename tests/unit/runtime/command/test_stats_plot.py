@@ -99,15 +99,6 @@ def test_only_an_excerpt_is_drawn(tmp_path: Path, picture: Path) -> None:
     assert {"line.hex from 2s to 4: Hiwonder bus servo controller", "2.00", "4.00"} <= {*texts}
 
 
-def test_readings_between_absent_ones_are_seen(tmp_path: Path, picture: Path) -> None:
-    values = ((500 + number, 400 if number % 2 else ABSENT) for number in range(140))
-    said = ((ServoPositions([*enumerate(each, 1)]), at / 4) for at, each in enumerate(values))
-    drawn(recorded(tmp_path / "line.hex", said), picture)
-    points = {name: len([*each.iter(f"{SVG}use")]) for name, each in groups(picture).items()}
-    # A line shows the first servo, and nothing but points the second.
-    assert points == {f"{NAME}.1": 0, f"{NAME}.2": 70}
-
-
 @pytest.mark.parametrize(("count", "is_dense"), [(2_000, False), (40_000, True)])
 def test_dense_readings_have_a_band_around_their_mean(count: int, is_dense: bool) -> None:
     trace = Trace()
@@ -125,13 +116,6 @@ def test_dense_readings_have_a_band_around_their_mean(count: int, is_dense: bool
     if is_dense:
         # A bucket of 40 values may hold one high value more or less than its quarter, and a gap.
         assert abs(mean[~torn] - 300).max() < 2 * 800 / 40
-
-
-def test_equal_readings_are_a_band_without_height() -> None:
-    trace = Trace()
-    trace.add(np.arange(50_000) / 10, np.full(50_000, 0.1))
-    _, low, mean, high = trace.band()
-    assert {*low, *mean, *high} == {0.1}
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@ import itertools
 import json
 import sys
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import pytest
@@ -14,7 +13,6 @@ from busservo.__main__ import main
 from busservo._exchanges import POSE
 from busservo_simulator import VirtualController
 from framewire.command.posefile import Recorded, read_poses, write_poses
-from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.commands import Ended, run
@@ -93,17 +91,6 @@ def test_servos_stay_limp_unless_holding_is_confirmed_or_asked_for(desk: Desk, k
     assert [desk.board.servos[each].loaded for each in (1, 2, 3)] == [False, False, True]
     assert desk.teach("--yes", "--hold", "--force", "--ids", "2", keys="\n").status == 0
     await_that(lambda: desk.board.servos[2].loaded)
-
-
-def test_a_silent_servo_costs_only_the_pose(desk: Desk) -> None:
-    desk.board.servos[2].off = True
-    status, _, errors = desk.teach("--yes", "--ids", "1,2,9", keys="\nq\ny\n")
-    assert status == 1
-    assert "nothing recorded: " in errors
-    assert "are off or missing: servo_ids 2, 9" in errors
-    assert "not held: " in errors
-    assert ServoMove not in map(type, desk.received)
-    assert not desk.file.exists()
 
 
 def test_what_is_far_outside_the_limits_is_not_recorded_as_if_it_were_not(desk: Desk) -> None:
@@ -309,15 +296,6 @@ recorded = st.builds(
     st.none() | st.integers(0, 65535),
     st.none() | st.floats(0, 3600),
 )
-
-
-@given(st.lists(recorded, max_size=5))
-def test_a_written_file_is_read_back(poses: list[Recorded]) -> None:
-    with TemporaryDirectory() as folder:
-        file = Path(folder, "poses.json")
-        write_poses(file, poses, "busservo")
-        assert read_poses(file, POSE, "busservo") == poses
-        assert len(file.read_text().splitlines()) == 6 + max(1, len(poses))
 
 
 def test_a_link_stays_a_link(tmp_path: Path) -> None:

@@ -306,13 +306,6 @@ def test_a_refusal_has_its_reason_and_offset(
     assert rows_cover(refusal.rows, data[:offset])
 
 
-def test_a_value_out_of_range_is_where_the_frame_ends() -> None:
-    refusal, *_ = explained("C3 5A A5 10 00 06 00 00 01 01 FC 7B", GREENHOUSE).refusals
-    assert (refusal.reason, refusal.offset) == (refusals.OUT_OF_RANGE, 10)
-    assert refusal.expected == "vents[0].angle is -901, outside -900..900"
-    assert refusal.rows[-1].path == "vents[0].vent_id"
-
-
 def test_the_direction_that_came_closest_is_shown_first() -> None:
     refused = explained("55 55 09 15 06 01 02 03 04 05").refusals
     found = [(refusal.direction, len(refusal.rows)) for refusal in refused]
@@ -410,26 +403,6 @@ def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: s
 
 
 # ---------------------------------------------------------------------------- the command
-@in_turn(
-    "words, expected",
-    lambda: [
-        ([], ["ActionGroupStop", "ActionGroupStopped"]),
-        (["--direction", "host"], ["ActionGroupStop"]),
-        (["--direction", "controller"], ["ActionGroupStopped"]),
-    ],
-)
-def test_direction_is_chosen_by_sender(words: list[str], expected: list[str]) -> None:
-    status, output, _ = run("explain", BUSSERVO, "5555", *words, "--json", "0207", main=main)
-    readings = json.loads(output)["readings"]
-    assert (status, [reading["message"] for reading in readings]) == (0, expected)
-
-
-def test_the_spec_may_have_any_name(tmp_path: Path) -> None:
-    file = tmp_path / "spec without ending"
-    file.write_bytes(BUSSERVO.read_bytes())
-    assert run("explain", file, MOVE, main=main) == (0, MOVE_PAGE, "")
-
-
 def test_hex_longer_than_any_path_is_hex(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # With two specs, the first word would have to name one.
     shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("lx*"))

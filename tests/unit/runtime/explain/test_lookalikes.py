@@ -15,13 +15,10 @@ from hypothesis import strategies as st
 
 from tests.factories import (
     BUSSERVO,
-    DEMO,
-    compiled_file,
     data_of,
     files_of,
     layout_of,
     library,
-    library_of,
 )
 from tests.handed import handed_by
 from tests.in_turn import in_turn
@@ -66,19 +63,6 @@ def test_the_frames_of_a_look_alike_are_recognised(data: bytes, title: str | Non
 @given(st.lists(strategies.messages(), max_size=5))
 def test_what_is_of_this_protocol_is_never_taken_for_another(messages: list[Message]) -> None:
     assert CODEC.recognise(b"".join(message.encode() for message in messages)) is None
-
-
-@pytest.mark.parametrize("spec", [BUSSERVO, DEMO], ids=["busservo", "demo"])
-def test_the_library_and_the_generator_recognise_each_example(spec: Any) -> None:
-    model = compiled_file(spec).model
-    with library(library_of(spec)) as made:
-        codec = handed_by(made.__name__).codec
-        for each in model.spec.lookalikes.values():
-            for example in each.examples:
-                found = recognise(model.protocol, example.hex)
-                assert found is not None
-                assert found.lookalike.title == codec.recognise(example.hex) == each.title
-                assert codec.recognise(example.hex[:-1]) is None
 
 
 def test_a_spec_without_look_alikes_has_none() -> None:

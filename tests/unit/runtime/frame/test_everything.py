@@ -8,18 +8,14 @@ import json
 import math
 import pickle
 import sys
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.targets.python.message_view import MessageView
 from framewire.client.exchange import column
 from framewire.command.values import fields_as_text, fields_in_json, message_from_text
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.factories import compiled_file, library, library_of
-from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.specs import FILES, messages_of
 
@@ -69,56 +65,6 @@ def test_the_address_comes_first_and_the_running_number_by_name(everything: Any)
     assert parameters["sequence"].kind is inspect.Parameter.KEYWORD_ONLY
     assert parameters["sequence"].default == 0
     assert dict(everything.Lists.DEFAULTS) == {"sequence": 0}
-
-
-def test_named_addresses_are_constants_and_may_lie_outside_the_range(everything: Any) -> None:
-    kind = everything.Numbers
-    assert (kind.STATION_ALL, kind.STATION_FIRST) == (65535, 1)
-    assert numbers(everything, station=kind.STATION_ALL).station == 65535
-    with pytest.raises(everything.EncodeError, match=r"station: 501 is outside 1\.\.500"):
-        numbers(everything, station=501)
-
-
-def test_several_ids_are_constants(everything: Any) -> None:
-    kind = everything.Lists
-    assert (kind.CLASS, kind.KIND, kind.VERSION, kind.IDS) == (1, 3, 9, (1, 3, 9))
-    assert not hasattr(kind, "COMMAND")
-    assert (everything.Flags.COMMAND, everything.Flags.IDS) == (1, (1,))
-
-
-def test_named_bits_are_properties_and_masks(everything: Any) -> None:
-    kind, found = everything.Flags, flags(everything, error=0x53, mode=1)
-    assert (found.error_voltage, found.error_heat, found.error_code) == (True, True, 5)
-    assert flags(everything).error_voltage is False
-    assert (kind.ERROR_VOLTAGE, kind.ERROR_HEAT, kind.ERROR_CODE) == (0x01, 0x02, 0xF0)
-    assert dict(kind.error.bits) == {"voltage": 0x01, "heat": 0x02, "code": 0xF0}
-
-
-def test_bits_of_an_element_and_of_what_is_absent(everything: Any) -> None:
-    point = everything.Point(x=1, flags=0b1101)
-    assert (point.flags_near, point.flags_far) == (True, 6)
-    assert everything.Tail(1).third_low is None
-    assert everything.Tail(1, 2, 3, 1.5).third_low is True
-
-
-def test_constants_and_reserved_bytes_are_no_fields(everything: Any) -> None:
-    made = flags(everything)
-    assert made.__match_args__ == ("error", "mode", "position", "temperature")
-    frame = made.encode()
-    assert (frame[5:6], frame[7:9]) == (b"\x04", b"\x01\x02")
-    kinds = [type(each).__name__ for each in everything.Flags.CONSTANTS]
-    assert kinds == ["Always", "Reserved", "Reserved", "Always"]
-
-
-def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
-    made = flags(everything)
-    body = made.encode()[2:7] + b"\xaa\xbb" + made.encode()[9:-1]
-    frame = b"\xbe\xef" + body + bytes([sum(body) & 0xFF])
-    read = everything.Flags.decode(frame)
-    assert read.encode() == frame
-    assert read.to_dict() == made.to_dict()
-    assert read != made
-    assert pickle.loads(pickle.dumps(read)).encode() == frame  # noqa: S301 - it is our own
 
 
 @in_turn("present, size", lambda: [((), 8), ((2,), 9), ((2, 3, 1.5), 16)])
@@ -204,12 +150,6 @@ def test_a_bad_list_text_and_tail_is_named(
         make(everything, **changes)
 
 
-def test_zeros_at_the_end_of_a_fixed_text_are_no_part_of_it(everything: Any) -> None:
-    texts = everything.Texts("ab", "c\0")
-    assert texts.encode()[5:13] == b"ab\0\0\0\0\0\0"
-    assert (texts.name, texts.note) == ("ab", "c\0")
-
-
 @in_turn(
     "at, byte, problem",
     lambda: [
@@ -226,27 +166,6 @@ def test_a_field_that_is_wrong_in_a_frame_is_named(
     with pytest.raises(everything.DecodeError, match=problem) as raised:
         everything.Flags.decode(frame)
     assert raised.value.reason is everything.Reason.OUT_OF_RANGE
-
-
-def test_numbers_of_other_libraries_are_numbers(everything: Any) -> None:
-    class Whole:
-        def __index__(self) -> int:
-            return 5
-
-    class Real:
-        def __float__(self) -> float:
-            return 0.5
-
-    changes = {name: Whole() for name in ("a_u8", "a_u24", "little_i24", "little_u16", "a_u32")}
-    made = numbers(everything, **changes, an_f32=Real(), an_f64=3)
-    assert made == numbers(everything, **dict.fromkeys(changes, 5), an_f32=0.5, an_f64=3.0)
-
-
-def test_a_floating_point_number_may_be_none_at_all(everything: Any) -> None:
-    made = numbers(everything, an_f32=math.nan, an_f64=math.inf, little_f32=-math.inf)
-    assert math.isnan(made.an_f32)
-    assert (made.an_f64, made.little_f32) == (math.inf, -math.inf)
-    assert made == numbers(everything, an_f32=math.nan, an_f64=math.inf, little_f32=-math.inf)
 
 
 def specimens(made: ModuleType) -> list[Any]:
@@ -370,20 +289,3 @@ def test_a_notebook_shows_every_part(everything: Any) -> None:
     for shown in ("300", "992, 0, 2047, 1, 2, 3, 4, 5", "x 1, flags 5 (near, far 2)"):
         assert shown in strip
     assert "third" not in everything.Tail(1, 2)._repr_html_()
-
-
-@given(st.data())
-def test_the_strategies_make_messages_of_every_kind(everything: Any, data: st.DataObject) -> None:
-    strategies = import_module(f"{everything.__name__}.strategies")
-    message = data.draw(strategies.messages())
-    assert type(message).decode(message.encode()) == message
-    again = type(message).from_dict(message.to_dict())
-    assert again.encode() == message.encode()
-
-
-@in_turn("name", lambda: ["lists", "numbers", "rest", "tail", "texts", "flags"])
-@few_each
-@given(data=st.data())
-def test_each_message_has_a_strategy(everything: Any, name: str, data: st.DataObject) -> None:
-    strategies = import_module(f"{everything.__name__}.strategies")
-    assert type(data.draw(getattr(strategies, name)())).__name__.lower() == name

@@ -12,28 +12,7 @@ import busservo
 import lxservo
 import numpy as np
 import pytest
-from busservo import (
-    MESSAGES,
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupSpeed,
-    ActionGroupStarted,
-    ActionGroupStop,
-    BatteryVoltage,
-    DecodeError,
-    Direction,
-    EncodeError,
-    Message,
-    Noise,
-    ProtocolError,
-    Reason,
-    ServoMove,
-    ServoPosition,
-    ServoPositions,
-    ServoTarget,
-    ServoUnload,
-    UnknownFrame,
-)
+from busservo import ActionGroupRun, EncodeError, Message, Noise, Reason, ServoMove, ServoTarget
 from framewire.explain import refusals
 from framewire.frame.element import Element
 from framewire.frame.number import U8
@@ -52,9 +31,8 @@ from tests.cases import (
 from tests.in_turn import in_turn
 from tests.unit.runtime.frame.copies import copies
 
+
 # --- Making and reading --------------------------------------------------------------------------
-
-
 @each_case
 def test_a_message_is_encoded_and_knows_its_place(case: Case) -> None:
     assert case.message.encode() == case.frame
@@ -64,43 +42,11 @@ def test_a_message_is_encoded_and_knows_its_place(case: Case) -> None:
     assert case.frame[2] in case.message.LENGTHS
 
 
-@each_case
-def test_a_message_is_made_of_what_is_read_from_it(case: Case) -> None:
-    make: Callable[..., Message] = type(case.message)
-    fields = {name: getattr(case.message, name) for name in case.message.__match_args__}
-
-    assert make(**fields) == case.message
-    assert make(*fields.values()) == case.message
-
-
-def test_fields_are_read_as_plain_numbers_and_tuples() -> None:
-    move = ServoMove(time_ms=1000, targets=[(1, 800), (9, 200)])
-
-    assert (move.time_ms, move.targets) == (1000, ((1, 800), (9, 200)))
-    assert type(move.targets) is tuple
-    assert {type(target) for target in move.targets} == {ServoTarget}
-    assert (move.targets[1].servo_id, move.targets[1].position) == (9, 200)
-    assert ServoUnload([3, 1]).servo_ids == (3, 1)
-    assert BatteryVoltage(7881).voltage_mv == 7881
-
-
 @given(st.lists(st.tuples(st.integers(0, 255), st.integers(0, 65535)), min_size=1, max_size=83))
 def test_a_list_can_be_read_as_columns_of_plain_numbers(pairs: list[tuple[int, int]]) -> None:
-    for message in (ServoMove(1000, pairs), ServoPositions(pairs)):
+    for message in (ServoMove(1000, pairs), busservo.ServoPositions(pairs)):
         assert message.columns() == tuple(zip(*pairs, strict=True))
         assert {type(number) for column in message.columns() for number in column} == {int}
-
-
-@each_case
-def test_the_numbers_of_a_list_and_their_count_are_read_at_once(case: Case) -> None:
-    items = case.message.SHAPE.items
-    if items is not None:
-        listed = getattr(case.message, items.name)
-        assert items.numbers(case.frame) == tuple(
-            each for item in listed for each in np.ravel(item)
-        )
-        count = getattr(case.message, items.count.name)
-        assert count == case.frame[items.count.at] == len(listed)
 
 
 @in_turn(
@@ -118,14 +64,13 @@ def test_the_numbers_of_a_list_and_their_count_are_read_at_once(case: Case) -> N
 )
 def test_a_list_of_pairs_is_anything_in_order(listed: Callable[[Any], Any]) -> None:
     pairs = [(1, 800), (9, 200)]
-
     assert ServoMove(1000, listed(pairs)) == ServoMove(1000, pairs)
-    assert ServoPositions(listed(pairs)) == ServoPositions(pairs)
+    assert busservo.ServoPositions(listed(pairs)) == busservo.ServoPositions(pairs)
 
 
 @in_turn("listed", lambda: [list, tuple, iter, np.array, bytes, bytearray])
 def test_a_list_of_numbers_is_anything_in_order(listed: Callable[[Any], Any]) -> None:
-    assert ServoUnload(servo_ids=listed([1, 2, 250])).servo_ids == (1, 2, 250)
+    assert busservo.ServoUnload(servo_ids=listed([1, 2, 250])).servo_ids == (1, 2, 250)
 
 
 class Group(IntEnum):
@@ -148,8 +93,7 @@ class Indexed:
 def test_a_whole_number_is_stored_as_an_int(number: Any) -> None:
     run = ActionGroupRun(group=number, times=number)
     move = ServoMove(time_ms=number, targets=[(number, 8), (8, number)])
-    unload = ServoUnload(servo_ids=[7, number])
-
+    unload = busservo.ServoUnload(servo_ids=[7, number])
     assert run == ActionGroupRun(group=8, times=8)
     assert type(run.group) is type(run.times) is int
     assert move == ServoMove(8, [(8, 8), (8, 8)])
@@ -158,8 +102,7 @@ def test_a_whole_number_is_stored_as_an_int(number: Any) -> None:
 
 
 def test_a_field_knows_itself() -> None:
-    time_ms, group = ServoMove.time_ms, ActionGroupSpeed.group
-
+    time_ms, group = ServoMove.time_ms, busservo.ActionGroupSpeed.group
     assert (time_ms.name, time_ms.at, time_ms.low, time_ms.high) == ("time_ms", 5, 0, 65535)
     assert (time_ms.unit, time_ms.names) == ("ms", {})
     assert (group.unit, group.names) == ("", {"all": 255})
@@ -167,21 +110,7 @@ def test_a_field_knows_itself() -> None:
     assert ServoMove.targets.counts == range(1, 84)
     assert ServoMove.targets.element is ServoTarget
     assert (ServoTarget.servo_id, ServoTarget.position) == ServoTarget.FIELDS
-    assert ServoUnload.servo_ids.element is None
-
-
-def test_a_field_is_a_number_to_type_checkers_and_never_assigned() -> None:
-    move = ServoMove(1000, [(1, 800)])
-    time_ms: int = move.time_ms
-    [target] = move.targets
-    servo_id, position = target
-    numbers: tuple[int, int, int] = (servo_id, position, target.position)
-
-    assert (time_ms, *numbers) == (1000, 1, 800, 800)
-    with pytest.raises(AttributeError):
-        move.time_ms = 5  # type: ignore[assignment]
-    with pytest.raises(AttributeError):
-        target.position = 5  # type: ignore[assignment]
+    assert busservo.ServoUnload.servo_ids.element is None
 
 
 @in_turn(
@@ -190,7 +119,7 @@ def test_a_field_is_a_number_to_type_checkers_and_never_assigned() -> None:
         (ServoMove.time_ms, "How long the motion takes."),
         (ServoMove.targets, "The servos to turn and where to, in the order of the frame."),
         (ServoTarget.servo_id, "The servo to turn."),
-        (BatteryVoltage.voltage_mv, "The voltage of the controller board."),
+        (busservo.BatteryVoltage.voltage_mv, "The voltage of the controller board."),
     ],
 )
 def test_help_shows_what_stands_below_a_field(field: Any, words: str) -> None:
@@ -204,7 +133,6 @@ def test_where_there_is_no_source_a_field_has_no_documentation() -> None:
     space: dict[str, Any] = {"__name__": "nowhere", "U8": U8, "Element": Element}
     lines = ["class Lamp(Element, tuple):", "__match_args__ = ('level',)", "level = U8(0)", "'It.'"]
     exec("\n    ".join(lines), space)  # noqa: S102
-
     assert space["Lamp"].level.__doc__ is None
 
 
@@ -226,58 +154,30 @@ def test_where_there_is_no_source_a_field_has_no_documentation() -> None:
     ],
 )
 def test_a_message_is_the_one_that_the_document_describes(
-    kind: str, command: int, direction: Direction, lengths: list[int]
+    kind: str, command: int, direction: busservo.Direction, lengths: list[int]
 ) -> None:
     message = getattr(busservo, kind)
-
     assert message.COMMAND == command  # noqa: SIM300
     assert message.DIRECTION is direction
     assert [*message.LENGTHS] == lengths
-    assert message in MESSAGES
+    assert message in busservo.MESSAGES
 
 
 # --- Comparing and keeping -----------------------------------------------------------------------
-
-
-@each_case
-def test_a_message_is_equal_by_value(case: Case) -> None:
-    twin = busservo.decode(case.frame, case.direction)
-
-    assert twin is not case.message
-    assert twin == case.message
-    assert hash(twin) == hash(case.message)
-
-
 def test_messages_differ_by_class_and_by_value() -> None:
     different = {(type(case.message), case.frame) for case in CASES}
-
     assert len({case.message for case in CASES}) == len(different)
     assert len({*map(hash, (case.message for case in CASES))}) == len(different)
     # The same bytes, the other way.
-    assert ActionGroupRun(8, 1) != ActionGroupStarted(8, 1)
-    assert ActionGroupStop() != bytes.fromhex("55 55 02 07")
+    assert ActionGroupRun(8, 1) != busservo.ActionGroupStarted(8, 1)
+    assert busservo.ActionGroupStop() != bytes.fromhex("55 55 02 07")
     noise = [Noise(data, reason) for data in (b"", b"\x55", b"\0") for reason in Reason]
     assert len({*map(hash, noise)}) == len(noise)
 
 
 @each_case
-def test_a_message_reads_like_its_constructor(case: Case) -> None:
-    assert eval(repr(case.message), vars(busservo).copy()) == case.message  # noqa: S307
-
-
-def test_a_message_shows_its_fields() -> None:
-    assert repr(ServoMove(1000, [(1, 800)])) == (
-        "ServoMove(time_ms=1000, targets=(ServoTarget(servo_id=1, position=800),))"
-    )
-    assert repr(ServoUnload([1, 2])) == "ServoUnload(servo_ids=(1, 2))"
-    assert repr(ServoPositions([])) == "ServoPositions(positions=())"
-    assert repr(ActionGroupStop()) == "ActionGroupStop()"
-
-
-@each_case
 def test_a_message_cannot_be_changed(case: Case) -> None:
     message: Any = case.message
-
     for name in (*message.__match_args__, "colour"):
         with pytest.raises(AttributeError):
             setattr(message, name, 1)
@@ -286,8 +186,8 @@ def test_a_message_cannot_be_changed(case: Case) -> None:
     assert not hasattr(message, "__dict__")
 
 
-NOISE = (Noise(b"\xff", Reason.BAD_HEADER), UnknownFrame(b"UU\x02c", Reason.BAD_HEADER))
-ELEMENTS = (ServoTarget(1, 800), ServoPosition(1, 800))
+NOISE = (Noise(b"\xff", Reason.BAD_HEADER), busservo.UnknownFrame(b"UU\x02c", Reason.BAD_HEADER))
+ELEMENTS = (ServoTarget(1, 800), busservo.ServoPosition(1, 800))
 
 
 @in_turn("value", lambda: [*(case.message for case in CASES), *NOISE, *ELEMENTS])
@@ -301,10 +201,8 @@ def test_a_message_noise_and_an_element_can_be_copied_and_pickled(value: object)
 def test_making_a_message_once_more_does_not_change_it(case: Case) -> None:
     message: Any = case.message
     frame = message.encode()
-
     message.__init__(*[1] * len(message.__match_args__))
     message.__init__()
-
     assert message.encode() is frame
 
 
@@ -312,27 +210,23 @@ def test_making_a_message_once_more_does_not_change_it(case: Case) -> None:
 def test_a_message_can_be_referred_to_weakly(case: Case) -> None:
     message = busservo.decode(case.frame, case.direction)
     kept = weakref.WeakValueDictionary({1: message})
-
     assert kept[1] is message
     del message
     assert 1 not in kept
 
 
 def test_a_pickle_of_no_legal_frame_is_no_message() -> None:
-    frame = ActionGroupStop().encode()
-    pickled = pickle.dumps(ActionGroupStop())
+    frame = busservo.ActionGroupStop().encode()
+    pickled = pickle.dumps(busservo.ActionGroupStop())
     assert frame in pickled
-    with pytest.raises(DecodeError, match="bad header"):
+    with pytest.raises(busservo.DecodeError, match="bad header"):
         pickle.loads(pickled.replace(frame, b"\xaa" + frame[1:]))  # noqa: S301
 
 
 # --- Elements ------------------------------------------------------------------------------------
-
-
-@in_turn("kind", lambda: [ServoTarget, ServoPosition])
+@in_turn("kind", lambda: [ServoTarget, busservo.ServoPosition])
 def test_an_element_is_a_named_tuple_like_others(kind: Any) -> None:
     element: Any = kind(servo_id=1, position=800)
-
     assert issubclass(kind, tuple)
     assert element == (1, 800) == kind(1, 800)
     assert hash(element) == hash((1, 800))
@@ -361,18 +255,15 @@ def test_the_class_of_all_messages_is_none_and_says_what_to_do_instead() -> None
 
 
 # --- What no frame can carry ---------------------------------------------------------------------
-
-
 @each_bad_value
 def test_a_bad_value_is_refused_with_its_place(bad: BadValue) -> None:
     with pytest.raises(EncodeError) as caught:
         bad.make(**bad.fields)
-
     assert caught.value.path == bad.path
     assert caught.value.value == bad.value
     assert type(caught.value.value) is type(bad.value)
     assert str(caught.value) == f"{bad.path}: {bad.problem}"
-    assert isinstance(caught.value, ProtocolError)
+    assert isinstance(caught.value, busservo.ProtocolError)
     assert isinstance(caught.value, ValueError)
 
 
@@ -398,7 +289,7 @@ def test_what_is_no_whole_number_elsewhere_is_none_here(value: Any) -> None:
         (lambda: ActionGroupRun(value, 1), "group"),
         (lambda: ServoMove(value, [(1, 1)]), "time_ms"),
         (lambda: ServoMove(1, [(1, 1), (1, value)]), "targets[1].position"),
-        (lambda: ServoUnload([1, value]), "servo_ids[1]"),
+        (lambda: busservo.ServoUnload([1, value]), "servo_ids[1]"),
     ):
         with pytest.raises(EncodeError, match="not a whole number") as caught:
             make()
@@ -424,24 +315,6 @@ def test_a_value_is_shown_as_far_as_it_helps(given: Any, said: str) -> None:
     with pytest.raises(EncodeError) as refused:
         ServoMove(given, [(1, 800)])
     assert str(refused.value) == f"time_ms: {said}"
-
-
-@in_turn(
-    "make, most",
-    lambda: [
-        (lambda number: ActionGroupSpeed(number, 1), 255),
-        (lambda number: ServoMove(1, [(number, 1)]), 255),
-        (lambda number: ServoUnload([number]), 255),
-        (lambda number: ActionGroupCompleted(1, number), 65535),
-        (lambda number: ServoMove(number, [(1, 1)]), 65535),
-        (lambda number: ServoPositions([(1, number)]), 65535),
-        (BatteryVoltage, 65535),
-    ],
-)
-def test_a_number_is_refused_outside_its_type(make: Callable[[Any], Message], most: int) -> None:
-    for number in (-1, most + 1, np.int32(-1), np.int32(most + 1)):
-        with pytest.raises(EncodeError, match=f"{int(number)} is outside 0..{most}"):
-            make(number)
 
 
 # What is gone through as a list or as a pair, though it may not look like one, and what is not.
@@ -480,30 +353,7 @@ def test_what_a_list_raises_by_itself_is_not_hidden() -> None:
         ServoMove(1000, failing())
 
 
-def test_a_derived_field_is_no_argument() -> None:
-    make: Callable[..., Message]
-    for make, fields in (
-        (ServoMove, {"time_ms": 1, "targets": [(1, 1)], "servo_count": 1}),
-        (ServoUnload, {"servo_ids": [1], "servo_count": 1}),
-        (ActionGroupStop, {"length": 2}),
-        (ActionGroupRun, {"group": 1, "times": 1, "command": 6}),
-    ):
-        with pytest.raises(TypeError):
-            make(**fields)
-
-
 # --- Errors --------------------------------------------------------------------------------------
-
-
-def test_an_error_keeps_what_it_was_made_of() -> None:
-    with pytest.raises(EncodeError) as refused:
-        ServoMove(70000, [(1, 800)])
-    assert refused.value.args == ("time_ms", 70000, "70000 is outside 0..65535")
-    with pytest.raises(DecodeError) as unread:
-        ServoMove.decode(b"\x55\x56")
-    assert unread.value.args == (Reason.BAD_HEADER, 1, "a frame begins 55 55")
-
-
 def test_the_reasons_are_those_of_the_reference() -> None:
     words = {
         name: word
@@ -512,10 +362,3 @@ def test_the_reasons_are_those_of_the_reference() -> None:
     }
     assert {reason.name: reason.value for reason in lxservo.Reason} == words
     assert {reason.name: reason.value for reason in Reason} == words
-
-
-def test_a_direction_knows_its_ends() -> None:
-    assert Direction("host_to_controller") is HOST
-    assert Direction("controller_to_host") is CONTROLLER
-    assert (HOST.sender, HOST.receiver) == ("host", "controller")
-    assert (CONTROLLER.sender, CONTROLLER.receiver) == ("controller", "host")

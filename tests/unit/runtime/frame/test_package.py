@@ -13,20 +13,7 @@ from typing import Any
 
 import busservo
 import pytest
-from busservo import (
-    MESSAGES,
-    ActionGroupStop,
-    ActionGroupStopped,
-    Controller,
-    Direction,
-    Message,
-    Noise,
-    Reason,
-    ServoMove,
-    StreamDecoder,
-    TransportError,
-    UnknownFrame,
-)
+from busservo import MESSAGES, ActionGroupStop, ActionGroupStopped, Direction, Message, ServoMove
 from busservo._codec import decode
 from busservo.device import Device
 
@@ -36,9 +23,8 @@ from tests.programs import ran
 
 HOME = Path(busservo.__file__).parent
 
+
 # --- Exports -------------------------------------------------------------------------------------
-
-
 def stub() -> list[ast.stmt]:
     return ast.parse((HOME / "__init__.pyi").read_text(encoding="utf-8")).body
 
@@ -87,7 +73,7 @@ UNIONS = {
     "ControllerMessage": [
         kind for kind in MESSAGES if kind.DIRECTION is Direction.CONTROLLER_TO_HOST
     ],
-    "Event": [*MESSAGES, Noise],
+    "Event": [*MESSAGES, busservo.Noise],
 }
 
 
@@ -97,7 +83,9 @@ def test_a_union_holds_all_that_can_come_and_no_more(name: str) -> None:
     assert set(typing.get_args(union)) == set(UNIONS[name])
     for message in (ActionGroupStop(), ActionGroupStopped()):
         assert isinstance(message, union) == (type(message) in UNIONS[name])
-    assert isinstance(UnknownFrame(b"UU\x02c", Reason.UNKNOWN_COMMAND), union) == (name == "Event")
+    assert isinstance(
+        busservo.UnknownFrame(b"UU\x02c", busservo.Reason.UNKNOWN_COMMAND), union
+    ) == (name == "Event")
     assert not isinstance(b"UU\x02\x07", union)
 
 
@@ -207,14 +195,14 @@ def test_annotations_are_what_they_say() -> None:
     way = Direction.__mro__[1] | None
     assert typing.get_type_hints(decode) == {"frame": data, "direction": way, "return": Message}
     # Which messages there may be is told to type checkers alone.
-    assert typing.get_type_hints(StreamDecoder.feed) == {"data": data, "return": list[Any]}
+    assert typing.get_type_hints(busservo.StreamDecoder.feed) == {"data": data, "return": list[Any]}
     assert typing.get_type_hints(Device.take) == {"return": list[Any]}
     made = typing.get_type_hints(ServoMove.__new__)
     assert made["time_ms"] is int
     assert made["return"] is getattr(typing, "Self", typing.Any)
     assert typing.get_type_hints(ServoMove)["COMMAND"] == typing.ClassVar[int]
-    assert typing.get_type_hints(TransportError.__init__)["errno"] == int | None
-    assert typing.get_type_hints(Controller.read_battery_voltage)["return"] is int
+    assert typing.get_type_hints(busservo.TransportError.__init__)["errno"] == int | None
+    assert typing.get_type_hints(busservo.Controller.read_battery_voltage)["return"] is int
 
 
 # --- Documentation -------------------------------------------------------------------------------
@@ -227,7 +215,6 @@ ELSEWHERE = {"busservo.__main__", "busservo._controller", "busservo._async_contr
 @in_turn("name", lambda: [*sorted({*busservo.__all__} - NO_TYPES), "__doc__"])
 def test_a_public_name_is_documented(name: str) -> None:
     public = busservo if name == "__doc__" else getattr(busservo, name)
-
     assert inspect.getdoc(public)
     for own, value in vars(public).items():
         has_code = callable(value) or isinstance(value, (property, classmethod, staticmethod))

@@ -102,7 +102,6 @@ REFUSALS = (RecordingError, Unusable, UsageError, ValueError)
 @in_turn("name", lambda: FORMS)
 def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) -> None:
     content, data = FORMS[name]
-
     file = tmp_path / "line"
     file.write_bytes(content)
 
@@ -124,28 +123,6 @@ def test_every_reader_takes_a_capture_for_the_same(name: str, tmp_path: Path) ->
     assert sizes == dict.fromkeys(counts, len(data))
 
 
-contents = st.one_of(
-    st.binary(max_size=40),
-    st.text(" \n\r,:;_-#", max_size=12).map(str.encode),
-    st.sampled_from([text for text, _ in HEX] + list(NO_HEX)).map(str.encode),
-    st.sampled_from([text for text, _ in HEX]).map(lambda text: f"\ufeff{text}".encode("utf-16")),
-)
-
-
-@given(content=contents)
-def test_what_is_taken_for_raw_bytes_is_all_there(content: bytes) -> None:
-    found: dict[str, bytes | int | None] = {}
-    readers: dict[str, Callable[[bytes], Any]] = {**READERS, **COUNTS}
-    for name, reader in readers.items():
-        try:
-            found[name] = reader(content)
-        except REFUSALS:
-            found[name] = None
-    sizes = {len(each) if isinstance(each, bytes) else each for each in found.values()}
-    assert len(sizes) == 1, found
-    assert len({each for each in found.values() if isinstance(each, bytes)}) <= 1
-
-
 # --- Hex -----------------------------------------------------------------------------------------
 @in_turn("text, data", lambda: HEX)
 def test_hex_of_any_usual_shape_is_read(text: str, data: str) -> None:
@@ -159,15 +136,6 @@ def test_what_is_no_hex_is_refused(text: str) -> None:
         read_hex(text)
     assert text[caught.value.at :].startswith(caught.value.wrong)
     assert not is_hex(text)
-
-
-# What has no place among the words of a command line.
-@in_turn("text", lambda: [text for text in NO_HEX if "\0" not in text])
-def test_the_commands_refuse_it_as_well(text: str) -> None:
-    status, _, errors = run("decode", text)
-    assert (status, errors.startswith("busservo: error: no hex: ")) == (2, True)
-    status, _, errors = run("explain", BUSSERVO, text, main=framegen_main)
-    assert (status, "Traceback" in errors) == (2, False)
 
 
 @in_turn(
@@ -207,14 +175,6 @@ def test_hex_that_is_cut_anywhere_is_the_same_hex(text: str, data: st.DataObject
         assert whole is None
     else:
         assert read == whole
-
-
-@given(texts)
-def test_one_more_comment_or_blank_changes_nothing(text: str) -> None:
-    assert is_hex(text) == is_hex(f"# 5\n {text}\n#")
-    if is_hex(text):
-        assert read_hex(f"{text}\n{text}") == 2 * read_hex(text)
-        assert read_hex(read_hex(text).hex(" ")) == read_hex(text)
 
 
 # --- Logs ----------------------------------------------------------------------------------------

@@ -2,35 +2,21 @@
 
 import io
 from collections.abc import Iterable, Iterator
-from datetime import datetime, timezone
 from itertools import pairwise
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupStarted,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    Direction,
-    Message,
-    Noise,
-    Reason,
-    ServoMove,
-    UnknownFrame,
-    strategies,
-)
+from busservo import ActionGroupCompleted, ActionGroupRun, Direction, Message, Noise, Reason
 from busservo.recordings import Entry, RecordingError, read
-from framewire.recording.form import LONGEST_LINE, is_text
+from framewire.recording.form import LONGEST_LINE
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.hex_cases import HEX, NO_HEX
 from tests.in_turn import in_turn
 from tests.strategies import joined, lines
-from tests.strategies import read as decoded
 
-ASK, VOLTAGE = BatteryVoltageRead(), BatteryVoltage(7500)
+ASK, VOLTAGE = busservo.BatteryVoltageRead(), busservo.BatteryVoltage(7500)
 HOST, BOARD = Direction.HOST_TO_CONTROLLER, Direction.CONTROLLER_TO_HOST
 
 
@@ -61,10 +47,10 @@ def noise(data: bytes | str, reason: Reason) -> Noise:
 
 # ---------------------------------------------------------------------------- recordings
 STRANGE, SHORT = Reason.UNKNOWN_COMMAND, Reason.TOO_SHORT
-RUN, STARTED = ActionGroupRun(group=8, times=1), ActionGroupStarted(group=8, times=1)
+RUN, STARTED = ActionGroupRun(group=8, times=1), busservo.ActionGroupStarted(group=8, times=1)
 SAME = RUN.encode().hex(" ")
 UNKNOWN = bytes.fromhex("55 55 03 01 2A")
-MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
+MOVE = busservo.ServoMove(time_ms=100, targets=[(1, 600)])
 
 
 @in_turn(
@@ -89,7 +75,7 @@ MOVE = ServoMove(time_ms=100, targets=[(1, 600)])
         ("55  # 1 s, noise: unknown command", [(1.0, "controller", noise("55", STRANGE))]),
         (
             "55 55 03 01 2A  # 1 s, noise: unknown command",
-            [(1.0, "controller", UnknownFrame(UNKNOWN, STRANGE))],
+            [(1.0, "controller", busservo.UnknownFrame(UNKNOWN, STRANGE))],
         ),
         # Its command was not known when it was received.
         ("55 55 02 0F  # 1 s, host noise: unknown command", [(1.0, "host", ASK)]),
@@ -129,12 +115,6 @@ def test_an_invalid_day_is_ignored(day: str) -> None:
     assert entry.began is None
 
 
-def test_who_sent_what_either_end_may_have_sent_can_be_said() -> None:
-    line = f"{SAME}  # 1 s, either: a"
-    assert said(entries(line, direction=BOARD)) == [(1.0, "controller", STARTED)]
-    assert said(entries(f"{SAME}  # 1 s, host: a", direction=BOARD)) == [(1.0, "host", RUN)]
-
-
 NO_HEX_G = "no hex: 'G' in '5G' is no hex digit"
 HALF = "no hex: '0' is half a byte; did you mean 00?; raw"
 TOO_LONG = "it has more than 65536 characters"
@@ -165,19 +145,6 @@ def test_there_is_no_other_form() -> None:
 
 
 # ---------------------------------------------------------------------------- streams
-@given(lines, st.sampled_from([None, HOST, BOARD]))
-def test_raw_bytes_and_plain_hex_are_one_stream(line: bytes, direction: Direction | None) -> None:
-    expected = joined(decoded(direction, [line]))
-    raw = entries(line, form="raw", direction=direction)
-    assert joined(entry.event for entry in raw) == expected
-    text = line.hex(" ").replace(" 0", "\n0")
-    in_hex = entries(text, form="hex", direction=direction)
-    assert joined(entry.event for entry in in_hex) == expected
-    assert {entry.time for entry in raw + in_hex} <= {None}
-    ends = {None if direction is None else direction.sender}
-    assert direction is None or {entry.sender for entry in raw} <= ends
-
-
 def test_a_stream_says_who_sent_what_only_one_end_can_have_sent() -> None:
     content = ASK.encode() + RUN.encode() + b"\x13" + VOLTAGE.encode()
     found = [(entry.sender, entry.offset, entry.place) for entry in entries(content)]
@@ -193,22 +160,6 @@ def test_quiet_ends_a_frame_in_plain_hex_too() -> None:
 
 
 # ---------------------------------------------------------------------------- what it is
-TEXTS = [
-    *(b"55 55 02 07", b"\xef\xbb\xbf55 55 02 07", b"\n# a comment: \xc3\xa9\n55", b"0x55,0x55"),
-    *(rb"\x55\x55", b"5 55 02 07", b"5G  # 0.5 s, host: a slip", b"", b"# nothing but words"),
-]
-RAW = [
-    *(b"UU\x02\x07", b"#UU\x02\x07", b"\n#UU\x02\x07\n55", b"\x00", b"\xef\xbb"),
-    *(b"5G  # a slip", b"5\x00", b"5G\x00 # 0.5 s, host: a"),
-]
-
-
-@in_turn("content", lambda: [*TEXTS, *RAW])
-def test_the_first_word_distinguishes_hex_from_raw_bytes(content: bytes) -> None:
-    text = content in TEXTS
-    assert is_text(content, ended=True) == text
-    for end in range(len(content)):
-        assert is_text(content[:end], ended=False) in (None, text)
 
 
 PARTS = [
@@ -247,15 +198,6 @@ def test_chunking_does_not_change_what_it_holds(content: bytes, data: st.DataObj
     assert problem or found_in_pieces == found
 
 
-@in_turn("size", lambda: [1, 2, 4, 1000])
-def test_the_mark_that_editors_write_in_front_of_text_is_no_line(size: int) -> None:
-    text = b"\xef\xbb\xbf# recorded of 'COM5' from 2026-01-02 03:04:05 +0000 on\n"
-    text += b"55 55 02 07  # 0.5 s, host: ActionGroupStop()\n"
-    (entry,) = read(Pieces(text[at : at + size] for at in range(0, len(text), size)))
-    assert (entry.time, entry.sender, entry.line) == (0.5, "host", 2)
-    assert entry.began == datetime(2026, 1, 2, 3, 4, 5, tzinfo=timezone.utc).timestamp()
-
-
 @in_turn("blank", lambda: ["", " "])
 def test_a_line_of_hex_may_be_longer_than_any_buffer(blank: str) -> None:
     """5462 messages, of which the 64 KiB that are read first end within a byte."""
@@ -285,14 +227,3 @@ def test_no_file_is_held_as_a_whole(form: str) -> None:
     ahead = [taken * (5000 // len(one)) - number for number, _ in enumerate(read(Pieces(pieces())))]
     assert taken == 40
     assert max(ahead) * len(one) <= LONGEST_LINE + 5000
-
-
-@given(st.lists(st.tuples(st.sampled_from([HOST, BOARD]), strategies.messages()), max_size=5))
-def test_every_message_is_read_back(sent: list[tuple[Direction, Message]]) -> None:
-    text = "".join(
-        f"{message.encode().hex()}  # 0.5 s, {message.DIRECTION.sender}: {message!r}\n"
-        for _, message in sent
-    )
-    assert [(entry.sender, entry.event) for entry in entries(text)] == [
-        (message.DIRECTION.sender, message) for _, message in sent
-    ]

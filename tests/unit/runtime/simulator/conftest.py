@@ -6,14 +6,9 @@ import sys
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
+import busservo
 import pytest
-from busservo import (
-    ActionGroupStopped,
-    BatteryVoltage,
-    BatteryVoltageRead,
-    ServoPositions,
-    open_transport,
-)
+from busservo import ActionGroupStopped, BatteryVoltage, BatteryVoltageRead, ServoPositions
 from busservo._library import LINK
 from busservo_simulator import VirtualController
 
@@ -48,7 +43,7 @@ def host(board: VirtualController) -> Host:
 def host_at(board: VirtualController, baud: float = LINK.baud) -> Host:
     """Return a host that has opened the port of a board, or its transport."""
     memory = board.port == "virtual board"
-    return Host(board.open() if memory else open_transport(board.port, baud=baud))
+    return Host(board.open() if memory else busservo.open_transport(board.port, baud=baud))
 
 
 @pytest.fixture(params=WAYS)

@@ -6,12 +6,17 @@ import os
 import signal
 import subprocess
 import sys
+from argparse import ArgumentTypeError
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import BatteryVoltage, ServoPositions, ServoPositionsRead, open_transport
+from busservo_simulator import Faults
 from busservo_simulator.cli import SIMULATOR
-from busservo_simulator.faults import CHANCES
+from busservo_simulator.faults import CHANCES, DURATIONS
+from framewire.simulator.line_options import line_of
+from framewire.simulator.numbered import Numbered
 from lxservo_simulator.cli import SIMULATOR as BUS
 
 from tests.in_turn import in_turn
@@ -203,3 +208,58 @@ def test_it_ends_at_once_where_nobody_reads_the_name_of_its_port() -> None:
     done = ran(*BOARD, "--tcp", status=141, env=ENVIRONMENT, **streams)
     os.close(theirs)
     assert done.stderr == ""
+
+
+# -------------------------------------------------------------------- devices by number
+
+
+LAMPS = Numbered("lamp", 253)
+
+
+@in_turn(
+    "text, numbers",
+    lambda: [
+        *(("1", [1]), ("1-3", [1, 2, 3]), ("1-2,9", [1, 2, 9]), ("9, 0-1", [9, 0, 1])),
+        *(("253", [253]), ("2,2", [2, 2])),
+    ],
+)
+def test_numbers_are_listed_in_their_order(text: str, numbers: list[int]) -> None:
+    assert LAMPS.read(text) == numbers
+
+
+@in_turn("text", lambda: ["", "3-1", "254", "x", "-1", "1-", "1_0", "+1", "\u0663"])
+def test_what_names_none_is_refused(text: str) -> None:
+    with pytest.raises(ArgumentTypeError, match=r"names no lamps: lamps are numbered 0 to 253,"):
+        LAMPS.read(text)
+
+
+# -------------------------------------------------------------------- options of the line
+def line(words: str) -> Any:
+    """Return the line that arguments choose."""
+    return line_of(SIMULATOR.parser().parse_args(words.split()), Faults)
+
+
+@in_turn("name", lambda: [each.name for each in fields(Faults)])
+def test_every_field_of_the_faults_is_reached(name: str) -> None:
+    value = 7 if name == "seed" else 0.125
+    words = f"--fault {name}={value}" if name in CHANCES else f"--{name.replace('_', '-')} {value}"
+    assert line(words)["faults"] == replace(Faults(), **{name: value})  # type: ignore[arg-type]
+
+
+@in_turn("words, pace", lambda: [("", 9600), ("--baud 96000", 96000), ("--baud inf", None)])
+def test_the_line_is_as_slow_as_the_real_one_unless_told_otherwise(
+    words: str, pace: float | None
+) -> None:
+    assert line(words)["baud"] == pace
+
+
+@in_turn(
+    "name, value",
+    lambda: [
+        *((name, value) for name in CHANCES for value in (-0.1, 1.1, float("nan"))),
+        *((name, value) for name in DURATIONS for value in (-0.1, float("inf"), float("nan"))),
+    ],
+)
+def test_what_cannot_be_is_refused_by_its_name(name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=f"^{name} is {value}: "):
+        Faults(**{name: value})  # type: ignore[arg-type]

@@ -6,25 +6,22 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
-    ActionGroupStarted,
-    ActionGroupStop,
     BatteryVoltage,
     BatteryVoltageRead,
     Direction,
     ServoMove,
     ServoPositions,
-    ServoPositionsRead,
     strategies,
 )
 from busservo_simulator import Board, Faults, VirtualController
 from busservo_simulator.faults import CHANCES
+from framewire.simulator.channel import Channel
 from framewire.simulator.line import Line
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.lines.at_board import virtual_board
-from tests.lines.hosts import Host, host_of
+from tests.lines.hosts import Host
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -39,14 +36,6 @@ MOVE = ServoMove(0, [(1, 500)]).encode()
 SIX = ServoPositions([(servo_id, 500) for servo_id in range(1, 7)]).encode()
 
 
-def test_reading_six_servos_takes_as_long_as_the_wire_needs() -> None:
-    with virtual_board(baud=9600) as board:
-        host = host_of(board)
-        for _ in range(100):
-            assert host.ask(ServoPositionsRead(range(1, 7)))
-        assert board.clock.now() == pytest.approx(100 * 34 / 960)
-
-
 def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, host: Host) -> None:
     board.spurious_output(b"\x55", per_second=100)
     host.say(BatteryVoltageRead())
@@ -56,14 +45,6 @@ def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, h
     board.spurious_output(None)
     assert board.accepted == 0
     assert host.ask(BatteryVoltageRead()) == VOLTAGE
-
-
-def test_a_board_that_floods_reports_still_answers(board: VirtualController, host: Host) -> None:
-    started = ActionGroupStarted(8, 1)
-    board.spurious_output(started.encode(), per_second=1000, ignore_input=False)
-    host.say(BatteryVoltageRead())
-    received = [host.receive() for _ in range(50)]
-    assert (received.count(VOLTAGE), received.count(started)) == (1, 49)
 
 
 def test_bytes_sent_to_an_unplugged_host_are_lost(board: VirtualController) -> None:
@@ -140,8 +121,6 @@ def test_how_often_one_looks_makes_no_difference(frame: bytes, until: float, loo
 
 
 # -------------------------------------------------------------------- an adapter that echoes
-
-
 @pytest.mark.garbage
 def test_what_is_sent_comes_back_frame_or_not_in_front_of_the_reply(connect: Connect) -> None:
     board, host = connect(local_echo=True)
@@ -153,41 +132,7 @@ def test_what_is_sent_comes_back_frame_or_not_in_front_of_the_reply(connect: Con
     assert (board.accepted, board.rejects.total) == (3, 1)
 
 
-def test_an_echo_is_paced_as_what_is_sent() -> None:
-    with virtual_board(baud=9600, local_echo=True) as board:
-        host = host_of(board)
-        for data, received, end in ((MOVE, MOVE, 10), (ASK, ASK + REPLY, 20)):
-            host.transport.write(data)
-            assert host.collect(10) == received
-            assert board.clock.now() == pytest.approx(end / 960)
-
-
-def test_it_is_the_adapter_that_echoes_whatever_the_board_does() -> None:
-    faults = Faults(dropped=1, bit_flips=1, lost_bytes=1, late=1)
-    with virtual_board(local_echo=True, faults=faults) as board:
-        host = host_of(board)
-        board.reboot(1.0)
-        for data in (ASK, MOVE, ActionGroupStop().encode()):
-            host.transport.write(data)
-            assert host.collect(len(data)) == data
-        board.unplug()
-        board.plug_in()
-        assert board.open().read(0.1) == b""
-
-
-@pytest.mark.garbage
-def test_an_adapter_gives_back_what_was_sent_at_whatever_rate() -> None:
-    line = Line(Board(), baud=9600, local_echo=True)
-    line.host_baud = 115200
-    line.write(MOVE, 0.0)
-    assert b"".join(line.read(10.01 / 11520)) == MOVE
-    line.read(1.0)
-    assert line.board.heard == 0
-
-
 # -------------------------------------------------------------------- a host at another rate
-
-
 def read_at(host_baud: float, seed: int = 0, baud: float | None = 9600) -> tuple[bytes, float]:
     """Return the bytes that a host reads of a report of six servos, and when the last has come."""
     line = Line(Board(), baud=baud)
@@ -219,3 +164,28 @@ def test_the_seed_says_which_garbage() -> None:
 @in_turn("baud, rate", lambda: [(None, 9600), (float("inf"), 9600), (4800.0, 4800.0)])
 def test_a_board_without_a_rate_has_that_of_the_protocol(baud: float | None, rate: float) -> None:
     assert Line(Board(), baud=baud).baud == rate
+
+
+# -------------------------------------------------------------------- one direction of it
+def test_a_wire_carries_a_byte_in_ten_bits() -> None:
+    wire = Channel(10 / 9600)
+    wire.put(b"abc", 1.0)
+    wire.put(b"d", 1.0)
+    assert wire.take(1.0 + 10 / 9600) == [b"a"]
+    assert wire.held == 3
+    assert wire.take(1.0 + 40 / 9600) == [b"bcd"]
+    assert wire.next_event is None
+
+
+def test_a_wire_without_a_rate_keeps_pieces_apart() -> None:
+    wire = Channel()
+    wire.put(b"abc", 1.0)
+    wire.put(b"d", 1.0)
+    assert wire.take(0.9) == []
+    assert wire.take(1.0) == [b"abc", b"d"]
+
+
+def test_nothing_takes_no_time() -> None:
+    wire = Channel(10 / 9600)
+    wire.put(b"", 1.0)
+    assert (wire.next_event, wire.held) == (None, 0)

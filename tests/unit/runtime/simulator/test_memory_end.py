@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,7 +13,7 @@ from framewire.line.link_errors import ClosedError, DisconnectedError, PortNotFo
 from tests.lines.at_board import virtual_board
 from tests.lines.hosts import Host
 from tests.timeouts import GENEROUS
-from tests.unit.runtime.simulator.conftest import ASK, STOPPED, VOLTAGE
+from tests.unit.runtime.simulator.conftest import ASK, VOLTAGE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,21 +43,6 @@ def reading(read: Callable[[], object]) -> tuple[threading.Thread, list[object]]
     thread = threading.Thread(target=run)
     thread.start()
     return thread, found
-
-
-def test_a_read_in_another_thread_gets_a_report_at_once() -> None:
-    with VirtualController() as board:
-        reader, found = reading(Host(board.transport).receive)
-        board.report(STOPPED)
-        reader.join(GENEROUS)
-        assert found == [STOPPED]
-
-
-def test_a_read_without_bytes_ends_in_time() -> None:
-    with VirtualController() as board:
-        begun = time.monotonic()
-        assert board.transport.read(0.02) == b""
-        assert 0.02 <= time.monotonic() - begun < GENEROUS
 
 
 def test_closing_ends_a_read_in_another_thread() -> None:

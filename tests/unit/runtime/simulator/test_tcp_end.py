@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import select
 import socket
 import struct
 from contextlib import closing
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from busservo_simulator import VirtualController
 from framewire.simulator.tcp_end import TcpEnd
+from framewire.simulator.waker import Waker
 
 from tests.in_turn import in_turn
 from tests.timeouts import GENEROUS, await_that
@@ -40,16 +42,6 @@ def crash(host: socket.socket) -> None:
     """End a connection as a computer does that is switched off: nothing is finished."""
     host.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     host.close()
-
-
-def test_it_listens_on_loopback_alone_and_comes_back_on_the_same_number(
-    board: VirtualController,
-) -> None:
-    port = board.port
-    assert port.startswith("socket://127.0.0.1:")
-    board.unplug()
-    board.plug_in()
-    assert board.port == port
 
 
 def test_it_serves_one_host_at_a_time_and_then_the_next(board: VirtualController) -> None:
@@ -106,29 +98,6 @@ def test_a_host_that_comes_as_another_leaves_is_let_in(size: int) -> None:
     others[0].close()
 
 
-def test_a_connected_host_receives_all_that_is_sent(board: VirtualController) -> None:
-    for _ in range(20):
-        host = host_at(board)
-        board.report(STOPPED)
-        assert host.receive() == STOPPED
-        host.hang_up()
-        await_that(lambda: board._end._guest is None)  # type: ignore[attr-defined]
-
-
-def test_a_number_in_use_is_an_error(board: VirtualController) -> None:
-    number = int(board.port.rpartition(":")[2])
-    with pytest.raises(OSError, match=r"in use|normally permitted|denied"):
-        VirtualController("tcp", tcp_port=number).start()
-
-
-def test_a_host_that_reads_nothing_stops_nobody(board: VirtualController) -> None:
-    host = host_at(board)
-    for _ in range(200):
-        board.send_bytes(bytes(50_000))
-    host.hang_up()
-    assert board.battery.voltage_mv == 7500
-
-
 def test_a_host_that_crashes_makes_room_for_the_next(board: VirtualController) -> None:
     host = connected(board)
     assert_served(host)
@@ -151,3 +120,18 @@ def test_bytes_sent_to_a_crashed_host_are_lost() -> None:
             end.wait(GENEROUS, listening=True)
             end.deliver(STOPPED.encode())
             assert again.recv(100) == STOPPED.encode()
+
+
+# -------------------------------------------------------------------- what wakes its thread
+def test_a_closed_waker_wakes_nobody() -> None:
+    waker = Waker()
+    waker.wake()
+    waker.clear()
+    assert waker.fileno() == -1
+    waker.open()
+    waker.wake()
+    assert select.select([waker], [], [], GENEROUS)[0] == [waker]
+    waker.clear()
+    assert select.select([waker], [], [], 0)[0] == []
+    waker.close()
+    assert waker.fileno() == -1

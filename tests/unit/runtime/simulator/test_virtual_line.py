@@ -7,21 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
-    ActionGroupCompleted,
-    ActionGroupRun,
-    ActionGroupStarted,
-    ActionGroupStop,
-    BatteryVoltage,
     ServoMove,
     ServoPositions,
     ServoPositionsRead,
-    ServoUnload,
 )
-from busservo_simulator import VirtualClock, VirtualController
-from framewire.line.link_errors import TransportError
+from busservo_simulator import VirtualController
 
 from tests.in_turn import in_turn
-from tests.unit.runtime.simulator.conftest import ASK, STOPPED, VOLTAGE, host_at
+from tests.unit.runtime.simulator.conftest import ASK, VOLTAGE, host_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,17 +26,6 @@ if TYPE_CHECKING:
 ALL = ServoPositionsRead(range(1, 7))
 
 
-def test_every_request_is_met_as_it_should_be(connect: Connect) -> None:
-    board, host = connect()
-    assert host.ask(ASK) == VOLTAGE
-    host.say(ServoMove(0, [(1, 510)]), ServoUnload([2]))
-    assert isinstance(host.ask(ServoPositionsRead([1, 2])), ServoPositions)
-    assert not board.servos[2].loaded
-    assert host.ask(ActionGroupRun(2, 0)) == ActionGroupStarted(2, 0)
-    assert host.ask(ActionGroupStop()) == STOPPED
-    assert (board.accepted, board.rejects.total) == (6, 0)
-
-
 def test_writes_may_be_cut_anywhere(connect: Connect) -> None:
     board, host = connect()
     request = ALL.encode()
@@ -52,44 +34,6 @@ def test_writes_may_be_cut_anywhere(connect: Connect) -> None:
         host.transport.write(request[cut:])
         assert isinstance(host.receive(), ServoPositions)
     assert board.rejects.total == 0
-
-
-@pytest.mark.garbage
-def test_a_stray_byte_costs_no_frame(connect: Connect) -> None:
-    board, host = connect()
-    for extra in ("00", "55", "FF 55", "55 55 FF"):
-        before = board.rejects.total
-        host.transport.write(bytes.fromhex(extra))
-        host.say(ASK, ASK)
-        assert [host.receive(), host.receive()] == [VOLTAGE, VOLTAGE]
-        assert board.rejects.total > before
-
-
-def test_replies_are_exact(connect: Connect) -> None:
-    _, host = connect()
-    host.say(ASK, ServoPositionsRead([3]))
-    assert host.collect(14).hex(" ").upper() == "55 55 04 0F 4C 1D 55 55 06 15 01 03 F4 01"
-
-
-def test_the_clock_can_be_moved_by_hand(connect: Connect) -> None:
-    board, host = connect(clock=VirtualClock())
-    host.say(ServoMove(1000, [(1, 900)]))
-    assert host.ask(ASK) == BatteryVoltage(7475)  # one servo sets off
-    board.advance(0.5)
-    assert host.ask(ServoPositionsRead([1])) == ServoPositions([(1, 700)])
-    # Reports come in the order of what happened.
-    assert host.ask(ActionGroupRun(1, 1)) == ActionGroupStarted(1, 1)
-    board.advance(10)
-    assert host.ask(ASK) == ActionGroupCompleted(1, 1)
-    assert host.receive() == VOLTAGE
-
-
-def test_no_byte_comes_before_the_wire_could_carry_it(connect: Connect) -> None:
-    _, host = connect(baud=9600)
-    begun = time.monotonic()
-    for _ in range(5):
-        assert isinstance(host.ask(ALL), ServoPositions)
-    assert time.monotonic() - begun >= 5 * 34 / 960
 
 
 def test_a_fast_writer_is_slowed_to_the_line(connect: Connect) -> None:
@@ -107,20 +51,6 @@ def test_a_host_is_listened_to_again_once_the_line_is_empty(
     host.say(ServoMove(0, [(1, 500)]))
     time.sleep(0.05)
     assert host.ask(ASK) == VOLTAGE
-
-
-def test_a_cable_can_be_pulled_and_put_back(connect: Connect) -> None:
-    board, host = connect()
-    assert host.ask(ASK) == VOLTAGE
-    board.unplug()
-    board.send_bytes(STOPPED.encode())  # which is lost
-    with pytest.raises(TransportError):
-        host.receive()
-    board.plug_in()
-    again = host_at(board)
-    assert again.ask(ASK) == VOLTAGE
-    assert again.received == []
-    again.hang_up()
 
 
 def test_a_port_can_be_opened_again(connect: Connect) -> None:

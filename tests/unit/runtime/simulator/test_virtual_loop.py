@@ -1,19 +1,16 @@
-"""Programs of asyncio on virtual time: time goes on while all wait, and at no other moment."""
+"""Virtual time: programs of asyncio on it, where it goes on while all wait; and its clock."""
 
 from __future__ import annotations
 
 import asyncio
-import time
 from contextlib import nullcontext
 from typing import Any
 
 import pytest
-from busservo import AsyncController
 from busservo_simulator import VirtualClock, VirtualController
 from framewire.simulator.virtual_loop import VirtualLoop, run_virtual
 
 from tests.in_turn import in_turn
-from tests.lines.at_board import client_at
 
 
 def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
@@ -33,19 +30,6 @@ def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
     assert run_virtual(main(), clock) == "done"
     assert woken == [("at once", 0.0), ("soon", 0.5), ("late", 86_400.0)]
     assert clock.now() == 86_410.0
-
-
-def test_time_stands_still_while_a_thread_works() -> None:
-    clock = VirtualClock()
-
-    async def main() -> None:
-        alarm = asyncio.ensure_future(asyncio.sleep(1))
-        await asyncio.to_thread(time.sleep, 0.05)
-        assert clock.now() == 0
-        await alarm
-
-    run_virtual(main(), clock)
-    assert clock.now() == 1
 
 
 @in_turn(
@@ -76,22 +60,6 @@ def test_what_still_waits_at_the_end_is_cancelled(last: Any, error: str | None) 
     assert clock.now() == (0 if error else 1)
 
 
-def test_a_board_speaks_at_its_own_time() -> None:
-    """Question and reply take their time on the wire, to the byte; nobody looks in between."""
-    clock = VirtualClock(follow_reads=True)
-
-    async def main() -> None:
-        with VirtualController(clock=clock, baud=9600) as board:
-            async with client_at(board, AsyncController) as controller:
-                assert await controller.read_battery_voltage() == 7500
-                assert clock.now() == pytest.approx((4 + 6) / 960, abs=1e-5)
-                motion = await controller.move_servos([(1, 900)], time_ms=1000)
-                assert await motion.wait()
-                assert await controller.read_servo_positions([1]) == ((1, 900),)
-
-    run_virtual(main(), clock)
-
-
 def test_a_board_that_is_gone_no_longer_moves_the_time() -> None:
     clock = VirtualClock()
     with VirtualController(clock=clock) as board:
@@ -100,3 +68,19 @@ def test_a_board_that_is_gone_no_longer_moves_the_time() -> None:
     loop.run_until_complete(asyncio.sleep(10))
     assert loop.time() == loop.clock.now() == 10
     loop.close()
+
+
+# -------------------------------------------------------------------- the clock
+def test_time_does_not_go_back() -> None:
+    clock = VirtualClock()
+    for seconds in (-1, float("nan")):
+        with pytest.raises(ValueError, match=f"not by {seconds}"):
+            clock.advance(seconds)
+    clock.move_to(2)
+    clock.move_to(1)
+    assert clock.now() == 2
+
+
+def test_real_time_cannot_be_moved() -> None:
+    with VirtualController() as board, pytest.raises(TypeError, match="VirtualClock"):
+        board.advance(1)

@@ -4,7 +4,6 @@ import json
 from importlib import import_module
 from typing import Any
 
-import busservo
 import pyarrow as pa
 import pytest
 from busservo import tables
@@ -13,14 +12,12 @@ from framewire.explain import checksum
 from pyarrow.types import is_list, is_struct
 
 from tests.factories import DEMO, data_of, files_of, library
-from tests.in_turn import in_turn
 from tests.mutations.places import renamed
 from tests.protocols.libraries import Libraries
 from tests.protocols.specs import FILES, messages_of
 from tests.rows import some
 from tests.unit.runtime.tables.conftest import is_shown
-from tests.unit.runtime.tables.hostile import sealing
-from tests.unit.runtime.tables.rows import exact, fields_of, rows_in_tables
+from tests.unit.runtime.tables.rows import fields_of, rows_in_tables
 
 EVENT = ["offset", "size", "direction", "time", "clock"]
 
@@ -42,37 +39,6 @@ def test_numbers_at_the_ends_of_their_types(libraries: Libraries) -> None:
         assert row.fields == fields_of(made.decode(sealed, made.Direction.ASKER_TO_TELLER))
 
 
-ABSENT = {"first": 1, "second": None, "third": None, "fourth": None}
-
-
-def test_what_is_absent_is_null(libraries: Libraries) -> None:
-    made = libraries["everything"]
-    some_of_it, nothing = (
-        sealing(made)(bytes.fromhex(f"BE EF 03 A5 {rest}"))
-        for rest in ("03 00 01 63 00", "02 00 01 00")
-    )
-    all_of_it = bytes.fromhex("BE EF 03 A5 0A 00 01 02 80 00 01 00 00 60 40 D6")
-    line = all_of_it + some_of_it + nothing
-    rows = rows_in_tables(made, line, made.Direction.TELLER_TO_ASKER)
-    assert [row.fields for row in rows] == [
-        exact({"first": 1, "second": 2, "third": 0x800001, "fourth": 3.5}),
-        ABSENT | {"second": 99},
-        ABSENT,
-    ]
-
-
-# Every character of ASCII is text, and zeros within a text are part of it.
-@in_turn("name, note", lambda: [("\x01 ~\x7f", "\x7f"), ("a\0b", "\0c\0")])
-def test_a_text_is_what_the_message_says(name: str, note: str, libraries: Libraries) -> None:
-    made = libraries["everything"]
-    frame = made.Texts(name=name, note=note).encode()
-    # Behind these bytes all of it is found at many places at once.
-    for behind in (b"", bytes(600)):
-        row, *rest = rows_in_tables(made, frame + behind, made.Direction.TELLER_TO_ASKER)
-        assert bool(rest) == bool(behind)
-        assert (row.table, row.fields) == ("Texts", {"name": name, "note": note})
-
-
 def test_a_field_of_the_name_of_another_column_has_a_name_of_its_own() -> None:
     data = data_of(DEMO)
     taken = {"number": "time", "trim": "size", "uptime_s": "offset", "ramp_s": "clock"}
@@ -88,11 +54,6 @@ def test_a_field_of_the_name_of_another_column_has_a_name_of_its_own() -> None:
         lists = [each.type for schema in schemas.values() for each in schema if is_list(each.type)]
         (listed,) = (each.value_type for each in lists if is_struct(each.value_type))
         assert listed.field(0).name == "direction"
-
-
-def test_tables_are_called_as_messages_are() -> None:
-    assert [*tables.schemas()] == [*(kind.__name__ for kind in busservo.MESSAGES), "noise"]
-    assert tables.NOISE == "noise"
 
 
 TYPES = {

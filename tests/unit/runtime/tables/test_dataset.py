@@ -17,7 +17,7 @@ import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 import pytest
 from busservo.tables import Piece, Report, archive, read, scan
-from framewire.tables.archive import dataset, manifest
+from framewire.tables.archive import manifest
 from framewire.tables.archive.manifest import Manifest
 from framewire.tables.files.parquet import ParquetFiles
 
@@ -81,26 +81,6 @@ def files_in(folder: Path) -> list[str]:
     return sorted(
         path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.is_file()
     )
-
-
-def test_it_holds_the_tables_of_all_captures(captures: Path, folder: Path) -> None:
-    reports = archived(captures, folder)
-    assert len(reports) > 5
-    assert rows_in(folder) == rows_of(captures)
-    total = sum(len(rows) for rows in rows_of(captures).values())
-    assert sum(sum(report.rows.values()) for report in reports) == total
-    assert {(report.is_new, report.error) for report in reports} == {(True, None)}
-
-
-def test_what_is_done_is_not_done_again(
-    captures: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    first, before = archived(captures, folder), files_in(folder)
-    monkeypatch.setattr(dataset, "_written", lambda *_: pytest.fail("it is written again"))
-    again = archived(captures, folder)
-    assert [report.rows for report in again] == [report.rows for report in first]
-    assert not any(report.is_new for report in again)
-    assert files_in(folder) == before
 
 
 # --- What changes --------------------------------------------------------------------------------
@@ -173,13 +153,6 @@ def test_a_full_disk_is_reported_with_the_place_and_leaves_nothing(
     (left,) = (folder / "_pieces").glob("*/*")
     assert left.suffix == ".json"
     assert archive(piece, folder).is_new
-
-
-def test_a_dataset_that_cannot_be_written_is_reported(line: Path, folder: Path) -> None:
-    folder.write_bytes(b"")
-    (report,) = archived(line, folder)
-    assert str(report.error).startswith(f"{folder}")
-    assert not report.rows
 
 
 def test_what_cannot_even_be_begun_leaves_nothing(

@@ -10,12 +10,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from busservo import Direction
-from busservo._library import CODEC
 from busservo.recordings import RecordingError
-from busservo.tables import NOISE, read, read_batches, schemas, write_arrow, write_parquet
+from busservo.tables import NOISE, read, schemas, write_arrow, write_parquet
 from framewire.tables.files import parquet
-from framewire.tables.files.arrow_file import arrow_written
-from framewire.tables.schema import schemas_of
 
 from tests.in_turn import in_turn
 from tests.unit.runtime.tables.conversations import conversation, recorded
@@ -171,16 +168,6 @@ def test_a_full_disk_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 # --- Arrow ---------------------------------------------------------------------------------------
-def test_events_of_many_blocks_are_in_order(tmp_path: Path) -> None:
-    batches = read_batches(CAPTURE * 10, form="raw", block=1000)
-    arrow_written(schemas_of(CODEC), batches, tmp_path / "line.arrow", schemas())
-    with pa.ipc.open_file(tmp_path / "line.arrow") as opened:
-        assert opened.num_record_batches > 1
-        table = opened.read_all()
-    offsets, sizes = table["offset"].to_numpy(), table["size"].to_numpy()
-    assert (offsets[1:] == offsets[:-1] + sizes[:-1]).all()
-
-
 def test_the_messages_that_occur_have_columns_in_the_order_of_the_spec(tmp_path: Path) -> None:
     write_arrow(CAPTURE, tmp_path / "line.arrow")
     with pa.ipc.open_file(tmp_path / "line.arrow") as opened:
@@ -190,10 +177,3 @@ def test_the_messages_that_occur_have_columns_in_the_order_of_the_spec(tmp_path:
     voltage = schema.field("BatteryVoltage")
     assert voltage.type[0].metadata == schemas()["BatteryVoltage"].field("voltage_mv").metadata
     assert voltage.metadata[b"about"] == schemas()["BatteryVoltage"].metadata[b"summary"]
-
-
-def test_what_comes_in_a_stream_is_read_twice_all_the_same(tmp_path: Path) -> None:
-    rows = write_arrow(io.BytesIO(CAPTURE), tmp_path / "line.arrow")
-    assert events_in(tmp_path / "line.arrow") == events_of(CAPTURE)
-    (tmp_path / "line.bin").write_bytes(CAPTURE)
-    assert write_arrow(tmp_path / "line.bin", tmp_path / "other.arrow") == rows

@@ -30,7 +30,7 @@ from tests.protocols.specs import FILES, model_of
 from tests.protocols.streams import frames, lines, sent
 from tests.rows import some
 from tests.unit.runtime.tables.conftest import is_shown
-from tests.unit.runtime.tables.hostile import hostile_lines, sealing
+from tests.unit.runtime.tables.hostile import hostile_lines
 from tests.unit.runtime.tables.rows import Row, rows_in_tables, rows_of_decoder
 
 # Which protocols are searched at many places at once, by the sender, `any` for all of them; and
@@ -138,29 +138,6 @@ def test_an_unknown_frame_that_ends_otherwise_is_one_row(libraries: Libraries) -
     assert (row.table, row.size) == ("unknown", len(frame))
     assert (row.fields["station"], row.fields["class"], row.fields["kind"]) == (300, 9, 2)
     assert row.fields["parameters"] == b"\xaa\xbb"
-
-
-def test_a_checksum_is_not_taken_for_a_number_that_is_absent(libraries: Libraries) -> None:
-    made = libraries["everything"]
-    # Its last byte, AB, would be too high for the number that may stand there.
-    line = made.Tail(first=1).encode() + filler("everything")
-    first, *_ = rows_in_tables(made, line, made.Direction.TELLER_TO_ASKER)
-    assert (first.table, first.offset) == ("Tail", 0)
-
-
-def test_a_character_and_an_address_that_are_none_are_refused(libraries: Libraries) -> None:
-    made = libraries["everything"]
-    frame = bytearray(made.Texts(name="a", note="b").encode())
-    frame[5] = 0x80
-    line = sealing(made)(bytes(frame)) + filler("everything")
-    first, *_ = rows_in_tables(made, line, made.Direction.TELLER_TO_ASKER)
-    assert (first.table, first.offset, first.reason) == ("noise", 0, "out of range")
-    servo = libraries["lxservo"]
-    frame = bytearray(servo.MoveRead(servo_id=1).encode())
-    frame[2] = 0xFF
-    line = sealing(servo)(bytes(frame)) + filler("lxservo")
-    first, *_ = rows_in_tables(servo, line, servo.Direction.HOST_TO_SERVO)
-    assert (first.table, first.offset, first.reason) == ("noise", 0, "out of range")
 
 
 # --- CSV -----------------------------------------------------------------------------------------
@@ -284,7 +261,6 @@ def test_ids_and_addresses_of_any_width_are_in_the_tables_and_statistics(bits: i
     highest = (1 << bits) - 1
     numbers = st.integers(0, highest) | st.sampled_from([0, 1, highest // 2, highest // 2 + 1])
     messages = st.tuples(numbers, numbers | st.sampled_from([1, highest]), st.binary(max_size=3))
-
     with library(wide_library(bits)) as made:
 
         @few_each

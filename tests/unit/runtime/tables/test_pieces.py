@@ -1,23 +1,15 @@
 """Pieces of captures: how they are found by name, read one by one, and cut where it is safe."""
 
 import os
-import pickle
 from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
 
 import pyarrow as pa
 import pytest
-from busservo import (
-    ActionGroupStop,
-    Direction,
-    Message,
-    ServoMove,
-    ServoUnload,
-    StreamDecoder,
-)
+from busservo import ActionGroupStop, Direction, Message, ServoMove, ServoUnload, StreamDecoder
 from busservo.recordings import RecordingError
-from busservo.tables import NOISE, Piece, read, safe_cuts, scan
+from busservo.tables import Piece, read, safe_cuts, scan
 from framewire.tables.archive import cuts
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,7 +17,7 @@ from hypothesis import strategies as st
 from tests.in_turn import in_turn
 from tests.strategies import DIRECTIONS, directions, joined, lines
 from tests.strategies import read as decoded
-from tests.unit.runtime.tables.conversations import conversation, recorded
+from tests.unit.runtime.tables.conversations import conversation
 
 CAPTURE = conversation(100)
 
@@ -58,36 +50,6 @@ def test_pieces_together_are_the_tables(direction: Direction | None, size: int, 
     parts = [piece.read() for piece in pieces]
     for name, table in read(CAPTURE, direction=direction).items():
         assert pa.concat_tables(part[name] for part in parts).to_pylist() == table.to_pylist()
-
-
-def test_a_piece_is_read_in_blocks_with_the_offsets_of_the_capture(line: Path) -> None:
-    for piece in scan(line, size=1500)[1:-1]:
-        batches = [*piece.read_batches(block=100)]
-        assert len(batches) > 1
-        tables = [batch for made in batches for batch in made.values()]
-        offsets = [offset for batch in tables for offset in batch["offset"].to_pylist()]
-        assert piece.start <= min(offsets) <= max(offsets) < piece.end
-
-
-def test_a_recording_is_one_piece_with_its_times(tmp_path: Path) -> None:
-    (tmp_path / "line.hex").write_text(recorded(30), encoding="utf-8")
-    (piece,) = scan(tmp_path / "line.hex", size=100)
-    assert (piece.start, piece.end, piece.form) == (0, len(recorded(30)), "hex")
-    assert dict(piece.read()) == dict(read(recorded(30).encode()))
-
-
-def test_hex_may_be_meant_as_raw_bytes_and_nothing_is_a_piece_too(line: Path) -> None:
-    line.write_bytes(b"55 55 02 07")
-    (piece,) = scan(line, form="raw")
-    assert piece.read()[NOISE].num_rows == 1
-    line.write_bytes(b"")
-    (piece,) = scan(line.parent)
-    assert (piece.size, piece.read().filled) == (0, {})
-
-
-def test_a_piece_may_be_sent_to_another_process(line: Path) -> None:
-    pieces = scan(line, size=1000, direction=Direction.HOST_TO_CONTROLLER)
-    assert pickle.loads(pickle.dumps(pieces)) == pieces  # noqa: S301
 
 
 # --- What is scanned -----------------------------------------------------------------------------
@@ -192,14 +154,6 @@ def test_nothing_is_no_piece_and_another_form_is_refused(tmp_path: Path) -> None
         scan(tmp_path, form="csv")
 
 
-def test_a_file_that_has_changed_is_not_read(line: Path) -> None:
-    (piece, *_) = scan(line, size=1000)
-    line.write_bytes(CAPTURE + b"\x00")
-    with pytest.raises(RecordingError, match="changed since it was scanned: scan again"):
-        # Before any of it is shown.
-        next(piece.read_batches())
-
-
 def test_a_file_that_changes_while_it_is_read_is_not_taken_for_what_it_was(line: Path) -> None:
     (piece,) = scan(line)
     batches = piece.read_batches(block=100)
@@ -240,13 +194,6 @@ def test_pieces_hold_all_events(capture: bytes, size: int, direction: Direction 
     holds(capture, size, direction)
 
 
-@given(lines, directions)
-def test_so_they_do_where_frames_are_tried(line: bytes, direction: Direction | None) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cuts, "frames_on", lambda _codec, _direction: None)
-        holds(line, 1, direction)
-
-
 @given(captures, sizes, directions, st.data())
 def test_a_decoder_that_began_anywhere_in_front_holds_nothing_there(
     capture: bytes, size: int, direction: Direction | None, data: st.DataObject
@@ -275,15 +222,6 @@ def test_every_end_of_a_frame_among_frames_is_a_safe_place(direction: Direction 
 
 
 @pytest.mark.usefixtures("way")
-def test_no_place_is_behind_noise_or_what_waits() -> None:
-    assert safe_cuts(b"\x00" * 5000, 1) == []
-    assert safe_cuts(b"\x55" * 5000, 1) == []
-    # The header in front waits for more bytes than the frame behind it has.
-    waiting = bytes.fromhex("55 55 FE 03 53")
-    assert safe_cuts(waiting + STOP + bytes(3), 1) == []
-
-
-@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("shared", [1, 2])
 def test_no_place_is_behind_a_frame_that_begins_in_another(shared: int) -> None:
     unload = ServoUnload([1] * (252 - shared) + [0x55] * shared).encode()
@@ -304,20 +242,6 @@ def test_a_decoder_that_begins_in_a_frame_may_wait_for_more() -> None:
     (first, *_) = safe_cuts(capture, len(around) + 1)
     ends = range(len(around), len(capture), len(STOP))
     assert first == next(end for end in ends if end - len(STOP) >= waits_until)
-
-
-@pytest.mark.usefixtures("way")
-def test_places_are_as_far_apart_as_asked_for() -> None:
-    capture = conversation(400)
-    places = safe_cuts(capture, 1000)
-    assert len(places) == pytest.approx(len(capture) / 1000, abs=2)
-    assert all(1000 <= end - start < 1000 + LARGEST for start, end in pairwise([0, *places]))
-
-
-def test_behind_noise_the_first_place_is_taken() -> None:
-    capture = STOP * 10 + bytes(5000) + STOP * 500
-    (first, *_) = safe_cuts(capture, 1500)
-    assert first == 5040 + len(STOP)
 
 
 def test_a_place_is_found_by_the_bytes_around_it(tmp_path: Path) -> None:

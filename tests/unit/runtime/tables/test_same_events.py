@@ -17,7 +17,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.strategies import DIRECTIONS, HEADS, damaged_frames, directions, lines, unknown_frames
+from tests.strategies import HEADS, damaged_frames, directions, lines, unknown_frames
 from tests.unit.runtime.tables.hostile import hostile_lines
 from tests.unit.runtime.tables.rows import (
     Row,
@@ -131,43 +131,6 @@ def test_they_hold_what_was_worked_out_by_hand(
     assert events_of(rows) == [*expected, ("noise", len(FILLER), "bad header")]
 
 
-def test_a_frame_is_whole_wherever_a_block_ends() -> None:
-    frame = busservo.ServoPositions([(servo, 500 + servo) for servo in range(20)]).encode()
-    line = UNKNOWN + frame + RUN + STOP + b"\x55\x55" + frame[:-1] + FILLER
-    expected = rows_of_decoder(busservo, line, None)
-    first = ["unknown", "ServoPositions", "ActionGroupRun", "ActionGroupStop"]
-    assert [row.table for row in expected][:4] == first
-    for block in (1, 2, 3, 5, 7, *range(60, 75), 119):
-        assert rows_in_tables(busservo, line, None, block=block) == expected
-
-
-@in_turn("before", lambda: range(0, 700, 35))
-def test_a_claim_that_holds_a_frame_is_none_wherever_a_block_ends(before: int) -> None:
-    claim = bytes.fromhex("55 55 C6 63") + bytes(192) + STOP
-    line = bytes(before) + claim + FILLER
-    *head, stop, tail = events_of(rows_in_tables(busservo, line, HOST, block=900))
-    assert (stop, tail[:2]) == (("ActionGroupStop", 4), ("noise", len(FILLER)))
-    assert {table for table, *_ in head} == {"noise"}
-
-
-def test_noise_goes_on_behind_a_last_block_that_is_whole() -> None:
-    # The block behind it is empty.
-    rows = rows_in_tables(busservo, STOP + b"\x55\x55\0" + bytes(1193), HOST, block=600)
-    assert events_of(rows) == [("ActionGroupStop", 4), ("noise", 1196, "length mismatch")]
-
-
-@pytest.mark.parametrize("direction", DIRECTIONS, ids=str)
-def test_long_noise_is_one_row_of_each_reason(direction: Direction | None) -> None:
-    noise = b"\0" * 300_000 + b"\x55\x55\0" * 100_000
-    rows = rows_in_tables(busservo, noise + STOP, direction, block=65536)
-    said = None if direction is None else direction.value
-    assert [row[:5] for row in rows[:2]] == [
-        ("noise", 0, 300_000, said, "bad header"),
-        ("noise", 300_000, 300_000, said, "length mismatch"),
-    ]
-    assert sum(row.size for row in rows) == len(noise) + len(STOP)
-
-
 # --- What holds a line ----------------------------------------------------------------------------
 VOLTAGE = bytes.fromhex("55 55 04 0F 4C 1D")
 LINE = STOP + b"\0\0" + VOLTAGE + UNKNOWN + STOP + bytes(900) + STOP
@@ -202,12 +165,6 @@ def test_what_is_no_capture_is_refused_by_its_type(
     with pytest.raises(TypeError, match=re.escape(problem)):
         use(source, *target)
     assert [*tmp_path.iterdir()] == []
-
-
-def test_a_notebook_shows_the_tables_that_have_rows() -> None:
-    shown = tables.read(LINE)._repr_html_()
-    assert "<tr><td>BatteryVoltage</td><td>1</td></tr>" in shown
-    assert shown.count("<tr>") == 1 + len(tables.read(LINE).filled)
 
 
 HOLDERS: list[Any] = [
@@ -316,7 +273,6 @@ def test_a_recording_in_all_its_columns() -> None:
         b"00 01  # 2.000000 s, noise: bad header\n"
         b"00 02  # 3.000000 s, noise: bad header\n"
     )
-
     at = datetime(2024, 1, 2, 2, 4, 5, 500_000, timezone.utc)
     clocks = {after: at + timedelta(seconds=after) for after in (0.25, 1.5, 2.0, 3.0)}
     to_board, to_host = "host_to_controller", "controller_to_host"

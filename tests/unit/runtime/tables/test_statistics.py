@@ -18,7 +18,7 @@ from framewire.explain.words import scaled
 from framewire.tables.by_entry import events_by_entry
 from framewire.tables.stats import statistics
 from framewire.tables.stats.timeline import Clockwork, Intervals, Moments, Timeline
-from framewire.tables.stats.trace import BUCKETS, Trace, alone
+from framewire.tables.stats.trace import BUCKETS, Trace
 from framewire.tables.stats.traces import Traces
 from hypothesis import given
 from hypothesis import strategies as st
@@ -202,34 +202,10 @@ def test_times_that_go_back_far_begin_another_recording_and_a_little_do_not() ->
     assert (readings.longest_gap, readings.median_gap) == (4.0, 2.25)
 
 
-def test_the_first_of_equally_long_silences_are_shown() -> None:
-    found = measured(recording([float(number) for number in range(9)]))
-    assert [(each.seconds, each.time, each.offset) for each in found.silences] == [
-        (1.0, float(number), len(READING) * (number + 1)) for number in range(5)
-    ]
-
-
 def moments(seconds: NDArray[np.float64], recording: Sequence[int] = ()) -> Moments:
     """Return moments of a recording that does not say when it began."""
     of = np.array([*recording] or [0] * len(seconds))
     return Moments(seconds, of, np.full(len(seconds), np.nan))
-
-
-gaps = st.lists(st.sampled_from([0.0, 0.001, 0.02, 1.5, 3000.0]), min_size=1, max_size=40)
-
-
-@given(gaps, st.integers(1, 7), st.sampled_from([1, 200]))
-def test_gaps_are_the_same_however_they_come(between: list[float], size: int, times: int) -> None:
-    found = Intervals()
-    seconds = np.cumsum([0.0, *between * times])
-    for start in range(0, len(seconds), size * times):
-        piece = seconds[start : start + size * times]
-        found.add(moments(piece))
-    every = sorted(np.diff(seconds))
-    assert found.longest == every[-1]
-    assert found.median is not None
-    middle = every[(len(every) - 1) // 2 : len(every) // 2 + 1]
-    assert middle[0] * 0.98 - 1e-6 <= found.median <= middle[-1] * 1.02 + 1e-6
 
 
 def test_the_median_of_many_gaps_counts_all_of_them() -> None:
@@ -248,14 +224,6 @@ def test_from_one_recording_to_the_next_is_no_gap() -> None:
     found.add(moments(np.array([0.0, 1.0])))
     found.add(moments(np.array([9.0, 11.0, 50.0]), [1, 1, 2]))
     assert (found.longest, found.median) == (2.0, 1.5)
-
-
-def test_noise_of_each_line_of_a_recording_is_counted() -> None:
-    (noise,) = measured(recording([1.0, 2.0, 3.0], b"\x00\x01")).noise
-    assert (noise.reason.value, noise.count, noise.size) == ("bad header", 3, 6)
-    # Bytes without times are one stream, however they are written.
-    (noise,) = measured(b"00 01\n00 01\n").noise
-    assert (noise.count, noise.size) == (1, 4)
 
 
 def test_unknown_frames_of_many_kinds_are_counted_together(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -338,19 +306,3 @@ def test_a_trace_is_the_same_however_it_is_cut() -> None:
     assert pieces.count == whole.count == int((~np.isnan(values)).sum())
     assert np.nanmax(pieces.points()[1]) == np.nanmax(whole.points()[1]) == np.nanmax(values)
     assert np.isnan(pieces.points()[1]).any()
-
-
-def test_values_that_no_line_goes_through_are_known() -> None:
-    gap = np.nan
-    assert alone(np.array([1.0, gap, 2.0, 3.0, gap, gap, 4.0])).tolist() == [0, 6]
-    assert alone(np.array([gap, 5.0, gap])).tolist() == [1]
-    assert alone(np.array([1.0, 2.0])).tolist() == alone(np.empty(0)).tolist() == []
-    assert alone(np.array([7.0])).tolist() == [0]
-
-
-def test_two_values_close_to_each_other_are_two_points() -> None:
-    found = Trace()
-    found.add(np.array([0.0, 1000.0, 1000.001, 2000.0]), np.array([1.0, 5.0, 3.0, 7.0]))
-    at, value = found.points()
-    assert at.tolist() == [0.0, 1000.0, 1000.001, 2000.0]
-    assert value.tolist() == [1.0, 5.0, 3.0, 7.0]

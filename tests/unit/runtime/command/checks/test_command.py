@@ -11,7 +11,7 @@ from busservo._exchanges import POSE
 from busservo_simulator import Faults, VirtualController, servo
 from framewire.client.limits import Limits
 from framewire.command import doctor
-from framewire.command.checks import move, reply
+from framewire.command.checks import move
 from framewire.command.checks.check import Check
 from framewire.command.checks.checks import examine
 from framewire.command.checks.diagnosis import Diagnosis
@@ -22,7 +22,7 @@ from framewire.line.hid_devices import HidDevice
 from framewire.line.link_errors import DisconnectedError
 
 from tests.commands import records, run
-from tests.lines.patient import ADAPTER, CHECKS, PORT, board_with, diagnosis_of, examined
+from tests.lines.patient import ADAPTER, CHECKS, PORT, board_with, diagnosis_of
 from tests.timeouts import GENEROUS
 
 PATIENT = ("--timeout", GENEROUS)
@@ -47,24 +47,6 @@ def test_each_check_is_a_line_with_its_bytes_or_json(monkeypatch: pytest.MonkeyP
     assert [[*record] for record in found] == 7 * [keys]
     (rate,) = [record for record in found if record["check"] == "rate"]
     assert rate["bytes"] == ["55 55 04 0F 4C 1D"]
-
-
-def test_a_value_that_no_source_judges_is_noted() -> None:
-    with board_with(battery_mv=4700) as board:
-        found = examined(diagnosis_of(board))["reply"]
-    assert found.state == PASSED
-    assert found.note.startswith("voltage_mv is 4700 mV = 4.700 V. Not known: Which voltage is")
-    shown = doctor._as_text(reply.CHECK, found).splitlines()
-    note = f"                 note {found.note}"
-    assert shown[1:] == ["                bytes 55 55 04 0F 5C 12", note]
-
-
-def test_a_failed_check_comes_with_advice() -> None:
-    status, output, _ = run("doctor", "--port", "no-such-port")
-    assert status == 1
-    assert "failed   opening      no-such-port: there is no such port\n" in output
-    assert "                 next " in output
-    assert "unknown  rate         not looked at: see the check `opening`\n" in output
 
 
 @pytest.mark.usefixtures("nothing_else_comes")

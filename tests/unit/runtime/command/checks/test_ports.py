@@ -3,14 +3,9 @@
 from pathlib import Path
 from typing import Any
 
+import busservo
 import pytest
-from busservo import (
-    BatteryVoltage,
-    PortBusyError,
-    PortNotFoundError,
-    PortPermissionError,
-    TransportError,
-)
+from busservo import BatteryVoltage, PortBusyError, PortNotFoundError, PortPermissionError
 from busservo_simulator import VirtualController
 from framewire.command.checks import port_listed, rate
 from framewire.command.checks.checks import examine
@@ -120,7 +115,7 @@ def test_a_board_without_a_serial_port_is_seen(
     ],
 )
 def test_a_port_that_cannot_be_opened_is_reported_by_one_check(
-    error: TransportError, check: str, seen: str, advice: str
+    error: busservo.TransportError, check: str, seen: str, advice: str
 ) -> None:
     def opener(_port: str, _baud: float) -> Any:
         raise error
