@@ -22,6 +22,8 @@ RESULTS: dict[str, tuple[str | None, tuple[str, int] | None]] = {
     "ServoMove": (None, ("time_ms", 1000)),
     "ActionGroupRun": (STARTED, None),
 }
+READ_POSITIONS: Row
+READ_POSITIONS = ("read_servo_positions", ("servo_ids",), "ServoPositions", "positions", (), ECHO)
 CONTRACT: dict[str, Row] = {
     "ServoMove": ("move_servos", ("targets", "time_ms"), None, "", (), ()),
     "ActionGroupRun": ("run_action_group", ("group", "times"), None, "", (STARTED, COMPLETED), ()),
@@ -29,14 +31,7 @@ CONTRACT: dict[str, Row] = {
     "ActionGroupSpeed": ("set_action_group_speed", ("group", "percent"), None, "", (), ()),
     "BatteryVoltageRead": ("read_battery_voltage", (), "BatteryVoltage", "voltage_mv", (), ()),
     "ServoUnload": ("unload_servos", ("servo_ids",), None, "", (), ()),
-    "ServoPositionsRead": (
-        "read_servo_positions",
-        ("servo_ids",),
-        "ServoPositions",
-        "positions",
-        (),
-        ECHO,
-    ),
+    "ServoPositionsRead": READ_POSITIONS,
 }
 
 

@@ -41,18 +41,21 @@ FAULTS = {
 }
 
 
-class Numbering:
-    """What numbers the answers of a board, and records the reports that leave it."""
+class Ledger:
+    """The questions and reports of a board, and the values that its clients received.
+
+    It numbers the answers of the board, and records the reports that leave it.
+    """
 
     def __init__(self, board: VirtualController) -> None:
-        self.questions = 0
+        self.board = board
+        self.questions = self.right = self.refused = self.reconnected = 0
         self.reported: list[Report] = []
+        # By number, so that a long soak needs no more room than a short one.
+        self._given = bytearray(1 << 20)
+        self._lock = threading.Lock()
         board.board.on_battery_voltage_read = self._voltage  # type: ignore[method-assign, assignment]
         board.board.on_servo_positions_read = self._positions  # type: ignore[method-assign]
-        self.note_reports(board)
-
-    def note_reports(self, board: VirtualController) -> None:
-        """Record every report from now on; to be called again whenever faults are set."""
         injector = board._line._injector
         reports = injector.reports
 
@@ -75,18 +78,6 @@ class Numbering:
     def _positions(self, message: busservo.ServoPositionsRead) -> busservo.ServoPositions:
         number = self._next()
         return busservo.ServoPositions([(servo, number) for servo in message.servo_ids])
-
-
-class Ledger(Numbering):
-    """The questions and reports of a board, and the values that its clients received."""
-
-    def __init__(self, board: VirtualController) -> None:
-        super().__init__(board)
-        self.board = board
-        self.right = self.refused = self.reconnected = 0
-        # By number, so that a long soak needs no more room than a short one.
-        self._given = bytearray(1 << 20)
-        self._lock = threading.Lock()
 
     def given(self, before: int, values: set[int]) -> None:
         """Record a call that began after answer `before`, and the values it returned."""

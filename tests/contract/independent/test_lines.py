@@ -7,15 +7,12 @@ from tests.contract.independent import faults
 from tests.contract.independent.board import Board
 from tests.contract.independent.conversation import (
     BAUD,
-    REPLY_TIMEOUT,
     SIX,
     Conversation,
     question_of,
     seconds,
     talking,
-    wire_time,
 )
-from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
 
 
@@ -27,24 +24,7 @@ def conversation(board: Board, reads: int, **given: Any) -> tuple[Conversation, 
     return talk, controller.counters
 
 
-def times(talk: Conversation) -> list[float]:
-    """Return how long each call took."""
-    return [each.ended - each.began for each in talk.calls]
-
-
 # ------------------------------------------------------------------- faster than stated
-def test_a_line_is_learnt_to_be_faster_from_three_replies_that_were_impossible() -> None:
-    """Each of these is held until the line has been quiet; from then on, none is."""
-    talk, counters = conversation(Board(), 10)
-    assert (talk.stale, talk.failed) == ([], [])
-    assert counters.impossible == 3
-    assert max(times(talk)[3:]) < 0.001
-    assert max(times(talk)) < REPLY_TIMEOUT + 2 * wire_time(None, BAUD)
-    # One that is said to be faster is believed.
-    talk, counters = conversation(Board(), 10, baud=math.inf)
-    assert (talk.stale, talk.failed) == ([], [])
-    assert counters.impossible == 0
-    assert max(times(talk)) < 0.001
 
 
 @in_turn("baud", lambda: [BAUD, math.inf])
@@ -64,31 +44,6 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
             talk.ask(controller, None)
         assert len(talk.stale) == 6
         assert talk.failed == []
-
-
-# ------------------------------------------------------------------- a process that pauses
-class Pausing(VirtualPort):
-    """A process that stands still for a second behind a read that gave so many bytes in all."""
-
-    def __init__(self, board: Board, behind: int) -> None:
-        super().__init__(board)
-        self._left = behind
-
-    def read(self, timeout: float) -> bytes:
-        data = super().read(timeout)
-        if 0 < self._left <= len(data):
-            self.now += 1.0
-        self._left -= len(data)
-        return data
-
-
-@in_turn("behind", lambda: range(1, 24))
-def test_a_process_that_stands_still_within_a_healthy_reply_loses_nothing(behind: int) -> None:
-    with talking(Pausing(Board(baud=BAUD), behind), settle=None) as (_, controller):
-        for number in (1, 2, 3):
-            positions = controller.read_servo_positions(SIX)
-            assert {position for _, position in positions} == {number}
-        assert controller.counters.noise == 0
 
 
 # ------------------------------------------------------------------- a stranger's reply

@@ -1,18 +1,15 @@
 """Runs, and the reports that acknowledge them: what the result of a run says, and when."""
 
-from collections import deque
 from collections.abc import Iterable
-from itertools import accumulate
+from functools import partial
 from typing import Any
 
 import busservo
 from busservo import ActionGroupRun, ActionGroupStarted, BatteryVoltage, Message, ServoPositionsRead
-from framewire.client.session import Session
-from hypothesis import given
-from hypothesis import strategies as st
 
-from tests.lines.both_clients import both
-from tests.lines.questions import REPLY_TIMEOUT, session
+from tests.lines.both_clients import both, both_live, until
+from tests.lines.live_line import LiveLine
+from tests.lines.questions import REPLY_TIMEOUT
 from tests.lines.stories import (
     Step,
     Told,
@@ -33,12 +30,6 @@ STARTED = ActionGroupStarted(8, 1)
 
 
 SEEN_ONE = hear(-10.0, ActionGroupStarted(99, 1))  # of a line that has carried such a report
-
-
-def seen_one() -> Session:
-    line = session()
-    SEEN_ONE(Told(line))
-    return line
 
 
 def run(group: int = 8, at: float = 0.0) -> Step:
@@ -167,45 +158,6 @@ class Board:
         return data
 
 
-@given(
-    st.lists(
-        # How much later than the one before it is requested, how long the board takes to say so,
-        # and how many servos are read right behind it.
-        st.tuples(
-            st.sampled_from([0, 1, 50, 300, 600]),
-            st.none() | st.integers(0, 240),
-            st.sampled_from([0, 0, 1, 6, 84]),
-        ),
-        min_size=1,
-        max_size=6,
-    ),
-    st.integers(3, 40),
-)
-def test_acknowledgements_match_what_the_board_has_done(
-    requested: list[tuple[int, int | None, int]], step: int
-) -> None:
-    """Over a line that is read every `step` milliseconds, and has no room for all at once."""
-    line, board = seen_one(), Board([delay for _, delay, _ in requested])
-    times = accumulate(later for later, _, _ in requested)
-    pending = deque(zip(times, range(6), (servos for _, _, servos in requested), strict=False))
-    sent = []
-    for now in (at / 1000 for at in range(0, 8000, step)):
-        while pending and pending[0][0] / 1000 <= now:
-            _, group, servos = pending.popleft()
-            sent.append(line.submit(ActionGroupRun(group, 1)))
-            if servos:
-                line.submit(ServoPositionsRead(range(servos)))
-        for frame in line.outgoing(now):
-            board.receive(frame, line.wire_time.free_at)
-        line.acknowledgements.written(now)
-        if line.unwritten is not None:
-            line.written(line.unwritten, now)
-        line.receive(board.arrived(now), now)
-        line.tick(now)
-    started = [each.sent.started for each in sent if isinstance(each.sent, busservo.Run)]
-    assert started == [delay is not None for _, delay, _ in requested]
-
-
 # -------------------------------------------------------------------- both clients
 def of_group_8(message: Message) -> Iterable[tuple[float, Message]]:
     """Yield the messages of a board that has group 8 and no other."""
@@ -239,3 +191,15 @@ async def test_a_run_that_the_board_ignores_is_seen(controller: Any, line: Any) 
 
 def known(run: busservo.Run) -> bool:
     return run.started is not None
+
+
+def on_group_8() -> LiveLine:
+    return LiveLine(lambda message: [each for _, each in of_group_8(message)])
+
+
+@both_live(on_group_8, reply_timeout=0.05)
+async def test_a_run_that_the_board_ignores_is_seen_where_nobody_asks(controller: Any) -> None:
+    for group in (8, 7):
+        run = await controller.run_action_group(group, times=1)
+        await until(controller, partial(known, run))
+        assert run.started is (group == 8)

@@ -63,22 +63,6 @@ def test_answers_and_reports_are_right_under_any_schedule_of_faults(
         assert controller.counters.lost_reports == 0
 
 
-@given(schedules, st.integers(0, 2**32), st.floats(0.01, 0.3))
-def test_a_line_that_is_cut_in_mid_frame_comes_back(faults: Faults, seed: int, cut: float) -> None:
-    board, ledger, clock = virtual(replace(faults, hang_up=cut, splits_to_board=0))
-    with board, client_at(board, Controller, **LINE) as controller:
-        converse(controller, ledger, seed, 15, clock.now, bound=MOST)
-        # A cut may be due yet, behind a frame that is late.
-        board.faults = replace(faults, hang_up=0)
-        board.advance(2 * REPLY_TIMEOUT)
-        board.plug_in()
-        controller.reconnect()
-        received = list(controller.reports(timeout=1))
-        # What was under way when the line was cut is lost; nothing else is, and nothing is made up.
-        rest = iter(ledger.reported)
-        assert all(report in rest for report in received)
-
-
 @given(schedules, st.integers(0, 2**32), st.integers(0, 2), st.sampled_from([0.0, 0.05]))
 def test_answers_and_reports_are_right_under_any_schedule_of_faults_with_asyncio(
     faults: Faults, seed: int, retries: int, cut: float

@@ -3,7 +3,7 @@
 import math
 import pickle
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import busservo
 import pytest
@@ -12,11 +12,8 @@ from busservo._exchanges import EXCHANGES
 from framewire.client.exchange import Exchange
 from framewire.client.request import Request
 from framewire.client.session import Session
-from hypothesis import example, given
-from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.lines.both_clients import TALKS, Talk, by_threads
 from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session
 from tests.lines.virtual_line import Answer, VirtualLine
 
@@ -54,46 +51,6 @@ def rising(line: VirtualLine, place: int, late_by: float, said: list[Reply]) -> 
         yield delay, reply
 
     return answer
-
-
-# The late reply comes 50 us before the one that is due: nothing tells which it is.
-@example(by_threads, 0.892578125, 0, [1, 2], 0)
-# It comes a little sooner than that can: it is dropped.
-@example(by_threads, 0.8916, 0, [1, 2], 0)
-@given(
-    st.sampled_from(TALKS),
-    st.floats(0.5, 0.9),
-    st.integers(0, 12),
-    st.lists(st.integers(1, 9), min_size=1, max_size=6, unique=True),
-    st.integers(0, 2),
-)
-def test_a_servo_that_only_rises_is_never_read_going_down(
-    talk: Talk, late_by: float, place: int, servos: list[int], retries: int
-) -> None:
-    # A late reply is overtaken by the one to the next question.
-    line = VirtualLine(in_order=False)
-    said: list[Reply] = []
-    line.answer = rising(line, place, late_by, said)
-    read = []
-
-    async def work(client: Any) -> None:
-        for _ in range(place + 8):
-            began = line.now
-            try:
-                read.append((await client.read_servo_positions(servos))[0].position)
-            except NoReplyError:
-                continue
-            finally:
-                assert line.now - began < 6 * REPLY_TIMEOUT
-
-    talk(line, work, baud=9600, reply_timeout=REPLY_TIMEOUT, retries=retries)
-    assert len(read) >= place + 7  # only the late one may have failed
-    if any(said[place].may_be_taken_for(each) for each in said[place + 1 :]):
-        # That one read may be stale; those behind it are right.
-        stale = [each for each in read if each == said[place].position]
-        assert len(stale) <= 1
-        read = [each for each in read if each not in stale]
-    assert read == sorted(read)
 
 
 # ---------------------------------------------------------------- what is in doubt, and what not

@@ -18,6 +18,7 @@ from framewire.line.hid_port import HidPort, open_hid
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import PORT_TALKS, Talk
+from tests.lines.gates import closing_ends_a_read
 from tests.lines.receiving import answered
 from tests.timeouts import LIVE
 
@@ -207,6 +208,10 @@ def test_what_fails_as_it_is_closed_is_closed() -> None:
     device.write = write  # type: ignore[method-assign]
     with pytest.raises(busservo.ClosedError):
         port.write(b"UU")
+
+
+def test_closing_ends_a_read_in_another_thread() -> None:
+    closing_ends_a_read(port_on(Device()))
 
 
 TWO, CHOICE = (

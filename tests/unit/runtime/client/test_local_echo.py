@@ -14,10 +14,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
+from tests.lines.both_clients import both_live
+from tests.lines.live_line import LiveLine, answered
 from tests.lines.questions import session
 from tests.lines.receiving import unanswered
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import LIVE
 
 Incoming = Iterable[tuple[float, bytes | Message]]
 
@@ -99,6 +102,17 @@ def test_a_motion_that_nobody_waits_for_says_so_in_the_log(caplog: Any) -> None:
     assert "has not come back" in caplog.text
 
 
+def live(answer: Callable[[Message], list[Message]] = answered) -> LiveLine:
+    return LiveLine(lambda message: [message, *answer(message)])
+
+
+@both_live(live, local_echo=True, **LIVE)
+async def test_the_same_in_real_time(controller: Any) -> None:
+    await controller.stop_action_group()
+    assert await controller.read_battery_voltage() == 7500
+    assert [report async for report in controller.reports(timeout=0.05)] == []
+
+
 # ---------------------------------------------------------------- unless it is said
 def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(caplog: Any) -> None:
     with caplog.at_level(logging.WARNING), virtual(echoing, local_echo=False) as controller:
@@ -107,17 +121,6 @@ def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(caplog: Any)
         assert controller.counters.echoes == 3
     (said,) = [each for each in caplog.records if "local_echo=True" in each.getMessage()]
     assert "gives back what is sent" in said.getMessage()
-
-
-@in_turn("message", lambda: [ActionGroupRun(8, 1), ActionGroupStop()])
-def test_a_report_like_a_command_is_no_sign_of_an_echo(message: Message) -> None:
-    with virtual(echoing, local_echo=False) as controller:
-        controller.send(message)
-        reported = (
-            [STARTED] if isinstance(message, ActionGroupRun) else [busservo.ActionGroupStopped()]
-        )
-        assert list(controller.reports(timeout=1)) == reported
-        assert controller.counters.echoes == 0
 
 
 # ---------------------------------------------------------------- the filter alone
@@ -160,3 +163,15 @@ def test_all_that_others_send_comes_through_however_it_is_cut(
     assert found == b"".join(others[: len(sent) + 1])
     assert came == requests
     assert echo.due is None
+
+
+def test_what_is_forgotten_is_no_longer_expected_and_everything_else_is() -> None:
+    echo = LocalEcho()
+    first, second = request(ActionGroupStop()), request(BatteryVoltageRead())
+    for each in (first, second):
+        echo.sent(each, each.message.encode(), 1.0)
+    echo.forget(first)
+    assert not echo.expects(first)
+    assert echo.expects(second)
+    frames = ActionGroupStop().encode() + BatteryVoltageRead().encode()
+    assert [*echo.take_out(frames)] == [(ActionGroupStop().encode(), second, []), (b"", None, [])]

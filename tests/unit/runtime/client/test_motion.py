@@ -6,7 +6,7 @@ from typing import Any
 
 import busservo
 import pytest
-from busservo import ActionGroupStopped, ClosedError, DisconnectedError, ServoMove
+from busservo import ClosedError, DisconnectedError, ServoMove
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both
@@ -49,18 +49,6 @@ def test_whatever_sends_it_a_move_is_a_motion() -> None:
 
 
 # -------------------------------------------------------------------- while it is waited for
-@both()
-async def test_reports_are_kept_and_delivered_while_a_motion_is_waited_for(
-    controller: Any, line: Any
-) -> None:
-    received: list[float] = []
-    controller.on_report(lambda _: received.append(line.now))
-    motion = await controller.move_servos([(1, 800)], 1000)
-    line.say(ActionGroupStopped(), 0.5)
-    await motion.wait()
-    assert received == [pytest.approx(0.5, abs=0.03)]
-    kept = [report async for report in controller.reports(timeout=0)]
-    assert kept == [ActionGroupStopped()]
 
 
 @both()
@@ -84,26 +72,6 @@ def test_a_motion_is_waited_for_while_others_talk() -> None:
         assert controller.read_battery_voltage() == 7500
         assert [each.result(GENEROUS) for each in pending] == [True] * 4
         assert all(motion.remaining == 0.0 for motion in motions)
-
-
-@in_turn("error", lambda: [DisconnectedError, ClosedError])
-@in_turn("latest", lambda: [False, True])
-@in_virtual_time
-async def test_in_a_task_a_line_that_is_lost_or_closed_meanwhile_ends_the_wait(
-    latest: bool, error: type[Exception]
-) -> None:
-    line = VirtualLine()
-    async with client(line, baud=1000) as controller:
-        await controller.move_servos([(1, 500)], 20)
-        motion = await controller.move_servos([(1, 800)], LONG, latest=latest)
-        pending = asyncio.ensure_future(motion.wait())
-        await asyncio.sleep(0)
-        if error is ClosedError:
-            await controller.close()
-        else:
-            line.unplug()
-        with pytest.raises(error):
-            await asyncio.wait_for(pending, GENEROUS)
 
 
 @in_virtual_time

@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+import math
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -22,7 +23,9 @@ from busservo import (
     ServoPositions,
     ServoPositionsRead,
     ServoUnload,
+    open_async_controller,
 )
+from busservo_simulator import VirtualController
 from framewire.client.line_threads import LineThreads
 
 from tests.factories import DEMO, library, library_of
@@ -406,3 +409,18 @@ def test_other_protocols_hold_and_release_in_words_of_their_own() -> None:
         assert rolled == [[(4, 50), (9, 50)], [(4, 7)], (5,)]
         with pytest.raises(ValueError, match="must be 'hold', 'release' or None"):
             client_of(Motor(), on_exit="unload")
+
+
+def test_a_port_that_is_opened_for_asyncio_is_left_in_the_same_way() -> None:
+    async def work(port: str, error: BaseException | None) -> None:
+        async with open_async_controller(port, baud=math.inf, on_exit="hold") as arm:
+            await arm.move_servos([(1, 900), (99, 900)], 60_000)
+            if error is not None:
+                raise error
+
+    with VirtualController("tcp") as board:
+        with pytest.raises(NotHeldError, match=r"servos not held: 99 \(no answer\)"):
+            asyncio.run(work(board.port, None))
+        with pytest.raises(Stopped):
+            asyncio.run(work(board.port, Stopped()))
+        assert board.servos[1].position < 600

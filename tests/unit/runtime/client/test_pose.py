@@ -8,13 +8,16 @@ from typing import Any
 import busservo
 import pytest
 from busservo import Controller, ServoMove, ServoPosition, ServoPositions
+from busservo_simulator import VirtualController
 
 from tests.factories import DEMO, library, library_of
 from tests.handed import program_of
 from tests.in_turn import in_turn
 from tests.lines import timed_line
+from tests.lines.both_clients import PORT_TALKS, Talk
 from tests.lines.timed_line import client_on
 from tests.lines.virtual_line import VirtualLine
+from tests.timeouts import LIVE
 
 Positions = list[tuple[int, int]]
 
@@ -112,6 +115,20 @@ def test_what_is_far_outside_the_limits_is_not_sent_somewhere_else(
     assert str(refused.value).startswith("positions[1].position: ")
     assert expected in str(refused.value)
     assert moves(line) == []
+
+
+@pytest.mark.parametrize("talk", PORT_TALKS)
+def test_the_same_at_a_port(talk: Talk) -> None:
+    async def work(controller: Any) -> None:
+        assert await controller.present_servos() == (1, 2, 3)
+        await controller.hold_servos([1, 2])
+        with pytest.raises(busservo.AbsentError):
+            await controller.hold_servos([1, 7])
+        pose = [ServoPosition(1, OFF), ServoPosition(2, 65531)]
+        assert controller.targets_of(pose) == [(2, 0)]
+
+    with VirtualController("tcp", servos=[1, 2, 3]) as board:
+        talk(board.port, work, **LIVE)
 
 
 # ------------------------------------------------------------------ in words of another protocol

@@ -34,6 +34,19 @@ def wanted(kind: Kinds, fields: dict[str, int]) -> ReportFilter:
     return ReportFilter(LIBRARY.codec.received, kind, fields)
 
 
+def test_a_run_is_the_cause_of_its_reports() -> None:
+    log = after([COMPLETED_8, RUN_8, COMPLETED_8, RUN_9]).reports
+    of_8, of_9 = (wanted(ActionGroupCompleted, {"group": group}) for group in (8, 9))
+    assert log.since(of_8) == 1
+    assert log.since(of_9) == 2
+    found = log.find(of_8, since=1, began_at=2)
+    assert found == ActionGroupCompleted(8, 1)
+    # It has been waited for: the next wait wants another.
+    assert log.find(of_8, since=1, began_at=2) is None
+    assert log.take() == log.take() == ActionGroupCompleted(8, 1)
+    assert log.take() is None
+
+
 @in_turn(
     "story, fields, found",
     lambda: [

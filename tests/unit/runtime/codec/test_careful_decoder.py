@@ -38,15 +38,6 @@ def careful(*pieces: bytes, flushed: bool = False) -> list[Message | Noise]:
     return events
 
 
-@in_turn("lost", lambda: range(1, 3))
-@in_turn("cut", lambda: range(8))
-def test_a_battery_reply_with_a_hole_is_no_message(lost: int, cut: int) -> None:
-    """55 55 04 0F, two bytes lost, and a report: 21845 mV, if it were taken for whole."""
-    torn = BatteryVoltage(0x1D4C).encode()[: -lost or None]
-    line = torn + REPORT.encode()
-    assert messages_in(careful(line[:cut], line[cut:])) == [REPORT]
-
-
 def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
     """Whatever is lost at the end of a frame: what follows is found, and nothing is invented."""
     for torn in MESSAGES[:4]:
@@ -55,15 +46,6 @@ def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
             for lost in range(1, min(len(frame) - 4, len(follows.encode()) - 2) + 1):
                 line = frame[:-lost] + follows.encode()
                 assert messages_in(careful(line, flushed=True)) == [follows], (torn, follows, lost)
-
-
-@in_turn("follows", lambda: [[ActionGroupStopped()], [REPORT], [ActionGroupStopped(), REPORT]])
-@in_turn("part", lambda: range(8))
-def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], part: int) -> None:
-    filling = b"".join(each.encode() for each in follows) + REPORT.encode()[:part]
-    torn = ServoPositions([(servo, 500) for servo in range(1, 7)]).encode()
-    line = torn[: -len(filling)] + filling + REPORT.encode()[part:]
-    assert messages_in(careful(line, flushed=True)) == [*follows, REPORT]
 
 
 def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
@@ -123,18 +105,6 @@ def test_how_the_line_is_cut_makes_no_difference(line: list[bytes], data: st.Dat
     cuts = sorted(data.draw(st.lists(st.integers(0, len(whole)), max_size=6)))
     cut = [whole[a:b] for a, b in zip([0, *cuts], [*cuts, len(whole)], strict=True)]
     assert joined(careful(*cut, flushed=True)) == joined(careful(whole, flushed=True))
-
-
-@given(pieces)
-def test_without_doubtful_messages_it_agrees_with_the_stream_decoder(line: list[bytes]) -> None:
-    plain, doubting = busservo.StreamDecoder(RECEIVED), CODEC.careful_decoder(RECEIVED)
-    whole = b"".join(line).replace(b"\x55\x55\x55", b"\x55\x55\x04")
-    expected = [*plain.feed(whole), *plain.flush()]
-    found = [*doubting.feed(whole)]
-    while doubting.pending:
-        found += doubting.flush()
-    if not any(b"\x55" in each.encode()[2:] for each in messages_in(expected)):
-        assert joined(found) == joined(expected)
 
 
 # Of its two kinds of frames, one is a single byte, and the other has a checksum.

@@ -117,17 +117,6 @@ def test_any_stretch_of_a_stream_has_the_checksum_of_the_catalogue(
 
 
 @in_turn("method, width", lambda: KINDS)
-def test_a_copy_of_a_checksum_goes_on_by_itself(method: str, width: int) -> None:
-    checksum = make(method, width)
-    original, data = checksum.running(), bytes(range(20))
-    for at in range(3):
-        original.of(data, 0, (at, 10))
-    other = original.copy()
-    original.of(bytes(20), 0, (2, 20))
-    assert other.of(data, 0, (2, 20)) == checksum.of(data[2:])
-
-
-@in_turn("method, width", lambda: KINDS)
 @in_turn("frames_between", lambda: [False, True])
 def test_long_claims_at_every_byte_cost_each_byte_twice_at_most(
     method: str, width: int, frames_between: bool

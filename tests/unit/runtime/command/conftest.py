@@ -5,10 +5,7 @@ from collections.abc import Iterator
 import pytest
 from busservo_simulator import VirtualController
 
-from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.timeouts import undoubted
-
-__all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
 
 
 @pytest.fixture

@@ -113,6 +113,12 @@ def test_the_times_and_the_senders_of_a_recording_are_kept(
     assert run("decode", log, *words) == (0, "".join(lines), TOTALS)
 
 
+def test_each_of_several_recordings_has_a_time_of_its_own(log: Path) -> None:
+    log.write_text(CUT_OFF + CUT_OFF.replace("2026", "2027", 1))
+    lines = run("decode", log, "-t", "delta").out.splitlines()
+    assert [line.split()[0] for line in lines] == 2 * DELTA
+
+
 def as_csv(*words: object) -> list[dict[str, str]]:
     text = io.StringIO(run("decode", "--csv", *words).out, newline="")
     return [*csv.DictReader(text, strict=True)]

@@ -16,7 +16,7 @@ from busservo import Controller, Device, ServoPositions, ServoPositionsRead
 from busservo.__main__ import main
 from busservo._command import PROGRAM
 from busservo.simulator import VirtualDevice
-from busservo_simulator import VirtualController
+from busservo_simulator import Faults, VirtualController
 from framewire.command import link, send, simulate
 from framewire.command.method_verb import MethodVerb
 from framewire.command.questions import in_parts
@@ -204,6 +204,14 @@ def test_ports_are_listed_and_boards_without_one(
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
     monkeypatch.setattr("framewire.command.ports.hid_devices_at_hand", lambda _link: devices)
     assert run(*words.split()) == (0, output, errors)
+
+
+def test_a_line_that_is_lost_in_the_middle_of_a_reply_has_a_status_of_its_own() -> None:
+    with VirtualController("tcp", faults=Faults(hang_up=1.0)) as board:
+        status, _, errors = run("send", "--port", board.port, "BatteryVoltageRead", *PATIENT)
+    assert status == 3
+    assert errors.startswith(f"busservo: error: {board.port}: the line was lost")
+    assert errors.endswith("; check the cable and the power, then run this again\n")
 
 
 def test_simulate_runs_the_simulator() -> None:

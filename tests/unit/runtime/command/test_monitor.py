@@ -99,6 +99,13 @@ def test_only_the_requested_messages_are_shown(words: list[str], expected: list[
     assert events(*words) == expected
 
 
+def test_a_frame_of_unknown_command_is_shown_as_one_and_as_noise() -> None:
+    for only in ("unknown", "noise"):
+        line = Line(bytes.fromhex("55 55 03 01 2A"), FRAME)
+        shown = events("--only", only, line=line)
+        assert shown == ["unknown     command=1 parameters=2A | 55 55 03 01 2A"]
+
+
 BOTH = (
     BatteryVoltageRead().encode(),
     FRAME,

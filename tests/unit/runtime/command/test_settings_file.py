@@ -75,16 +75,16 @@ NO_RATE = "is no rate: a whole number of baud, 1 or more, or inf"
 NO_IDS = "is no list of numbers, such as [1, 2, 3]"
 NO_PAIR = 'is no pair like [0, 1000], nor "none" for anything'
 SINGLE = "with backslashes, text stands in single quotes: port = '\\\\.\\COM10'"
+TOML, NO_NUMBER = "it is not TOML:", "is not a number, such as 1"
+TWICE = "Cannot overwrite a value; a key stands there once"
+QUOTES = 'text stands in quotes: port = "COM7"'
 # What stands there, and what is said of it behind the name of the file.
 BAD = [
     (b"prot = 'COM7'", ", line 1: prot: there is no such key; did you mean port?"),
     (b"# it\nspeed = 3", f", line 2: speed: {NO_KEY}"),
     (b"port = 7", f", line 1: port: 7 {NO_PORT}"),
     (b"port = ''", f', line 1: port: "" {NO_PORT}'),
-    (
-        b'port = "\\\\.\\COM10"',
-        f", line 1, column 14: it is not TOML: Unescaped '\\' in a string; {SINGLE}",
-    ),
+    (b'port = "\\\\.\\COM10"', f", line 1, column 14: {TOML} Unescaped '\\' in a string; {SINGLE}"),
     (b"port = 'COM7'\nbaud = '9600'", f', line 2: baud: "9600" {NO_RATE}'),
     (b"baud = 0", f", line 1: baud: 0 {NO_RATE}"),
     (b"baud = -inf", f", line 1: baud: -inf {NO_RATE}"),
@@ -97,22 +97,13 @@ BAD = [
     (b"limits = [900]", f", line 1: limits: [900] {NO_PAIR}"),
     (b"limits = [900, 100]", ", line 1: limits: [900, 100] has the higher value first"),
     (b"[limits]\n1 = [100, 900]\n2 = 'any'", f', line 3: limits.2: "any" {NO_PAIR}'),
-    (
-        b"[limits]\n1 = [100, 900]\n'2-3' = [1, 2]",
-        ", line 3: limits.2-3: '2-3' is not a number, such as 1",
-    ),
-    (b"[limits]\n01 = [1, 2]", ", line 2: limits.01: '01' is not a number, such as 1"),
+    (b"[limits]\n1 = [1, 9]\n'2-3' = [1, 2]", f", line 3: limits.2-3: '2-3' {NO_NUMBER}"),
+    (b"[limits]\n01 = [1, 2]", f", line 2: limits.01: '01' {NO_NUMBER}"),
     (b"[limits]\n256 = [1, 2]", ", line 2: limits.256: 256 is outside 0..255 of a servo"),
     (b"[arm]\nport = 'COM7'", f", line 1: arm: {NO_KEY}"),
-    (
-        b"port = 'COM7'\nport = 'COM8'\n",
-        ", line 2, column 14: it is not TOML: Cannot overwrite a value; a key stands there once",
-    ),
-    (
-        b"port = COM7",
-        ', line 1, column 8: it is not TOML: Invalid value; text stands in quotes: port = "COM7"',
-    ),
-    (b"port = 'COM7", ', at its end: it is not TOML: Expected "\'"'),
+    (b"port = 'COM7'\nport = 'COM8'\n", f", line 2, column 14: {TOML} {TWICE}"),
+    (b"port = COM7", f", line 1, column 8: {TOML} Invalid value; {QUOTES}"),
+    (b"port = 'COM7", f', at its end: {TOML} Expected "\'"'),
     (b"\n# caf\xe9", ", line 2: it is not UTF-8: save it as that"),
     ("port".encode("utf-16"), ", line 1: it is not UTF-8: save it as that"),
 ]

@@ -90,15 +90,6 @@ def test_positions_and_the_battery_are_drawn(tmp_path: Path, picture: Path) -> N
         assert text in texts
 
 
-def test_only_an_excerpt_is_drawn(tmp_path: Path, picture: Path) -> None:
-    words = ("--from", "2s", "--to", "4", "--ids", "1")
-    texts, lines = drawn(positions(tmp_path), picture, *words)
-    # Both ends are included: a reading each 0.25 s.
-    counts = {name: len(points) for name, points in lines.items()}
-    assert counts == {f"{NAME}.1": 9, "BatteryVoltage.voltage_mv.0": 1}
-    assert {"line.hex from 2s to 4: Hiwonder bus servo controller", "2.00", "4.00"} <= {*texts}
-
-
 @pytest.mark.parametrize(("count", "is_dense"), [(2_000, False), (40_000, True)])
 def test_dense_readings_have_a_band_around_their_mean(count: int, is_dense: bool) -> None:
     trace = Trace()

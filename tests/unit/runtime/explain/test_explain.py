@@ -14,7 +14,6 @@ from framegen.model.model import Model, derive
 from framewire.explain import refusals
 from framewire.explain.explanation import Explanation, Reading, Refusal, Row
 from framewire.explain.lookalikes import recognise
-from framewire.explain.slot_bytes import piece
 from framewire.explain.text import as_json, as_text
 from hypothesis import given
 from hypothesis import strategies as st
@@ -386,20 +385,6 @@ def test_a_lookalike_is_recognised(
     found = recognise(GREENHOUSE.protocol, bytes.fromhex(hex_))
     row = (None, None, None) if found is None else (found.name, found.command, found.meaning)
     assert row == (name, command, meaning)
-
-
-@pytest.mark.parametrize(("order", "size"), [("big", "00 01"), ("little", "01 00")])
-def test_a_lookalike_is_cut_into_its_parts_in_the_byte_order(order: str, size: str) -> None:
-    model = derive(Spec.model_validate({**data_of(DEMO), "byte_order": order}))
-    data = bytes.fromhex(f"C3 5A A5 21 {size} FF")
-    found = recognise(model.protocol, data)
-    assert found is not None
-    assert {placed.path: piece(placed, data).hex(" ").upper() for placed in found.parts} == {
-        "preamble": "C3 5A A5",
-        "kind": "21",
-        "size": size,
-        "payload": "FF",
-    }
 
 
 # ---------------------------------------------------------------------------- the command

@@ -8,12 +8,15 @@ import json
 import math
 import pickle
 import sys
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from framegen.targets.python.message_view import MessageView
 from framewire.client.exchange import column
 from framewire.command.values import fields_as_text, fields_in_json, message_from_text
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.factories import compiled_file, library, library_of
 from tests.in_turn import in_turn
@@ -289,3 +292,12 @@ def test_a_notebook_shows_every_part(everything: Any) -> None:
     for shown in ("300", "992, 0, 2047, 1, 2, 3, 4, 5", "x 1, flags 5 (near, far 2)"):
         assert shown in strip
     assert "third" not in everything.Tail(1, 2)._repr_html_()
+
+
+@given(st.data())
+def test_the_strategies_make_messages_of_every_kind(everything: Any, data: st.DataObject) -> None:
+    strategies = import_module(f"{everything.__name__}.strategies")
+    message = data.draw(strategies.messages())
+    assert type(message).decode(message.encode()) == message
+    again = type(message).from_dict(message.to_dict())
+    assert again.encode() == message.encode()

@@ -46,27 +46,6 @@ def test_what_a_sensor_sends_its_client_receives() -> None:
             logger.wait_for(weather.GustsMeasured, timeout=1)
 
 
-# ------------------------------------------------------------------ a lamp that only takes commands
-def test_what_a_client_sends_a_lamp_receives_and_nothing_comes_back() -> None:
-    stage = lib("stage_lamp")
-    shown: list[Any] = []
-
-    class Lamp(stage.Device):  # type: ignore[misc, name-defined]
-        def on_colour_show(self, message: Any) -> None:
-            shown.append((message.red, message.green, message.blue))
-
-        def on_darken(self, message: Any) -> None:
-            shown.append(message)
-
-    with client_of(Lamp()) as desk:
-        desk.colour_show(1, green=2, blue=3)
-        desk.darken()
-        assert [*desk.reports(timeout=1)] == []
-        with pytest.raises(TypeError, match="Darken is no message that comes to this end"):
-            desk.wait_for(stage.Darken, timeout=1)
-    assert shown == [(1, 2, 3), stage.Darken()]
-
-
 # ------------------------------------------------------------------ the direction of nobody
 
 SILENT = {"weather": "logger_to_mast", "stage_lamp": "lamp_to_desk"}

@@ -13,13 +13,10 @@ from busservo._library import LINK
 from busservo_simulator import VirtualController
 
 from tests.lines.at_board import virtual_board
-from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.lines.hosts import Host, host_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-
-__all__ = ["no_board_refuses_anything", "pytest_runtest_makereport"]
 
 # A question, its reply, and reports of the board's own.
 ASK, VOLTAGE, STOPPED = BatteryVoltageRead(), BatteryVoltage(7500), ActionGroupStopped()

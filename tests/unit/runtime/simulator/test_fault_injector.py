@@ -5,12 +5,10 @@ from __future__ import annotations
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
-import busservo
 import pytest
 from busservo import ActionGroupCompleted, ActionGroupStarted, ServoPositions, ServoPositionsRead
 from busservo_simulator import Faults, VirtualController
 from busservo_simulator.faults import CHANCES
-from framewire.line.link_errors import DisconnectedError
 
 from tests.in_turn import in_turn
 from tests.lines.at_board import virtual_board
@@ -116,30 +114,6 @@ def test_a_late_reply_is_overtaken_by_what_is_sent_meanwhile(faulty: Faulty) -> 
     host.say(ServoPositionsRead([1]))
     assert received(host)[:3] == [STOPPED, ServoPositions([(1, 500)]), VOLTAGE]
     assert board.clock.now() >= 1000
-
-
-@in_turn("seconds, reply", lambda: [(0.5, VOLTAGE), (1.5, None)])
-def test_a_late_reply_finds_the_host_that_is_there_by_then(
-    faulty: Faulty, seconds: float, reply: busservo.BatteryVoltage | None
-) -> None:
-    board, host = faulty(late=1, late_by=1.0)
-    host.say(ASK)
-    board.unplug()
-    board.advance(seconds)
-    board.plug_in()
-    assert Host(board.open(), board.clock.now, 2).receive() == reply
-
-
-def test_the_line_is_cut_in_the_middle_of_a_frame(faulty: Faulty) -> None:
-    board, host = faulty(hang_up=1)
-    host.say(ASK)
-    assert board.transport.read(1) == VOLTAGE.encode()[:3]
-    with pytest.raises(DisconnectedError):
-        board.transport.read(1)
-    board.faults = Faults()
-    board.plug_in()
-    board.open()
-    assert host.ask(ASK) == VOLTAGE
 
 
 SEEDED = {"duplicated": 0.3, "late": 0.3, "lost_bytes": 0.1, "wrong_count": 0.3}

@@ -24,7 +24,7 @@ from tests.in_turn import in_turn
 from tests.lines.hosts import Host
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
     Connect = Callable[..., tuple[Any, Host]]
     Chunks = list[tuple[bytes, float]]
@@ -98,28 +98,6 @@ def test_nothing_makes_the_board_fail_and_a_seed_repeats_what_comes(
     assert lines[0].in_transit == 0
 
 
-@pytest.mark.garbage
-@given(st.lists(FRAMES), st.integers(0, 99))
-def test_no_noise_on_the_way_to_the_board_costs_a_frame(frames: list[bytes], seed: int) -> None:
-    line = Line(Board(), faults=Faults(seed=seed, noise_to_board=0.5, splits_to_board=0.5))
-    for frame in frames:
-        line.write(frame, 0.0)
-    line.read(len(frames) + 1)
-    assert line.board.heard == len(frames)
-
-
-@given(FRAMES, st.floats(0, 5), st.integers(1, 10))
-def test_how_often_one_looks_makes_no_difference(frame: bytes, until: float, looks: int) -> None:
-    def run(moments: Iterable[float]) -> tuple[bytes, list[int], int]:
-        board = Board()
-        line = Line(board)
-        line.write(frame, 0.0)
-        data = b"".join(piece for moment in moments for piece in line.read(moment))
-        return data, [servo.position for servo in board.servos.values()], board.battery.voltage_mv
-
-    assert run([until]) == run([*(until * look / looks for look in range(looks)), until])
-
-
 # -------------------------------------------------------------------- an adapter that echoes
 @pytest.mark.garbage
 def test_what_is_sent_comes_back_frame_or_not_in_front_of_the_reply(connect: Connect) -> None:
@@ -153,12 +131,6 @@ def test_garbage_takes_as_long_as_what_was_sent() -> None:
         assert (data == SIX) == (host_baud == 9600)
         assert end == pytest.approx(len(SIX) / 960)
     assert read_at(115200, baud=None)[1] == 0.0
-
-
-def test_the_seed_says_which_garbage() -> None:
-    # Of every second bit one is looked at, at its very edge.
-    assert read_at(4800, seed=1) == read_at(4800, seed=1)
-    assert len({read_at(4800, seed) for seed in range(9)}) > 1
 
 
 @in_turn("baud, rate", lambda: [(None, 9600), (float("inf"), 9600), (4800.0, 4800.0)])

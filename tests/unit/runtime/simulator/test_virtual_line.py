@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from busservo import (
     ServoMove,
-    ServoPositions,
-    ServoPositionsRead,
 )
 from busservo_simulator import VirtualController
 
@@ -23,34 +20,12 @@ if TYPE_CHECKING:
 
     Connect = Callable[..., tuple[Any, Host]]
 
-ALL = ServoPositionsRead(range(1, 7))
-
-
-def test_writes_may_be_cut_anywhere(connect: Connect) -> None:
-    board, host = connect()
-    request = ALL.encode()
-    for cut in range(1, len(request)):
-        host.transport.write(request[:cut])
-        host.transport.write(request[cut:])
-        assert isinstance(host.receive(), ServoPositions)
-    assert board.rejects.total == 0
-
 
 def test_a_fast_writer_is_slowed_to_the_line(connect: Connect) -> None:
     board, host = connect(baud=921600)
     host.say(*[ServoMove(0, [(1, 500)])] * 500)
     assert host.ask(ASK) == VOLTAGE
     assert (board.accepted, board.rejects.total) == (501, 0)
-
-
-def test_a_host_is_listened_to_again_once_the_line_is_empty(
-    connect: Connect, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("framewire.simulator.virtual_line.AHEAD", 1)
-    _, host = connect(baud=96000)
-    host.say(ServoMove(0, [(1, 500)]))
-    time.sleep(0.05)
-    assert host.ask(ASK) == VOLTAGE
 
 
 def test_a_port_can_be_opened_again(connect: Connect) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from contextlib import nullcontext
 from typing import Any
 
@@ -30,6 +31,19 @@ def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
     assert run_virtual(main(), clock) == "done"
     assert woken == [("at once", 0.0), ("soon", 0.5), ("late", 86_400.0)]
     assert clock.now() == 86_410.0
+
+
+def test_time_stands_still_while_a_thread_works() -> None:
+    clock = VirtualClock()
+
+    async def main() -> None:
+        alarm = asyncio.ensure_future(asyncio.sleep(1))
+        await asyncio.to_thread(time.sleep, 0.05)
+        assert clock.now() == 0
+        await alarm
+
+    run_virtual(main(), clock)
+    assert clock.now() == 1
 
 
 @in_turn(

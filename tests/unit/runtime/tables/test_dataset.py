@@ -84,12 +84,6 @@ def files_in(folder: Path) -> list[str]:
 
 
 # --- What changes --------------------------------------------------------------------------------
-def test_a_changed_capture_takes_the_place_of_what_it_was(captures: Path, folder: Path) -> None:
-    archived(captures, folder)
-    (captures / "line.bin").write_bytes(conversation(15)[100:])
-    reports = archived(captures, folder)
-    assert {report.piece.capture for report in reports if report.is_new} == {"line.bin"}
-    assert rows_in(folder) == rows_of(captures)
 
 
 def test_pieces_of_another_size_replace_those_that_they_overlap(

@@ -177,3 +177,10 @@ def test_the_messages_that_occur_have_columns_in_the_order_of_the_spec(tmp_path:
     voltage = schema.field("BatteryVoltage")
     assert voltage.type[0].metadata == schemas()["BatteryVoltage"].field("voltage_mv").metadata
     assert voltage.metadata[b"about"] == schemas()["BatteryVoltage"].metadata[b"summary"]
+
+
+def test_what_comes_in_a_stream_is_read_twice_all_the_same(tmp_path: Path) -> None:
+    rows = write_arrow(io.BytesIO(CAPTURE), tmp_path / "line.arrow")
+    assert events_in(tmp_path / "line.arrow") == events_of(CAPTURE)
+    (tmp_path / "line.bin").write_bytes(CAPTURE)
+    assert write_arrow(tmp_path / "line.bin", tmp_path / "other.arrow") == rows

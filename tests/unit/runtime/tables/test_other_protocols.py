@@ -140,6 +140,14 @@ def test_an_unknown_frame_that_ends_otherwise_is_one_row(libraries: Libraries) -
     assert row.fields["parameters"] == b"\xaa\xbb"
 
 
+def test_a_checksum_is_not_taken_for_a_number_that_is_absent(libraries: Libraries) -> None:
+    made = libraries["everything"]
+    # Its last byte, AB, would be too high for the number that may stand there.
+    line = made.Tail(first=1).encode() + filler("everything")
+    first, *_ = rows_in_tables(made, line, made.Direction.TELLER_TO_ASKER)
+    assert (first.table, first.offset) == ("Tail", 0)
+
+
 # --- CSV -----------------------------------------------------------------------------------------
 def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, dict[str, str]]]:
     """Return the rows of all CSV files, in the order of the capture, as they are read back."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pyarrow as pa
 import pytest
-from busservo import ActionGroupStop, Direction, Message, ServoMove, ServoUnload, StreamDecoder
+from busservo import ActionGroupStop, Direction, ServoMove, ServoUnload, StreamDecoder
 from busservo.recordings import RecordingError
 from busservo.tables import Piece, read, safe_cuts, scan
 from framewire.tables.archive import cuts
@@ -192,23 +192,6 @@ def holds(capture: bytes, size: int, direction: Direction | None) -> None:
 @given(captures, sizes, directions)
 def test_pieces_hold_all_events(capture: bytes, size: int, direction: Direction | None) -> None:
     holds(capture, size, direction)
-
-
-@given(captures, sizes, directions, st.data())
-def test_a_decoder_that_began_anywhere_in_front_holds_nothing_there(
-    capture: bytes, size: int, direction: Direction | None, data: st.DataObject
-) -> None:
-    places = safe_cuts(capture, size, direction=direction)
-    if not places:
-        return
-    place = data.draw(st.sampled_from(places))
-    # The frame that ends there is the last that must be whole.
-    (*_, last) = StreamDecoder(direction).feed(capture[:place])
-    assert isinstance(last, Message)
-    begin = data.draw(st.integers(0, place - len(last.encode())))
-    decoder = StreamDecoder(direction)
-    events = decoder.feed(capture[begin:place])
-    assert (decoder.pending, events[-1]) == (0, last)
 
 
 MOVE = ServoMove(time_ms=1000, targets=[(1, 500)]).encode()

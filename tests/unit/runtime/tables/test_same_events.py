@@ -11,18 +11,17 @@ from typing import Any
 import busservo
 import numpy as np
 import pytest
-from busservo import Direction, Message, Noise, strategies, tables
-from busservo.recordings import Entry, RecordingError, read
+from busservo import Direction, Noise, strategies, tables
+from busservo.recordings import Entry, RecordingError
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-from tests.strategies import HEADS, damaged_frames, directions, lines, unknown_frames
+from tests.strategies import directions, lines
 from tests.unit.runtime.tables.hostile import hostile_lines
 from tests.unit.runtime.tables.rows import (
     Row,
     fields_of,
-    joined,
     noise_row,
     rows_in_tables,
     rows_of_decoder,
@@ -167,6 +166,12 @@ def test_what_is_no_capture_is_refused_by_its_type(
     assert [*tmp_path.iterdir()] == []
 
 
+def test_a_notebook_shows_the_tables_that_have_rows() -> None:
+    shown = tables.read(LINE)._repr_html_()
+    assert "<tr><td>BatteryVoltage</td><td>1</td></tr>" in shown
+    assert shown.count("<tr>") == 1 + len(tables.read(LINE).filled)
+
+
 HOLDERS: list[Any] = [
     *(bytes, bytearray, memoryview, io.BytesIO, lambda data: np.frombuffer(data, np.uint8)),
     *(lambda data: Pieces(data, 1), lambda data: Pieces(data, 700)),
@@ -214,13 +219,6 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
 
 
 # --- Text ----------------------------------------------------------------------------------------
-chunks = st.one_of(
-    strategies.messages().map(Message.encode),
-    damaged_frames(),
-    unknown_frames(),
-    st.sampled_from(HEADS),
-    st.binary(min_size=1, max_size=6),
-)
 
 
 def rows_of(entries: Iterable[Entry]) -> Iterator[Row]:
@@ -236,33 +234,6 @@ def rows_of(entries: Iterable[Entry]) -> Iterator[Row]:
         if entry.began is not None and entry.time is not None:
             clock = datetime.fromtimestamp(round(entry.began + entry.time, 6), timezone.utc)
         yield row._replace(time=entry.time, clock=clock)
-
-
-@given(st.lists(lines, max_size=4), directions)
-def test_hex_is_one_stream_but_for_quiet(parts: list[bytes], direction: Direction | None) -> None:
-    text = "# quiet\n".join(part.hex(" ") + "  # said\n" for part in parts).encode()
-    found = rows_in_tables(busservo, text, direction, form="hex")
-    # Noise on both sides of a silence is joined as well: nothing is between it.
-    assert found == joined(rows_of(read(io.BytesIO(text), form="hex", direction=direction)))
-
-
-@st.composite
-def recordings(draw: st.DrawFn) -> str:
-    """Return a recording as `monitor` writes it, of messages and of what is none."""
-    who = st.sampled_from(["host", "controller", "either", "host noise", "noise"])
-    began = "# recorded of line by busservo from 2024-02-29 23:59:59.123456 +0130 on\n"
-    written = draw(st.sampled_from(["", began]))
-    for at in sorted(draw(st.lists(st.integers(0, 10**9), max_size=8))):
-        data = draw(chunks)
-        written += f"{data.hex(' ')}  # {at / 10**6:.6f} s, {draw(who)}: what it was\n"
-    return written
-
-
-@given(recordings(), directions)
-def test_a_recording_says_when_and_from_whom(text: str, direction: Direction | None) -> None:
-    found = rows_in_tables(busservo, text.encode(), direction, form="hex")
-    expected = [*rows_of(read(io.BytesIO(text.encode()), form="hex", direction=direction))]
-    assert found == expected
 
 
 def test_a_recording_in_all_its_columns() -> None:

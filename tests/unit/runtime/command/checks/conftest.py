@@ -1,4 +1,4 @@
-"""What holds for tests that start boards, what shortens those in real time, and libraries."""
+"""What shortens tests in real time, and libraries."""
 
 from collections.abc import Iterator
 
@@ -6,10 +6,9 @@ import pytest
 from framewire.command.checks import silence
 
 from tests.contract.protocols.conftest import libraries
-from tests.lines.boards import no_board_refuses_anything, pytest_runtest_makereport
 from tests.timeouts import undoubted
 
-__all__ = ["libraries", "no_board_refuses_anything", "pytest_runtest_makereport"]
+__all__ = ["libraries"]
 
 
 @pytest.fixture(autouse=True)

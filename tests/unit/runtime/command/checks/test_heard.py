@@ -5,8 +5,6 @@ from itertools import accumulate
 from busservo._library import CODEC
 from framewire.codec.event_bytes import bytes_of
 from framewire.command.checks.heard import PAUSE, Heard
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 
@@ -71,24 +69,3 @@ def test_noise_has_no_silence_in_it_and_a_message_may(name: str) -> None:
     found = [(round(at, 6), bytes_of(event).hex(" ").upper()) for at, event in heard.events]
     assert found == [(round(at, 6), data) for at, data in events]
     assert [b"".join(each.data for each in run).hex() for run in heard.runs] == runs
-
-
-waits = st.sampled_from([0.0, 0.01, LATER, 1.0])
-some_bytes = st.sampled_from([bytes.fromhex(REPLY), b"\x55\x55\x04", b"OK", b"U"]) | st.binary(
-    min_size=1, max_size=4
-)
-
-
-@given(st.lists(st.tuples(waits, some_bytes), max_size=8), st.integers(0, 9), st.integers(0, 4))
-def test_every_byte_is_in_one_event_and_times_never_run_back(
-    pieces: list[tuple[float, bytes]], start: int, size: int
-) -> None:
-    whole = b"".join(data for _, data in pieces)
-    left_out = range(min(start, len(whole)), min(start + size, len(whole)))
-    heard = Heard(CODEC, timed(pieces), left_out)
-    kept = whole[: left_out.start] + whole[left_out.stop :]
-    assert b"".join(bytes_of(event) for _, event in heard.events) == kept
-    times = [at for at, _ in heard.events]
-    assert times == sorted(times)
-    noise = b"".join(each.data for run in heard.runs for each in run)
-    assert len(noise) + sum(len(each.encode()) for each in heard.messages) == len(kept)

@@ -240,15 +240,6 @@ def test_what_is_no_frame_never_passes(data: bytes, inverted: bool) -> None:
     assert found["look-alike"].advice
 
 
-@in_turn("servo_id", lambda: range(1, 12))
-@in_turn("size", lambda: range(3, 10))
-def test_a_reply_that_is_cut_is_not_called_another_protocol(servo_id: int, size: int) -> None:
-    reply = frame(servo_id, 2, 0xF4, 0x01, 0xE8, 0x03)[:size]
-    found = examined(Stranger(answer=lambda _: reply), "lxservo")
-    assert (found["look-alike"].state, found["rate"].state) == (UNKNOWN, FAILED)
-    assert found["look-alike"].seen.startswith("not recognised: ")
-
-
 RATE = 115200
 SERVO = Stranger(answer=lambda _: frame(1, 2, *bytes(4)), rate=RATE)
 
