@@ -59,9 +59,3 @@ def answered(line: Session, now: float, voltage: int, after: float = IN_TIME) ->
     say(line, now + after, voltage)
     settle(line)
     return request
-
-
-def expires(line: Session) -> float:
-    """Return when time next decides something, which must be at some time."""
-    assert line.tick_at is not None
-    return line.tick_at

@@ -17,7 +17,7 @@ might come by itself; and so is then each that answers nothing.
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from busservo import AsyncController, Controller, IncompleteReplyError, NoReplyError
 
@@ -53,28 +53,6 @@ BY_ITSELF = 0.5
 MOMENT = 1e-6
 
 
-class NumberingBoard(Protocol):
-    """A board that answers each question with the number of it."""
-
-    questions: int
-
-    def asked_at(self, number: int) -> float:
-        """Return when the board received a question; before all time for none."""
-        ...
-
-    def arrivals(self, data: bytes) -> list[float]:
-        """Return when these bytes reached the host."""
-        ...
-
-    def troubled(self, since: float, until: float) -> bool:
-        """Return whether a wrong value is excused at that time."""
-        ...
-
-    def faulted(self, since: float, until: float) -> bool:
-        """Return whether a fault began then."""
-        ...
-
-
 class Call(NamedTuple):
     """One read: how many questions the board received `before`, and the number that came back."""
 
@@ -88,7 +66,7 @@ class Call(NamedTuple):
 class Conversation:
     """The calls of one thread or task, in order."""
 
-    def __init__(self, board: NumberingBoard, now: Callable[[], float]) -> None:
+    def __init__(self, board: Board, now: Callable[[], float]) -> None:
         self.board = board
         self.calls: list[Call] = []
         self.now = now
@@ -175,13 +153,10 @@ class Conversation:
 
 
 @contextmanager
-def talking(
-    to: Any, board: NumberingBoard | None = None, **given: Any
-) -> Iterator[tuple[Conversation, Controller]]:
+def talking(to: Any, **given: Any) -> Iterator[tuple[Conversation, Controller]]:
     """Yield the calls at a board in virtual time, or its port, and a client on the time of it."""
     port = VirtualPort(to) if isinstance(to, Board) else to
-    numbering: Any = board or port.board
-    talk = Conversation(numbering, port.clock)
+    talk = Conversation(port.board, port.clock)
     with client_on(port, Controller, **{"reply_timeout": REPLY_TIMEOUT, **given}) as controller:
         yield talk, controller
 

@@ -13,6 +13,7 @@ from tests.contract.independent.conversation import (
     seconds,
     talking,
 )
+from tests.contract.independent.firmware import COMPLETED, STARTED, STOPPED, report
 from tests.in_turn import in_turn
 
 
@@ -25,8 +26,6 @@ def conversation(board: Board, reads: int, **given: Any) -> tuple[Conversation, 
 
 
 # ------------------------------------------------------------------- faster than stated
-
-
 @in_turn("baud", lambda: [BAUD, math.inf])
 def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> None:
     """A line that is fast, be that learnt or said, and a reply that comes again while the board
@@ -44,6 +43,29 @@ def test_stale_replies_on_a_fast_line_end_with_the_first_pause(baud: float) -> N
             talk.ask(controller, None)
         assert len(talk.stale) == 6
         assert talk.failed == []
+
+
+def test_an_echo_that_is_said_to_be_there_is_dropped() -> None:
+    board = Board(baud=BAUD, echo=True, thinks=0.001, unknown_groups=[9], group_seconds=0.1)
+    with talking(board, local_echo=True, settle=None) as (_, controller):
+
+        def reports() -> list[bytes]:
+            return [each.encode() for each in controller.reports(timeout=0.3)]
+
+        controller.stop_action_group()
+        controller.run_action_group(9, times=1)
+        assert reports() == []
+        assert [controller.read_battery_voltage() for _ in range(3)] == [1, 2, 3]
+        assert {position for _, position in controller.read_servo_positions(SIX)} == {4}
+        controller.move_servos([(1, 500)], time_ms=1000)
+        controller.run_action_group(8, times=1)
+        assert reports() == [report(STARTED, 8, 1), report(COMPLETED, 8, 1)]
+        controller.run_action_group(8, times=0)
+        assert reports() == [report(STARTED, 8, 0)]
+        controller.stop_action_group()
+        assert reports() == [report(STOPPED)]
+        assert controller.counters.noise == 0
+    assert board.refused == []
 
 
 # ------------------------------------------------------------------- a stranger's reply

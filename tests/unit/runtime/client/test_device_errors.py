@@ -127,23 +127,6 @@ def test_who_answers_all_is_gathered_whatever_has_failed() -> None:
 
 
 # ------------------------------------------------------------------ a frame that may be both
-def test_an_echo_is_never_taken_for_the_reply_that_it_looks_like() -> None:
-    """The ping of servo 1 is, to the byte, a status of servo 1 whose supply is out of bounds."""
-    dynamixel = lib("dynamixel1")
-    ping = frame("dynamixel1", "Ping", servo_id=1)
-    assert ping == status(1, 1)
-    reply = status(1, 0)
-    with client("dynamixel1", ping + reply, local_echo=True) as bus:
-        assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
-        assert bus.counters.echoes == 1
-    for came, error in ((ping + ping, dynamixel.FailureError), (ping, dynamixel.NoReplyError)):
-        with client("dynamixel1", came, local_echo=True) as bus, pytest.raises(error):
-            bus.ping(1)
-    with client("dynamixel1", ping + reply) as bus:  # nobody spoke of an echo, and it is dropped
-        assert bus.ping(1) == dynamixel.Status(1, error=0, data=[])
-        assert bus.counters.unsolicited == 1
-
-
 def test_a_status_with_another_good_value_fails_with_all_others() -> None:
     """A sensor whose status is 1 after a success raised on every success."""
     one = {"protocol.name": "well", "messages.Status.failure": "error unless 1"}

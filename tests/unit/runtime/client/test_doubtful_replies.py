@@ -2,7 +2,6 @@
 
 import math
 import pickle
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import busservo
@@ -15,42 +14,9 @@ from framewire.client.session import Session
 
 from tests.in_turn import in_turn
 from tests.lines.questions import IN_TIME, REPLY_TIMEOUT, TOO_SOON, TRIP, ask, say, session
-from tests.lines.virtual_line import Answer, VirtualLine
 
 # As soon as the late reply to a question that has timed out is overdue, the next is sent.
 OVERDUE = 2 * (TRIP + REPLY_TIMEOUT)
-
-
-# ---------------------------------------------------------------- a value that only rises
-class Reply(NamedTuple):
-    """When a reply of a rising servo was asked for, in how many bytes, when it came, and what."""
-
-    asked: float
-    size: int
-    came: float
-    position: int
-
-    def may_be_taken_for(self, other: "Reply") -> bool:
-        """Return whether this one came while the other was due, and before that.
-
-        It came no sooner than the other can have, on a line that runs a little fast.
-        """
-        return other.asked + 0.95 * other.size / 960 <= self.came < other.came
-
-
-def rising(line: VirtualLine, place: int, late_by: float, said: list[Reply]) -> Answer:
-    """Return a board whose servo only rises; the reply at one place comes late."""
-
-    def answer(message: busservo.Message) -> Iterator[tuple[float, bytes]]:
-        assert isinstance(message, busservo.ServoPositionsRead)
-        position = int(line.now * 1000)
-        reply = busservo.ServoPositions([(servo, position) for servo in message.servo_ids]).encode()
-        size = len(message.encode()) + len(reply)
-        delay = size / 960 + late_by * (len(said) == place)
-        said.append(Reply(line.now, size, line.now + delay, position))
-        yield delay, reply
-
-    return answer
 
 
 # ---------------------------------------------------------------- what is in doubt, and what not

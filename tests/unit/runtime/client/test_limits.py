@@ -7,6 +7,7 @@ import lxservo
 import pytest
 from busservo import AsyncController, Controller, LimitError, ServoMove
 from busservo_simulator import VirtualController
+from framewire.client.limits import Limits
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import PORT_TALKS, Talk
@@ -85,6 +86,19 @@ def test_limits_that_can_be_nobodys_are_refused_with_what_can(limits: Any, probl
     for client in CLIENTS:
         with pytest.raises(ValueError, match=problem):
             client(VirtualLine(), limits=limits)
+
+
+def test_nothing_else_has_limits() -> None:
+    beyond = ServoMove(time_ms=100, targets=[(1, 800), (2, 1001)])
+    assert ServoMove.decode(beyond.encode()) == beyond
+    line = VirtualLine()
+    with client_on(line, Controller, settle=None) as controller:
+        controller.set_action_group_speed(255, percent=65535)
+        controller.run_action_group(255, times=65535)
+    assert len(line.received) == 2
+    assert Limits().chosen(None) is None
+    with pytest.raises(ValueError, match="nothing that is sent here has limits"):
+        Limits().chosen((0, 1))
 
 
 @pytest.mark.parametrize("talk", PORT_TALKS)

@@ -49,8 +49,6 @@ def test_whatever_sends_it_a_move_is_a_motion() -> None:
 
 
 # -------------------------------------------------------------------- while it is waited for
-
-
 @both()
 async def test_a_line_that_is_lost_or_closed_ends_the_wait(controller: Any, line: Any) -> None:
     over = await controller.move_servos([(1, 800)], 10)

@@ -156,6 +156,21 @@ def motor(blinds: Any, heights: dict[int, int]) -> Any:
     return Motor()
 
 
+def test_present_actuators_are_found_held_and_released(blinds: Any) -> None:
+    heights = {4: 200, 9: 300}
+    with timed_line.client_of(motor(blinds, heights)) as hub:
+        assert hub.present() == (4, 9)
+        found = hub.read_heights([4, 9])
+        assert [(each.blind_id, each.height) for each in found] == [(4, 200), (9, 300)]
+        hub.blinds_release([4])
+        assert heights == {4: 0, 9: 300}
+        hub.roll(hub.heights_of(found), roll_ms=10).wait()
+        assert heights == {4: 200, 9: 300}
+        hub.hold([9], roll_ms=10).wait()
+        with pytest.raises(blinds.AbsentError, match="5"):
+            hub.hold([4, 5])
+
+
 def examined(device: Any) -> dict[str, Any]:
     """Return what the doctor finds out about a device."""
     checks, diagnosis = (

@@ -136,7 +136,6 @@ def test_a_refusal_says_what_was_expected(
 def test_a_class_says_what_no_frame_can_be() -> None:
     with pytest.raises(DecodeError) as caught:
         busservo.ActionGroupStop.decode(bytes.fromhex("55 55 01 63"))
-
     text = "length mismatch at byte 2: the length is 1, and must be at least 2"
     assert str(caught.value) == text
 

@@ -4,13 +4,11 @@ import gc
 import re
 import sys
 from collections.abc import Callable
-from copy import copy
 from types import FrameType
 from typing import Any
 
 import pytest
 from busservo import (
-    MESSAGES,
     ActionGroupRun,
     ActionGroupStop,
     ActionGroupStopped,
@@ -117,21 +115,6 @@ def test_a_frame_larger_than_the_largest_is_refused_by_its_length(
 ) -> None:
     decoder = StreamDecoder(HOST, max_frame)
     assert joined(decoder.feed(bytes.fromhex(line)) + decoder.flush()) == events
-
-
-@given(lines, directions, st.data())
-def test_a_copy_goes_on_by_itself(
-    line: bytes, direction: Direction | None, data: st.DataObject
-) -> None:
-    cut = data.draw(st.integers(0, len(line)))
-    decoder = StreamDecoder(direction)
-    before = decoder.feed(line[:cut])
-    other = copy(decoder)
-    other.feed(b"\x55\x55\x00" * 90)
-    other.flush()
-    rest = decoder.feed(line[cut:]) + decoder.flush()
-    assert joined(before + rest) == joined(read(direction, [line]))
-    assert decoder.counters.fed == len(line)
 
 
 # --- The invariants ------------------------------------------------------------------------------
@@ -263,20 +246,6 @@ def test_6_an_unknown_frame_is_shown(
     assert [event.parameters for event in unknown_in(events)] == [frame[4:] for frame in frames]
 
 
-@given(lines, directions)
-def test_6_what_is_shown_has_the_exact_shape_of_an_unknown_frame(
-    line: bytes, direction: Direction | None
-) -> None:
-    known = {kind.COMMAND for kind in MESSAGES if direction in (None, kind.DIRECTION)}
-    for event in unknown_in(read(direction, [line])):
-        assert event.reason is Reason.UNKNOWN_COMMAND
-        assert event.data[:2] == b"\x55\x55"
-        assert event.data[2] + 2 == len(event.data)
-        assert event.command not in known
-        # No message is within.
-        assert oracle.scan(event.data, oracles(direction)) == [event.data]
-
-
 # --- Chosen lines --------------------------------------------------------------------------------
 
 # The first 86 bytes of a move of 65 servos: what LENGTH 55 counts, with a stray 55 in front.
@@ -354,23 +323,6 @@ def test_what_an_unknown_frame_leaves_that_was_none_has_a_piece_for_each_refused
     assert read(CONTROLLER, [b"\x13" + data]) == [NO_13, *events]
 
 
-@in_turn("second", lambda: range(30, 45))
-@in_turn("first", lambda: [46, 50, 60])
-def test_an_unknown_frame_that_begins_in_a_run_is_seen_however_the_run_was_cut(
-    first: int, second: int
-) -> None:
-    run, rest = (first + second) * b"\x55", bytes(100)
-    claimed = 2 + 0x55
-    # What ends within the run may go on; the first to end behind it stands alone.
-    void = max(0, len(run) + 1 - claimed)
-    line = run + rest
-    assert joined(read(CONTROLLER, [run[:first], run[first:], rest])) == [
-        *([Noise(line[:void], UNKNOWN)] if void else []),
-        UnknownFrame(line[void : void + claimed], UNKNOWN),
-        Noise(line[void + claimed :], HEADER),
-    ]
-
-
 @each_direction
 def test_an_empty_feed_is_no_sign_of_silence(direction: Direction | None) -> None:
     for head in HEADS:
@@ -424,8 +376,6 @@ def test_every_event_is_counted(size: int) -> None:
 
 
 # --- Work ----------------------------------------------------------------------------------------
-
-
 def calls(work: Callable[[], object]) -> int:
     """Return how many functions are called by `work`: time, without a clock."""
     count = 0

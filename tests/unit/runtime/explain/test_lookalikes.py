@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from busservo import Message, strategies
 from busservo._library import CODEC
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.model import Model
@@ -58,11 +57,6 @@ ASK = frame(7, 28)
 )
 def test_the_frames_of_a_look_alike_are_recognised(data: bytes, title: str | None) -> None:
     assert CODEC.recognise(data) == title
-
-
-@given(st.lists(strategies.messages(), max_size=5))
-def test_what_is_of_this_protocol_is_never_taken_for_another(messages: list[Message]) -> None:
-    assert CODEC.recognise(b"".join(message.encode() for message in messages)) is None
 
 
 def test_a_spec_without_look_alikes_has_none() -> None:

@@ -70,6 +70,56 @@ def test_the_address_comes_first_and_the_running_number_by_name(everything: Any)
     assert dict(everything.Lists.DEFAULTS) == {"sequence": 0}
 
 
+def test_named_addresses_are_constants_and_may_lie_outside_the_range(everything: Any) -> None:
+    kind = everything.Numbers
+    assert (kind.STATION_ALL, kind.STATION_FIRST) == (65535, 1)
+    assert numbers(everything, station=kind.STATION_ALL).station == 65535
+    with pytest.raises(everything.EncodeError, match=r"station: 501 is outside 1\.\.500"):
+        numbers(everything, station=501)
+
+
+def test_several_ids_are_constants(everything: Any) -> None:
+    kind = everything.Lists
+    assert (kind.CLASS, kind.KIND, kind.VERSION, kind.IDS) == (1, 3, 9, (1, 3, 9))
+    assert not hasattr(kind, "COMMAND")
+    assert (everything.Flags.COMMAND, everything.Flags.IDS) == (1, (1,))
+
+
+def test_named_bits_are_properties_and_masks(everything: Any) -> None:
+    kind, found = everything.Flags, flags(everything, error=0x53, mode=1)
+    assert (found.error_voltage, found.error_heat, found.error_code) == (True, True, 5)
+    assert flags(everything).error_voltage is False
+    assert (kind.ERROR_VOLTAGE, kind.ERROR_HEAT, kind.ERROR_CODE) == (0x01, 0x02, 0xF0)
+    assert dict(kind.error.bits) == {"voltage": 0x01, "heat": 0x02, "code": 0xF0}
+
+
+def test_bits_of_an_element_and_of_what_is_absent(everything: Any) -> None:
+    point = everything.Point(x=1, flags=0b1101)
+    assert (point.flags_near, point.flags_far) == (True, 6)
+    assert everything.Tail(1).third_low is None
+    assert everything.Tail(1, 2, 3, 1.5).third_low is True
+
+
+def test_constants_and_reserved_bytes_are_no_fields(everything: Any) -> None:
+    made = flags(everything)
+    assert made.__match_args__ == ("error", "mode", "position", "temperature")
+    frame = made.encode()
+    assert (frame[5:6], frame[7:9]) == (b"\x04", b"\x01\x02")
+    kinds = [type(each).__name__ for each in everything.Flags.CONSTANTS]
+    assert kinds == ["Always", "Reserved", "Reserved", "Always"]
+
+
+def test_reserved_bytes_are_kept_whatever_they_are(everything: Any) -> None:
+    made = flags(everything)
+    body = made.encode()[2:7] + b"\xaa\xbb" + made.encode()[9:-1]
+    frame = b"\xbe\xef" + body + bytes([sum(body) & 0xFF])
+    read = everything.Flags.decode(frame)
+    assert read.encode() == frame
+    assert read.to_dict() == made.to_dict()
+    assert read != made
+    assert pickle.loads(pickle.dumps(read)).encode() == frame  # noqa: S301 - it is our own
+
+
 @in_turn("present, size", lambda: [((), 8), ((2,), 9), ((2, 3, 1.5), 16)])
 def test_what_is_absent_is_none(everything: Any, present: tuple[Any, ...], size: int) -> None:
     # Where nothing is there, the checksum follows: no value that a field could have.

@@ -28,6 +28,17 @@ def lib(name: str, module: str = "") -> Any:
     return importlib.import_module(f"{name}.{module}" if module else name)
 
 
+def public(kind: type) -> set[str]:
+    return {name for name in vars(kind) if not name.startswith("_")}
+
+
+def test_the_client_of_a_sensor_has_no_methods_and_its_device_no_handlers() -> None:
+    weather = lib("weather")
+    assert public(weather.Controller) == public(weather.AsyncController) == set()
+    assert not [name for name in public(weather.Device) if name.startswith("on_")]
+    assert "sends nothing, and listens" in " ".join(weather.Controller.__doc__.split())
+
+
 # ------------------------------------------------------------------ a sensor that only reports
 def test_what_a_sensor_sends_its_client_receives() -> None:
     weather = lib("weather")

@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Callable, Iterable
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +14,15 @@ from framegen.cli import main as framegen_main
 from framegen.guess.capture import read_capture
 from framegen.reading.yamltree import Unusable
 from framewire.codec.event_bytes import bytes_of
-from framewire.codec.hextext import HexError, HexReader, is_hex, read_hex
+from framewire.codec.hextext import HexError, is_hex, read_hex
 from framewire.command.recording import Recording
 from framewire.command.usage_error import UsageError
 from framewire.recording.form import LogError, log_lines, without_log
 from framewire.tables.stats.statistics import statistics
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.commands import records, run
 from tests.factories import BUSSERVO, compiled_file
-from tests.hex_cases import HEX, LOGS, NO_HEX, NO_LOGS, random_texts
+from tests.hex_cases import HEX, LOGS, NO_HEX, NO_LOGS
 from tests.in_turn import in_turn
 
 MODEL = compiled_file(BUSSERVO).model
@@ -152,29 +149,6 @@ def test_malformed_hex_is_reported(text: str, problem: str) -> None:
     with pytest.raises(HexError) as caught:
         read_hex(text)
     assert str(caught.value).startswith(f"no hex: {problem}")
-
-
-texts = st.sampled_from([text for text, _ in HEX] + NO_HEX + random_texts(100)) | st.text(
-    st.sampled_from("0x\\51abF ,-#\ng")
-)
-
-
-@given(texts, st.data())
-def test_hex_that_is_cut_anywhere_is_the_same_hex(text: str, data: st.DataObject) -> None:
-    cuts = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=len(text) + 1)))
-    reader, read = HexReader(), b""
-    try:
-        whole = read_hex(text)
-    except HexError:
-        whole = None
-    try:
-        for start, end in pairwise([0, *cuts, len(text)]):
-            read += reader.feed(text[start:end])
-        read += reader.end()
-    except HexError:
-        assert whole is None
-    else:
-        assert read == whole
 
 
 # --- Logs ----------------------------------------------------------------------------------------

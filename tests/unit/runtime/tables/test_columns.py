@@ -4,6 +4,7 @@ import json
 from importlib import import_module
 from typing import Any
 
+import busservo
 import pyarrow as pa
 import pytest
 from busservo import tables
@@ -54,6 +55,11 @@ def test_a_field_of_the_name_of_another_column_has_a_name_of_its_own() -> None:
         lists = [each.type for schema in schemas.values() for each in schema if is_list(each.type)]
         (listed,) = (each.value_type for each in lists if is_struct(each.value_type))
         assert listed.field(0).name == "direction"
+
+
+def test_tables_are_called_as_messages_are() -> None:
+    assert [*tables.schemas()] == [*(kind.__name__ for kind in busservo.MESSAGES), "noise"]
+    assert tables.NOISE == "noise"
 
 
 TYPES = {

@@ -84,8 +84,6 @@ def files_in(folder: Path) -> list[str]:
 
 
 # --- What changes --------------------------------------------------------------------------------
-
-
 def test_pieces_of_another_size_replace_those_that_they_overlap(
     captures: Path, folder: Path
 ) -> None:

@@ -1,13 +1,9 @@
 """Tables of every protocol hold the events of its decoder: vectorised or not, in CSV as well."""
 
-import csv
-import io
 import struct
 from functools import cache
 from importlib import import_module
 from itertools import zip_longest
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from types import ModuleType
 from typing import Any
 
@@ -15,11 +11,10 @@ import pyarrow as pa
 import pytest
 from framegen.language.values import Direction
 from framegen.model.checksums import CHECKSUMS
-from framewire.command.csv_tables import csv_written
 from framewire.recording.layout import layouts_of
 from framewire.tables.search.searchable import is_searchable
 from framewire.tables.stats.statistics import statistics
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.factories import compiled_of, data_in, library, library_files
@@ -149,23 +144,6 @@ def test_a_checksum_is_not_taken_for_a_number_that_is_absent(libraries: Librarie
 
 
 # --- CSV -----------------------------------------------------------------------------------------
-def written(made: ModuleType, line: bytes, direction: Any) -> list[tuple[str, dict[str, str]]]:
-    """Return the rows of all CSV files, in the order of the capture, as they are read back."""
-    recordings: Any = import_module(f"{made.__name__}.recordings")
-    entries = recordings.read(io.BytesIO(line), form="raw", direction=direction)
-    found = []
-    with TemporaryDirectory() as folder:
-        counts = csv_written(entries, Path(folder) / "tables", handed_by(made.__name__).codec)
-        for file in Path(folder, "tables").iterdir():
-            with file.open(encoding="utf-8", newline="") as stream:
-                rows = [*csv.DictReader(stream, strict=True)]
-            assert counts.pop(file.stem) == len(rows)
-            assert not any(None in row or None in row.values() for row in rows)
-            found += [(file.stem, row) for row in rows]
-    assert counts == {}
-    return sorted(found, key=lambda pair: int(pair[1]["offset"]))
-
-
 def expected(row: Row) -> list[tuple[str, dict[str, str]]]:
     """Return the rows of one event, from the fields that the decoder names."""
     begin = {"offset": str(row.offset), "size": str(row.size), "direction": row.direction or ""}
@@ -200,24 +178,6 @@ def text(value: Any) -> str:
     if isinstance(value, bytes):  # a float, as its bits
         return str(struct.unpack(">d", value)[0])
     return "" if value is None else str(value)
-
-
-@pytest.mark.parametrize("name", ["everything", "sbus", "ubx"])
-@settings(max_examples=12)
-@given(data=st.data())
-def test_csv_holds_what_decoders_find(libraries: Libraries, name: str, data: st.DataObject) -> None:
-    made, model = libraries[name], model_of(name)
-    way = data.draw(st.sampled_from([*model.directions]))
-    line = data.draw(lines(name, way))
-    direction = direction_of(made, way)
-    found = written(made, line, direction)
-    rows = [each for row in rows_of_decoder(made, line, direction) for each in expected(row)]
-    # What is empty in a file may be absent in what is expected.
-    assert [*map(filled, found)] == [*map(filled, rows)]
-
-
-def filled(row: tuple[str, dict[str, str]]) -> tuple[str, dict[str, str]]:
-    return row[0], {name: cell for name, cell in row[1].items() if cell}
 
 
 # --- Any width -----------------------------------------------------------------------------------

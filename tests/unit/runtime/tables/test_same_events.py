@@ -135,17 +135,6 @@ VOLTAGE = bytes.fromhex("55 55 04 0F 4C 1D")
 LINE = STOP + b"\0\0" + VOLTAGE + UNKNOWN + STOP + bytes(900) + STOP
 
 
-class Pieces:
-    """A stream that brings a few bytes at once."""
-
-    def __init__(self, data: bytes, size: int) -> None:
-        self._held = io.BytesIO(data)
-        self._size = size
-
-    def read(self, size: int, /) -> bytes:
-        return self._held.read(min(self._size, size))
-
-
 @in_turn(
     "source, problem",
     lambda: [
@@ -170,21 +159,6 @@ def test_a_notebook_shows_the_tables_that_have_rows() -> None:
     shown = tables.read(LINE)._repr_html_()
     assert "<tr><td>BatteryVoltage</td><td>1</td></tr>" in shown
     assert shown.count("<tr>") == 1 + len(tables.read(LINE).filled)
-
-
-HOLDERS: list[Any] = [
-    *(bytes, bytearray, memoryview, io.BytesIO, lambda data: np.frombuffer(data, np.uint8)),
-    *(lambda data: Pieces(data, 1), lambda data: Pieces(data, 700)),
-    lambda data: io.BufferedReader(io.BytesIO(data)),
-]
-
-
-@in_turn("block", lambda: [7, None])
-@in_turn("hold", lambda: HOLDERS)
-def test_a_capture_may_be_held_by_anything(hold: Any, block: int | None) -> None:
-    expected = rows_of_decoder(busservo, LINE)
-    for form in ("raw", "auto"):
-        assert rows_in_tables(busservo, hold(LINE), block=block, form=form) == expected
 
 
 def test_a_capture_may_be_a_file_or_a_map_of_one(tmp_path: Path) -> None:
@@ -219,8 +193,6 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
 
 
 # --- Text ----------------------------------------------------------------------------------------
-
-
 def rows_of(entries: Iterable[Entry]) -> Iterator[Row]:
     """Yield the entries of a recording as rows."""
     for entry in entries:

@@ -1,6 +1,5 @@
 """Statistics of every protocol are those of its decoder's events, however a capture is cut."""
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
 from itertools import pairwise
@@ -82,36 +81,6 @@ def test_statistics_are_those_of_the_decoder(
     assert (found.span, found.silences) == (None, [])
 
 
-@each_case
-@few_each
-@given(data=st.data())
-def test_ranges_are_those_of_the_messages(
-    libraries: Libraries, name: str, way: Direction | None, data: st.DataObject
-) -> None:
-    made = libraries[name]
-    line = data.draw(lines_of(name, made))
-    direction = None if way is None else direction_of(made, way)
-    decoder = made.StreamDecoder(direction)
-    values: dict[tuple[str, str], list[float]] = {}
-    for event in [*decoder.feed(line), *decoder.flush()]:
-        for path, value in numbers(event) if isinstance(event, made.Message) else ():
-            values.setdefault((type(event).__name__, path), []).append(value)
-    quantities: dict[tuple[str, str], list[Any]] = {}
-    for each in statistics_of(made, line, direction=direction).ranges:
-        key = each.quantity.layout.name, each.quantity.path.rstrip("_")
-        quantities.setdefault(key, []).append(each)
-    for key, every in quantities.items():
-        ends = [end for each in every for end in (each.lowest, each.highest) if end is not None]
-        quantity = every[0].quantity
-        there = [each for each in values[key] if math.isfinite(each)]
-        there = [each for each in there if each not in quantity.absent]
-        assert sum(each.count for each in every) == len(values[key])
-        if getattr(quantity.slot, "signed_as", ""):
-            there = [signed(int(each), quantity.slot.size) for each in there]
-        assert min(ends, default=None) == min(there, default=None)
-        assert max(ends, default=None) == max(there, default=None)
-
-
 def numbers(message: Any) -> Iterator[tuple[str, float]]:
     """Yield the numbers of a message by the paths that statistics give them."""
     for name, value in message.to_dict().items():
@@ -121,10 +90,6 @@ def numbers(message: Any) -> Iterator[tuple[str, float]]:
             for each, number in inner.items():
                 if isinstance(number, int | float):
                     yield f"{path}.{each}".rstrip("._"), number
-
-
-def signed(value: int, size: int) -> int:
-    return int.from_bytes(value.to_bytes(size, "big"), "big", signed=True)
 
 
 @pytest.mark.parametrize("name", ["everything", "ubx", "sbus"])

@@ -9,8 +9,6 @@ import pytest
 from busservo import ActionGroupStarted
 from busservo_simulator import Faults, VirtualController
 from framewire.command.checks.result import FAILED, PASSED, UNKNOWN
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 from tests.lines.patient import CHECKS, LONGEST, board_with, diagnosis_of, examined
@@ -170,35 +168,3 @@ def check_case(case: Case) -> None:
         assert seen in found[name].seen
         assert advice in found[name].advice
         assert found[name].advice or found[name].state == UNKNOWN
-
-
-OFTEN = (
-    *("noise", "splits", "coalesced", "delays", "late", "duplicated", "dropped"),
-    *("fewer", "absent", "wrong_count", "unsolicited"),
-)
-CHANCES = st.sampled_from([0.0, 0.0, 0.05, 0.5, 1.0])
-
-
-@given(
-    faults=st.builds(
-        Faults,
-        **dict.fromkeys(OFTEN, CHANCES),
-        seed=st.integers(0, 99),
-        bit_flips=st.sampled_from([0.0, 0.02]),
-        lost_bytes=st.sampled_from([0.0, 0.02]),
-        hang_up=st.sampled_from([0.0, 0.0, 0.1]),
-        late_by=st.floats(0, 5),
-    ),
-    local_echo=st.booleans(),
-    baud=st.sampled_from([None, 9600.0]),
-)
-def test_whatever_goes_wrong_each_check_ends_in_time_and_says_what_to_do(
-    faults: Faults, local_echo: bool, baud: float | None
-) -> None:
-    with board_with(faults, local_echo=local_echo, baud=baud) as board:
-        found = examined(diagnosis_of(board))
-        assert board.clock.now() < LONGEST
-    assert [*found] == [check.id for check in CHECKS]
-    for result in found.values():
-        assert result.seen
-        assert result.advice or result.state != FAILED
