@@ -9,6 +9,7 @@ from busservo import BatteryVoltageRead, NoReplyError, ServoMove, ServoPositions
 from framewire.client.exchange import Exchange
 from framewire.client.request import Request
 from framewire.client.session import Session
+from framewire.codec.gap import GAP
 
 from tests.in_turn import in_turn
 from tests.lines import questions
@@ -177,6 +178,16 @@ def test_the_next_question_of_a_kind_waits_for_the_late_reply(
     say(line, now + 0.02, 2)
     assert second.reply == busservo.BatteryVoltage(2)
     assert line.counters.unsolicited == 1
+
+
+def test_a_reader_may_sleep_until_what_has_begun_can_be_complete_and_no_longer() -> None:
+    line = session()
+    assert line.resting_until(1.0) == 1.0
+    say(line, 1.0, FIRST)
+    assert line.resting_until(1.0) == pytest.approx(1.0 + line.wire_time.least(len(REST) - 1))
+    questions.ask(line, 1.0, ServoPositionsRead(range(84)))
+    assert line.resting_until(1.0) == line.tick_at == pytest.approx(1.0 + GAP)
+    assert line.resting_until(2.0) == 2.0
 
 
 def test_frames_are_handed_over_no_faster_than_the_line_takes_them() -> None:

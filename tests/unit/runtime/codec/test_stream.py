@@ -4,6 +4,7 @@ import gc
 import re
 import sys
 from collections.abc import Callable
+from copy import copy
 from types import FrameType
 from typing import Any
 
@@ -115,6 +116,22 @@ def test_a_frame_larger_than_the_largest_is_refused_by_its_length(
 ) -> None:
     decoder = StreamDecoder(HOST, max_frame)
     assert joined(decoder.feed(bytes.fromhex(line)) + decoder.flush()) == events
+
+
+@given(lines, directions, st.data())
+def test_a_copy_goes_on_by_itself(
+    line: bytes, direction: Direction | None, data: st.DataObject
+) -> None:
+    cut = data.draw(st.integers(0, len(line)))
+    decoder = StreamDecoder(direction)
+    before = decoder.feed(line[:cut])
+    other = copy(decoder)
+    other.feed(b"\x55\x55\x00" * 90)
+    other.flush()
+
+    rest = decoder.feed(line[cut:]) + decoder.flush()
+    assert joined(before + rest) == joined(read(direction, [line]))
+    assert decoder.counters.fed == len(line)
 
 
 # --- The invariants ------------------------------------------------------------------------------

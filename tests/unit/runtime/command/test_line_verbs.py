@@ -309,6 +309,14 @@ def test_an_example_is_a_command_line(line: str) -> None:
         assert all(each.encode() for each in verb.messages(given))
 
 
+def test_ctrl_c_is_quiet_where_no_terminal_has_shown_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(send, "open_client", interrupted)
+    assert run("send", "--port", "loop://", "ActionGroupStop") == (130, "", "")
+
+
 def test_a_verb_can_be_run_from_any_thread() -> None:
     """Signal are for the main thread alone, and SIGTERM is then left as it is."""
     before = signal.getsignal(signal.SIGTERM)

@@ -3,6 +3,7 @@
 import argparse
 import errno
 import io
+import json
 import os
 import sys
 import time
@@ -125,6 +126,29 @@ def test_both_ends_on_one_line_are_distinguished_where_possible() -> None:
         "host        ServoMove time_ms=9 ms targets=1:2 | 55 55 08 03 01 09 00 01 02 00",
         "either      ActionGroupRun or ActionGroupStarted group=8 times=1 | 55 55 05 06 08 01 00",
         "host        ServoUnload servo_ids=1 | 55 55 04 14 01 01",
+    ]
+
+
+def test_json_says_the_same() -> None:
+    line = Line(ActionGroupRun(group=8, times=1).encode(), b"\x13\x55\x55\x03\x01\x2a" + FRAME)
+    either, board = {"time": 2.0, "from": "either"}, {"time": 2.0, "from": "controller"}
+    run_fields = {"fields": {"group": 8, "times": 1}, "hex": "55 55 05 06 08 01 00"}
+    ways = ["host_to_controller", "controller_to_host"]
+    unknown = {"reason": "unknown command", "command": 1, "parameters": "2A"}
+    battery = {"fields": {"voltage_mv": 7500}, "hex": "55 55 04 0F 4C 1D"}
+    shown = [json.loads(each) for each in watched("--direction", "any", "--json", line=line)]
+    assert shown == [
+        {
+            "time": 1.0,
+            "from": "either",
+            "direction": ways[0],
+            "message": "ActionGroupRun",
+            **run_fields,
+            "or": ["ActionGroupStarted"],
+        },
+        {**either, "noise": "13", "reason": "bad header"},
+        {**either, "noise": "55 55 03 01 2A", **unknown},
+        {**board, "direction": ways[1], "message": "BatteryVoltage", **battery},
     ]
 
 
