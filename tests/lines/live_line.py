@@ -20,9 +20,7 @@ class LiveLine(Receiving):
     name = "live line"
 
     def __init__(
-        self,
-        answer: Callable[[Message], list[Message]] = answered,
-        **before: Callable[[], object],
+        self, answer: Callable[[Message], list[Message]] = answered, **before: Callable[[], object]
     ) -> None:
         super().__init__(**before)
         self.lost = False

@@ -10,18 +10,7 @@ from busservo import ActionGroupRun, ActionGroupStarted, BatteryVoltage, Message
 from tests.lines.both_clients import both, both_live, until
 from tests.lines.live_line import LiveLine
 from tests.lines.questions import REPLY_TIMEOUT
-from tests.lines.stories import (
-    Step,
-    Told,
-    ask,
-    hear,
-    replied,
-    restart,
-    send,
-    tick,
-    told,
-    want,
-)
+from tests.lines.stories import Step, Told, ask, hear, replied, restart, send, tick, told, want
 
 FRAME = 7 / 960  # of a run, and of its report
 # When a run that is sent at 0 is taken to have been ignored.

@@ -3,11 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from busservo import (
-    BatteryVoltage,
-    NoReplyError,
-    ServoPositionsRead,
-)
+from busservo import BatteryVoltage, NoReplyError, ServoPositionsRead
 from framewire.codec.gap import GAP
 
 from tests.factories import data_of, files_of, imported, library_of

@@ -214,10 +214,7 @@ def test_closing_ends_a_read_in_another_thread() -> None:
     closing_ends_a_read(port_on(Device()))
 
 
-TWO, CHOICE = (
-    [plugged(path=b"1-1"), plugged(path=b"1-2")],
-    r"hid://1-1 \(0483:5750\), hid://1-2 ",
-)
+TWO, CHOICE = ([plugged(path=b"1-1"), plugged(path=b"1-2")], r"hid://1-1 \(0483:5750\), hid://1-2 ")
 
 
 @in_turn(

@@ -190,8 +190,7 @@ class Pressed(VirtualLine):
 
 
 @in_turn(
-    "times, sent",
-    lambda: [((1.0,), held((1, 433))), ((1.0, 1.001), [ServoPositionsRead([1])])],
+    "times, sent", lambda: [((1.0,), held((1, 433))), ((1.0, 1.001), [ServoPositionsRead([1])])]
 )
 def test_ctrl_c_stops_a_motion_that_is_waited_for_and_a_second_one_just_leaves(
     times: tuple[float, ...], sent: list[Message], caplog: pytest.LogCaptureFixture

@@ -9,15 +9,7 @@ from busservo import MESSAGES, DecodeError, Direction, Message, ProtocolError, s
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.cases import (
-    CONTROLLER,
-    EITHER,
-    HOST,
-    BadFrame,
-    Case,
-    each_bad_frame,
-    each_case,
-)
+from tests.cases import CONTROLLER, EITHER, HOST, BadFrame, Case, each_bad_frame, each_case
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.strategies import damaged_frames

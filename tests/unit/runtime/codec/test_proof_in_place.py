@@ -46,11 +46,7 @@ def sealed(*tail: Any) -> Any:
 
 
 def one(
-    method: str,
-    type_: str = "u8",
-    order: str = "little",
-    *behind: Any,
-    covers: list[str] = ALL,
+    method: str, type_: str = "u8", order: str = "little", *behind: Any, covers: list[str] = ALL
 ) -> Any:
     """Return an envelope with one checksum behind its fields, and these parts behind that."""
     return sealed(checksum(method, covers, type_, order), *behind)

@@ -99,10 +99,7 @@ REFUSED: dict[str, list[tuple[str | list[str], str]]] = {
         (["--baud", str(2**31)], "baud is 2147483648, and must be from 1 to 2147483647"),
     ],
     "stats": [
-        (
-            "--plot line.gif",
-            f"line.gif cannot be drawn: {ENDS}",
-        ),
+        ("--plot line.gif", f"line.gif cannot be drawn: {ENDS}"),
         ("--plot absent/line.svg", "absent/line.svg cannot be written: there is no folder"),
         ("--baud 0", "argument --baud: 0 is below 1, the least there can be"),
         ("--file absent.bin", "absent.bin cannot be read: No such file or directory"),

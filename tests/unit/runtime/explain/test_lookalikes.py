@@ -12,13 +12,7 @@ from framewire.explain.lookalikes import recognise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import (
-    BUSSERVO,
-    data_of,
-    files_of,
-    layout_of,
-    library,
-)
+from tests.factories import BUSSERVO, data_of, files_of, layout_of, library
 from tests.handed import handed_by
 from tests.in_turn import in_turn
 from tests.lines.servo_bus import frame

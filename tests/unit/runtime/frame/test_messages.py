@@ -19,15 +19,7 @@ from framewire.frame.number import U8
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.cases import (
-    CASES,
-    CONTROLLER,
-    HOST,
-    BadValue,
-    Case,
-    each_bad_value,
-    each_case,
-)
+from tests.cases import CASES, CONTROLLER, HOST, BadValue, Case, each_bad_value, each_case
 from tests.in_turn import in_turn
 from tests.unit.runtime.frame.copies import copies
 
@@ -87,8 +79,7 @@ class Indexed:
 
 
 @in_turn(
-    "number",
-    lambda: [8, np.int8(8), np.uint8(8), np.int64(8), np.uint64(8), Group.WAVE, Indexed()],
+    "number", lambda: [8, np.int8(8), np.uint8(8), np.int64(8), np.uint64(8), Group.WAVE, Indexed()]
 )
 def test_a_whole_number_is_stored_as_an_int(number: Any) -> None:
     run = ActionGroupRun(group=number, times=number)

@@ -45,10 +45,7 @@ def test_a_byte_is_sampled_bit_by_bit(sent_at: int, read_at: int, read: str) -> 
     assert read_by(ASK, sent_at, read_at).hex(" ") == read
 
 
-@in_turn(
-    "parity, lows",
-    lambda: [("none", 0), ("even", 1), ("odd", 2), ("mark", 0), ("space", 3)],
-)
+@in_turn("parity, lows", lambda: [("none", 0), ("even", 1), ("odd", 2), ("mark", 0), ("space", 3)])
 def test_parity_is_a_bit_behind_those_of_the_byte(parity: str, lows: int) -> None:
     # C5 has four ones, and 83 three. Behind the highest of them, a reader that is twice as fast
     # takes a parity of 0 for a start bit: one more byte.

@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import (
-    ServoMove,
-)
+from busservo import ServoMove
 from busservo_simulator import VirtualController
 
 from tests.in_turn import in_turn
