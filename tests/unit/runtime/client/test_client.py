@@ -171,7 +171,7 @@ NO_WAITS: list[tuple[Any, dict[str, int], str]] = [
         {"grup": 8},
         "none of these has a field 'grup': ActionGroupCompleted has group, times; ActionGroupSt",
     ),
-    (busservo.ServoMove, {}, "no message that comes to this end"),
+    (busservo.ServoMove, {}, "^ServoMove is no message that comes to this end"),
     ((ActionGroupStopped, busservo.ServoMove), {}, "no message that comes to this end"),
     (Message, {}, "no message that comes to this end"),
     *((each, {}, "is no class of messages") for each in (7, STOPPED, (STOPPED,))),

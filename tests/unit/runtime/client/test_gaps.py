@@ -104,6 +104,17 @@ def test_of_two_answers_the_shorter_waits(libraries: None, before_the_end: float
     assert request.reply == kinds.Fault(7)
 
 
+def test_an_answer_waits_for_nothing_that_nobody_has_asked_for(libraries: None) -> None:
+    line, request, kinds = asked("roboclaw", "VoltageRead")
+    say(line, 0.1, kinds.Voltage(120))
+    assert line.tick_at == pytest.approx(0.1)
+    line.tick(0.1)
+    assert request.reply == kinds.Voltage(120)
+    # Nothing is left of it: the next is read as it comes.
+    say(line, 0.11, b"\0")
+    assert line.tick_at == pytest.approx(0.11 + GAP)
+
+
 def test_it_waits_where_a_longer_one_may_come_late(libraries: None) -> None:
     line, late, kinds = asked("roboclaw", "VersionRead")
     line.cancel(late)

@@ -116,6 +116,17 @@ def test_a_late_reply_is_overtaken_by_what_is_sent_meanwhile(faulty: Faulty) -> 
     assert board.clock.now() >= 1000
 
 
+def test_a_cable_that_is_put_back_is_not_cut_by_what_was_due_before(faulty: Faulty) -> None:
+    board, host = faulty(hang_up=1, delays=1, longest_delay=0.5)
+    host.say(ASK)
+    board.advance(0.001)
+    board.faults = Faults()
+    board.plug_in()
+    board.advance(1)
+    board.transport.read(1)  # the half of the frame that was on its way
+    assert host.ask(ASK) == VOLTAGE
+
+
 SEEDED = {"duplicated": 0.3, "late": 0.3, "lost_bytes": 0.1, "wrong_count": 0.3}
 
 
