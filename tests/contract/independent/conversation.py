@@ -155,7 +155,7 @@ class Conversation:
 @contextmanager
 def talking(to: Any, **given: Any) -> Iterator[tuple[Conversation, Controller]]:
     """Yield the calls at a board in virtual time, or its port, and a client on the time of it."""
-    port = VirtualPort(to) if isinstance(to, Board) else to
+    port: Any = VirtualPort(to) if isinstance(to, Board) else to
     talk = Conversation(port.board, port.clock)
     with client_on(port, Controller, **{"reply_timeout": REPLY_TIMEOUT, **given}) as controller:
         yield talk, controller

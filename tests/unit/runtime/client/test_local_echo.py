@@ -10,8 +10,6 @@ from busservo import ActionGroupRun, ActionGroupStop, BatteryVoltageRead, EchoEr
 from busservo._exchanges import EXCHANGES
 from framewire.client.local_echo import LocalEcho
 from framewire.client.request import Request
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
 from tests.lines.both_clients import both_live
@@ -126,43 +124,6 @@ def test_an_undeclared_echo_is_recognized_by_what_no_board_can_send(caplog: Any)
 # ---------------------------------------------------------------- the filter alone
 def request(message: Message) -> Request:
     return Request(message, EXCHANGES[type(message)])
-
-
-SENT = [
-    ActionGroupStop(),
-    ActionGroupRun(8, 1),
-    BatteryVoltageRead(),
-    busservo.ServoMove(0, [(85, 85)]),
-]
-
-
-@given(
-    st.lists(st.sampled_from(SENT), max_size=4),
-    st.lists(st.sampled_from([b"", STARTED.encode(), b"\x00", b"\x13"]), min_size=5, max_size=5),
-    st.data(),
-)
-def test_all_that_others_send_comes_through_however_it_is_cut(
-    sent: list[Message], others: list[bytes], data: st.DataObject
-) -> None:
-    # Reports that look like an echo come behind it, as on a line where nobody talks at once.
-    if any(isinstance(each, ActionGroupRun) for each in sent):
-        others = [each if each != STARTED.encode() else b"" for each in others]
-    echo = LocalEcho()
-    requests = [request(each) for each in sent]
-    for each in requests:
-        echo.sent(each, each.message.encode(), 1.0)
-    pairs = zip(others, [*(each.encode() for each in sent), b""], strict=False)
-    line = b"".join(other + frame for other, frame in pairs)
-    cuts = sorted(data.draw(st.lists(st.integers(0, len(line)), max_size=5)))
-    found, came = b"", []
-    for start, end in zip([0, *cuts], [*cuts, len(line)], strict=True):
-        for rest, back, lost in echo.take_out(line[start:end]):
-            found += rest
-            came += [] if back is None else [back]
-            assert lost == []
-    assert found == b"".join(others[: len(sent) + 1])
-    assert came == requests
-    assert echo.due is None
 
 
 def test_what_is_forgotten_is_no_longer_expected_and_everything_else_is() -> None:

@@ -59,18 +59,6 @@ def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
     assert decoder.feed(b"\x07") == [ActionGroupStopped()]
 
 
-def test_how_much_is_held_and_how_much_is_missing() -> None:
-    decoder = CODEC.careful_decoder(RECEIVED)
-    assert (decoder.pending, decoder.missing) == (0, 1)
-    decoder.feed(ServoPositions([(1, 500), (2, 500)]).encode()[:5])
-    assert (decoder.pending, decoder.missing) == (5, 6)
-    decoder.flush()
-    decoder.feed(BatteryVoltage(0x5555).encode())
-    assert (decoder.pending, decoder.missing) == (6, 1)
-    decoder.feed(b"\x55")
-    assert (decoder.pending, decoder.missing) == (7, 1)
-
-
 def test_a_message_that_stays_doubtful_is_noise() -> None:
     """A second hole: whether the reply was whole cannot be known any more."""
     decoder = CODEC.careful_decoder(RECEIVED)

@@ -128,7 +128,6 @@ def test_a_copy_goes_on_by_itself(
     other = copy(decoder)
     other.feed(b"\x55\x55\x00" * 90)
     other.flush()
-
     rest = decoder.feed(line[cut:]) + decoder.flush()
     assert joined(before + rest) == joined(read(direction, [line]))
     assert decoder.counters.fed == len(line)

@@ -117,18 +117,6 @@ BOTH = (
 )
 
 
-def test_both_ends_on_one_line_are_distinguished_where_possible() -> None:
-    assert events("--direction", "any", line=Line(*BOTH)) == [
-        "host        BatteryVoltageRead | 55 55 02 0F",
-        BATTERY,
-        "host        ServoPositionsRead servo_ids=1,2 | 55 55 05 15 02 01 02",
-        "controller  ServoPositions positions=1:5,2:6 | 55 55 09 15 02 01 05 00 02 06 00",
-        "host        ServoMove time_ms=9 ms targets=1:2 | 55 55 08 03 01 09 00 01 02 00",
-        "either      ActionGroupRun or ActionGroupStarted group=8 times=1 | 55 55 05 06 08 01 00",
-        "host        ServoUnload servo_ids=1 | 55 55 04 14 01 01",
-    ]
-
-
 def test_json_says_the_same() -> None:
     line = Line(ActionGroupRun(group=8, times=1).encode(), b"\x13\x55\x55\x03\x01\x2a" + FRAME)
     either, board = {"time": 2.0, "from": "either"}, {"time": 2.0, "from": "controller"}

@@ -357,8 +357,6 @@ def test_the_strategies_make_messages_of_every_kind(everything: Any, data: st.Da
 
 
 # -------------------------------------------------------------------- the byte order of numbers
-
-
 def test_the_order_is_that_of_most_numbers() -> None:
     assert order_of([]) == order_of([U8(), I8()]) == ANY_ORDER
     assert order_of([U8(), little.U16(), little.I16(), big.U16()]) == "<"

@@ -9,7 +9,6 @@ from busservo import (
     BatteryVoltage,
     BatteryVoltageRead,
     Direction,
-    ServoMove,
     ServoPositions,
     strategies,
 )
@@ -32,19 +31,7 @@ if TYPE_CHECKING:
 HOST = Direction.HOST_TO_CONTROLLER
 VOLTAGE = BatteryVoltage(7500)
 ASK, REPLY = BatteryVoltageRead().encode(), VOLTAGE.encode()
-MOVE = ServoMove(0, [(1, 500)]).encode()
 SIX = ServoPositions([(servo_id, 500) for servo_id in range(1, 7)]).encode()
-
-
-def test_a_board_with_spurious_output_takes_no_input(board: VirtualController, host: Host) -> None:
-    board.spurious_output(b"\x55", per_second=100)
-    host.say(BatteryVoltageRead())
-    assert host.receive(1.0) is None
-    assert set(host.bytes) == {0x55}
-    assert len(host.bytes) == pytest.approx(100, abs=2)
-    board.spurious_output(None)
-    assert board.accepted == 0
-    assert host.ask(BatteryVoltageRead()) == VOLTAGE
 
 
 def test_bytes_sent_to_an_unplugged_host_are_lost(board: VirtualController) -> None:
@@ -96,18 +83,6 @@ def test_nothing_makes_the_board_fail_and_a_seed_repeats_what_comes(
     once, again = (carried(line, chunks, host_baud) for line in lines)
     assert once == again
     assert lines[0].in_transit == 0
-
-
-# -------------------------------------------------------------------- an adapter that echoes
-@pytest.mark.garbage
-def test_what_is_sent_comes_back_frame_or_not_in_front_of_the_reply(connect: Connect) -> None:
-    board, host = connect(local_echo=True)
-    for written in ([ASK], [MOVE, ASK], [b"\x00\x55"]):
-        for data in written:
-            host.transport.write(data)
-        expected = b"".join(written) + REPLY * (ASK in written)
-        assert host.collect(len(expected)) == expected
-    assert (board.accepted, board.rejects.total) == (3, 1)
 
 
 # -------------------------------------------------------------------- a host at another rate

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import select
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +11,7 @@ from busservo_simulator import VirtualController
 
 from tests.in_turn import in_turn
 from tests.lines.hosts import Host
-from tests.timeouts import await_that
-from tests.unit.runtime.simulator.conftest import ASK, SIX, VOLTAGE, host_at
+from tests.unit.runtime.simulator.conftest import ASK, VOLTAGE, host_at
 
 if sys.platform != "win32":
     from framewire.simulator.pty_rate import read_rate, set_rate
@@ -62,32 +60,6 @@ on_linux = pytest.mark.skipif(sys.platform != "linux", reason="an odd rate, on a
 def board(request: pytest.FixtureRequest) -> Iterator[VirtualController]:
     with VirtualController("pty", baud=request.param) as board:
         yield board
-
-
-def right(board: VirtualController) -> float:
-    return board._line.baud
-
-
-@pytest.mark.parametrize("baud", [1200, 19200, 115200, pytest.param(12345, marks=on_linux)])
-@pytest.mark.garbage
-def test_a_host_at_another_rate_receives_garbage_and_sends_garbage(
-    board: VirtualController, baud: int
-) -> None:
-    host = host_at(board, baud)
-    host.say(ASK, ASK)
-    board.report(SIX)
-    received = host.collect(1)
-    assert received
-    assert host.receive(0.05) is None
-    assert SIX.encode() not in received + host.bytes
-    await_that(lambda: not select.select([board._end._board_end], [], [], 0)[0])  # type: ignore[attr-defined]
-    host.hang_up()
-    host = host_at(board, right(board))
-    assert board.accepted == 0
-    host.say(ASK, ASK)  # the first may be taken for the end of what was garbage
-    assert host.receive() == VOLTAGE
-    host.hang_up()
-    assert f"the host is at {baud} baud, the board at {right(board)}" in str(board.log)
 
 
 @on_linux

@@ -86,15 +86,6 @@ def test_captures_are_told_apart(names: list[str], found: list[str], tmp_path: P
         assert captures_of(scan(tmp_path / names[0])) == found
 
 
-@in_turn("name", lambda: ["absent.bin", "*.absent"])
-def test_what_is_not_there_is_a_piece_that_says_so(name: str, line: Path) -> None:
-    (piece, there) = scan([line.with_name(name), line])
-    assert (piece.capture, piece.size) == (name, 0)
-    with pytest.raises(FileNotFoundError):
-        piece.read()
-    assert there.read().filled
-
-
 def test_an_unreadable_file_says_so_as_a_piece(line: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def denied(path: Path, *_: object, **_named: object) -> None:
         raise PermissionError(13, "Permission denied", str(path))
