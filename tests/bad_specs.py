@@ -16,8 +16,6 @@ of framegen. A finding has the `path` of the key or value that is marked, unless
 An entry without a name has what the cases below it share, such as a `base` or a `hint`.
 """
 
-from __future__ import annotations
-
 import argparse
 import itertools
 import re
@@ -39,7 +37,7 @@ FOLDER = Path(__file__).parent / "specs" / "bad"
 BASES = FOLDER / "base"
 VARIANTS = BASES / "variants.yaml"
 
-Case: TypeAlias = "dict[str, Any]"
+Case: TypeAlias = dict[str, Any]
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _SAID = {"rule", "message", "path", "hint", "see", "times"}

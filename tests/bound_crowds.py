@@ -1,19 +1,14 @@
 """Specs in which every name that a library binds is the name of something: a spec for each kind."""
 
-from __future__ import annotations
-
+from collections.abc import Callable, Sequence
 from itertools import count, groupby
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from tests.bound_names import pascal_names, snake_names
 from tests.crowd import FIELDS, Crowd, in_parts
+from tests.factories import Data
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from tests.factories import Data
-
-Makes: TypeAlias = "Callable[[Crowd, Sequence[str]], None]"
+Makes: TypeAlias = Callable[[Crowd, Sequence[str]], None]
 _LONGEST_END = 20
 _LONGEST_CLASS = 40
 # The bits of a number, as wide as it may be here.

@@ -1,16 +1,11 @@
 """Every name that a module of any library binds: what a name of a spec may meet there."""
 
-from __future__ import annotations
-
 import ast
 import re
+from collections.abc import Iterable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING
 
 from tests.factories import BUSSERVO, DEMO, ROOT, library_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 _PASCAL = re.compile(r"[A-Z][A-Za-z0-9]*")

@@ -9,20 +9,19 @@ many of them; and `fuzz`, a long search for others. One is chosen by HYPOTHESIS_
 each of many cases is held to is given a share of them: tests/few_each.py.
 """
 
-from __future__ import annotations
-
 import gc
 import os
 import random
 import sys
 from collections import defaultdict
+from collections.abc import Sequence
 from contextlib import suppress
 from datetime import datetime, timezone
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.compile import compile_spec
@@ -33,9 +32,6 @@ from hypothesis import HealthCheck, settings
 from serial.urlhandler import protocol_socket
 
 from tests.draws import draw_the_same
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 try:
     import resource

@@ -1,18 +1,12 @@
 """Specs in which every word that Python has taken is the name of something."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator, Sequence
 from itertools import count
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from framegen.targets.python.reserved import RESERVED
 
-from tests.factories import small_spec
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from tests.factories import Data
+from tests.factories import Data, small_spec
 
 Word = TypeVar("Word")
 # More fields than that, and a method has more arguments than linters like.

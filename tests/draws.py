@@ -8,24 +8,21 @@ The digests are the same whatever ran before, in whichever process: also with `-
 `--dist`. So is the one of all, in the last line, for the same tests.
 """
 
-from __future__ import annotations
-
 import hashlib
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.util import find_spec
+from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from unittest import mock
 
 import pytest
 from hypothesis import core, settings
 from hypothesis.internal.conjecture import data as conjecture
 from hypothesis.internal.conjecture import engine
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
 # For so long a failing example is made smaller, which the engine bounds to five minutes.
 SHRINKING_SECONDS = 30
@@ -108,9 +105,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 def _shuffled(items: Iterable[pytest.Item], seed: int) -> Iterator[pytest.Item]:
     """Yield the tests of each file together, in an order of which all workers have the same."""
-    files: dict[Path, list[pytest.Item]] = {}
+    files = defaultdict[Path, list[pytest.Item]](list)
     for item in items:
-        files.setdefault(item.path, []).append(item)
+        files[item.path].append(item)
     dice = Random(seed)  # noqa: S311 - nothing is secret here
     for file in dice.sample([*files], len(files)):
         yield from dice.sample(files[file], len(files[file]))

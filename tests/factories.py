@@ -62,8 +62,8 @@ NEW_MESSAGE = """\
 
 """
 
-Data: TypeAlias = "dict[str, Any]"
-Steps: TypeAlias = "tuple[str | int, ...]"
+Data: TypeAlias = dict[str, Any]
+Steps: TypeAlias = tuple[str | int, ...]
 
 
 def data_of(file: Path) -> Data:

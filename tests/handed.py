@@ -1,12 +1,8 @@
 """What a library hands to the runtime, and what the verbs of its command make of that."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from typing import Any
 
 
 def handed_by(package: str) -> Any:

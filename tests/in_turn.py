@@ -1,18 +1,14 @@
 """The rows of a table one after another, in one test: for many rows that take no time each."""
 
-from __future__ import annotations
-
 import inspect
 import traceback
+from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    Test = Callable[..., None]
+Test = Callable[..., None]
 
 _PARAM = type(pytest.param())
 # What pytest raises where an expected error does not come is no `Exception`.

@@ -1,26 +1,21 @@
 """A library at work, whatever its names are: its messages, its strategies, its client."""
 
-from __future__ import annotations
-
 import importlib
 import re
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
+from framegen.compile import Compiled
 from framegen.explain import explain
 from framegen.model.exchanges import snake_case
+from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
 from framegen.targets.python.names import names_of, strategy_name
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.factories import library, library_files
 from tests.lines.timed_line import client_of
-
-if TYPE_CHECKING:
-    from types import ModuleType
-
-    from framegen.compile import Compiled
-    from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
 
 
 def at_work(compiled: Compiled) -> None:

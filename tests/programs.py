@@ -1,15 +1,11 @@
 """Programs that run in a process of their own, to their end."""
 
-from __future__ import annotations
-
 import os
 import subprocess
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 
 def ran(

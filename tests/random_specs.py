@@ -4,26 +4,21 @@ The simplest spec that there is to draw is a constant, an id, a length and a bod
 without fields. Whatever is drawn besides is as small as can be.
 """
 
-from __future__ import annotations
-
+from collections.abc import Hashable, Sequence
 from functools import cache, lru_cache
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.cases.valid import frames_of, values_at
 from framegen.language.spec import Spec
 from framegen.model.checksums import CHECKSUMS
 from framegen.model.codec import encode
+from framegen.model.layout import MessageLayout
 from framegen.model.model import derive
 from hypothesis import strategies as st
 
 from tests.factories import small_spec
 from tests.second_reader import part_size, varies
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
-
-    from framegen.model.layout import MessageLayout
 
 Data = dict[str, Any]
 

@@ -1,15 +1,11 @@
 """Tables of which `make test` tries some rows; tests/world/test_rows.py tries the others."""
 
-from __future__ import annotations
-
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import product
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import pytest
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-    from types import ModuleType
 
 # Protocols of which each kind of frame, or what is odd in it, is one of another as well.
 ALIKE = {*("crsf", "dynamixel1", "ibus", "mavlink1", "mhz19", "msp", "sbus", "tfmini", "visca")}

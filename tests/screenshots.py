@@ -5,21 +5,17 @@
 builds the site and writes them to docs/images. Take them again when the pages look different.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from framegen.cli import main
+from playwright.sync_api import Browser
 
 from tests.documents import ROOT
 from tests.unit.site.browser import launched
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 IMAGES = ROOT / "docs" / "images"
 # A README with larger ones is slow to load.

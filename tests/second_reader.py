@@ -6,22 +6,18 @@ looks whether all of them are right. It shares nothing with the model but the ca
 checksums, which is held to others elsewhere.
 """
 
-from __future__ import annotations
-
 import struct
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from framegen.model.checksums import CHECKSUMS
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
 Data: TypeAlias = dict[str, Any]
 Values: TypeAlias = dict[str, Any]
-Event: TypeAlias = "tuple[str, bytes]"
+Event: TypeAlias = tuple[str, bytes]
 
 
 @dataclass(frozen=True)

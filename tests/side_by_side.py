@@ -1,28 +1,23 @@
 """The libraries of many specs side by side, so that one run of a tool checks all of them."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 import importlib.util
 import json
 import re
+import subprocess
 import sys
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 import pytest
 
 from tests.factories import ROOT
 from tests.programs import ran
-
-if TYPE_CHECKING:
-    import subprocess
-    from collections.abc import Iterable, Iterator
-    from types import ModuleType
 
 COMMAND = "_command.py"
 

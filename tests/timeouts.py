@@ -1,19 +1,15 @@
 """Timeouts of tests, long enough that no slow or pausing machine fails them."""
 
-from __future__ import annotations
-
 import math
 import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypedDict
+from typing import TypedDict
 from unittest import mock
 
 from framegen.conformance.device import session as firmware_session
 from framewire.client import session
 from framewire.command.checks import probe
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 # Far more than anything takes. What comes ends the wait, so that only a failure costs as much.
 GENEROUS = 60.0

@@ -1,9 +1,8 @@
 """Any spec that the language can say: the reference codec and decoder, and a second reading."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import pytest
 from framegen.cases.invalid import invalid_frames
@@ -14,22 +13,16 @@ from framegen.explain import explain
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.codec import Unencodable, decode, encode
+from framegen.model.layout import MessageLayout
 from framegen.model.model import Model, derive
 from framegen.model.stream import Event, ReferenceDecoder
 from framegen.model.verdict import weigh_whole
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tests.factories import compiled_of
+from tests.factories import Data, compiled_of
 from tests.random_specs import WAYS, lines, specs, values_of, with_examples
 from tests.second_reader import Reader
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from framegen.model.layout import MessageLayout
-
-    from tests.factories import Data
 
 
 def model_of(data: Data) -> Model:

@@ -1,19 +1,15 @@
 """What others read of our tables: pandas, polars and DuckDB, which no other test imports."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 from busservo.tables import archive, scan, write_arrow
 
 from tests.in_turn import in_turn
 from tests.unit.runtime.tables.conversations import conversation
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 NAMES = ["ü ß.bin", "a=b&c%20.bin", "x" * 120 + "ö" * 60, "x" * 121 + "線" * 40, "a\udcff.bin"]
 

@@ -5,32 +5,25 @@ and wherever it is put. What carries the same mark in two editions is the same t
 the author knows, and the spec says only where a name stayed or `was` tells of it.
 """
 
-from __future__ import annotations
-
 import json
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.checks import MODEL_RULES, STRUCTURE_RULES
+from framegen.checks.rule import Problem
 from framegen.comparison.edition import Edition
 from framegen.compile import Compiled
 from framegen.language.spec import Spec
 from framegen.model.model import derive
 from framegen.reading.source import Source
-from framegen.reading.yamltree import Tree
+from framegen.reading.yamltree import KeyPath, Tree
 from pydantic import ValidationError
 
+from tests.factories import Data
 from tests.random_specs import with_examples
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from framegen.checks.rule import Problem
-    from framegen.reading.yamltree import KeyPath
-
-    from tests.factories import Data
 
 MARK = "#"
 # What a spec says of its documents: a change would have to be written down there as well.
@@ -172,7 +165,7 @@ class Names:
         return {new: old for old, new in self.to_new.items()}
 
     @property
-    def turned(self) -> Names:
+    def turned(self) -> "Names":
         unsaid = frozenset(self.to_new[name] for name in self.unsaid)
         return Names(self.to_old, unsaid, self.added, self.removed)
 
@@ -208,7 +201,7 @@ class Author:
     new: Data
 
     @property
-    def turned(self) -> Author:
+    def turned(self) -> "Author":
         return Author(self.new, self.old)
 
     @cached_property

@@ -4,14 +4,12 @@
 are made to match, and what is refused all the same is drawn anew.
 """
 
-from __future__ import annotations
-
 import json
 import random
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
 
+from framegen.compile import Compiled
 from framegen.reading.yamltree import Unusable
 
 from tests.bad_specs import BASES
@@ -23,9 +21,6 @@ from tests.mutations.field_mutations import FIELD_MUTATIONS
 from tests.mutations.frame_mutations import FRAME_MUTATIONS
 from tests.mutations.list_mutations import LIST_MUTATIONS
 from tests.mutations.splices import SPLICES
-
-if TYPE_CHECKING:
-    from framegen.compile import Compiled
 
 SPECS = {
     **mutations.SPECS,

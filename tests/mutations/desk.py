@@ -1,19 +1,14 @@
 """The desk of an author: a spec that is changed, and places in it that are drawn by lot."""
 
-from __future__ import annotations
-
+import random
 import re
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
+from tests.factories import Data
 from tests.mutations.authors import MARK, kinds_of, parts_of
-
-if TYPE_CHECKING:
-    import random
-    from collections.abc import Callable, Iterable, Iterator
-
-    from tests.factories import Data
 
 T = TypeVar("T")
 

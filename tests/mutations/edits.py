@@ -1,7 +1,5 @@
 """Pairs of editions: a spec, and the same with one thing changed, by what was changed."""
 
-from __future__ import annotations
-
 import json
 from functools import lru_cache
 from typing import Any

@@ -1,12 +1,13 @@
 """What authors do to fields: types, order, presence, names, constants."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
+from tests.factories import Data
 from tests.mutations.desk import (
+    Desk,
     Inapplicable,
+    Spot,
     copied,
     inserted,
     is_constant,
@@ -17,12 +18,6 @@ from tests.mutations.desk import (
     reordered,
     varies,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.factories import Data
-    from tests.mutations.desk import Desk, Spot
 
 # Types that an author might take for each other.
 RETYPED = (

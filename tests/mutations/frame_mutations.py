@@ -1,17 +1,11 @@
 """What authors do to the frame: header, length, ids, address, counter and checksums."""
 
-from __future__ import annotations
-
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from tests.mutations.desk import Inapplicable, inserted, other_order, renamed_in, reordered
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from tests.factories import Data
-    from tests.mutations.desk import Desk
+from tests.factories import Data
+from tests.mutations.desk import Desk, Inapplicable, inserted, other_order, renamed_in, reordered
 
 
 def _is(kind: str) -> Callable[[Data], Any]:

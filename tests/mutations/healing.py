@@ -1,20 +1,16 @@
 """Lengths and examples derived from the rest of a spec, so that a changed spec stays valid."""
 
-from __future__ import annotations
-
 import copy
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.codec import Unencodable, encode
+from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
 from framegen.model.slots import Items, Number, Slot
 from framegen.reading.yamltree import Unusable
 
 from tests.factories import Data, compiled_of
-
-if TYPE_CHECKING:
-    from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
 
 
 def healed(data: Data) -> Data | None:

@@ -1,13 +1,9 @@
 """Editions of the greenhouse: with more messages, with reservations, and with accepted breaks."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 from tests.factories import DEMO, data_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 _WHOLE = data_of(DEMO)
 # One message each way is enough beside those that are added: each is tried in every test.

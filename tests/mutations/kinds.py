@@ -4,21 +4,16 @@
 its frames; `anything` is whatever an author might leave there, right or wrong.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from framegen.language import spec as language
 from framegen.language.number_types import NUMBER_TYPES
 from framegen.model.checksums import CHECKSUMS
 
+from tests.factories import Steps
 from tests.mutations.odd_text import TEXTS
 from tests.mutations.places import GONE, other_way
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from tests.factories import Steps
 
 
 def keys_of_the_language() -> set[str]:

@@ -1,24 +1,17 @@
 """Specs with one leaf changed, and changes turned round."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from framegen.comparison.changes import changes
+from framegen.comparison.changes.change import Change
+from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 from pydantic import ValidationError
 
+from tests.factories import Data, Steps
 from tests.mutations.edits import edition
 from tests.mutations.kinds import readable
 from tests.mutations.places import leaves, with_
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from framegen.comparison.changes.change import Change
-    from framegen.comparison.edition import Edition
-
-    from tests.factories import Data, Steps
 
 
 def others(data: Data, path: Steps, value: object, old: Edition) -> Edition | None:

@@ -1,12 +1,14 @@
 """What authors do to lists and texts: how they are counted, how many, and of what."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from tests.factories import Data
 from tests.mutations.desk import (
+    Desk,
     Inapplicable,
+    Spot,
     inserted,
     is_constant,
     is_counter,
@@ -14,12 +16,6 @@ from tests.mutations.desk import (
     reordered,
     varies,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.factories import Data
-    from tests.mutations.desk import Desk, Spot
 
 
 def _how(old: str, new: str, desk: Desk) -> None:

@@ -1,18 +1,11 @@
 """What authors do to messages, to the ends of the line, and to what is said of a conversation."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
+from tests.factories import Data
 from tests.mutations.authors import MARK
-from tests.mutations.desk import copied, in_words, renamed_in, reordered
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.factories import Data
-    from tests.mutations.desk import Desk
+from tests.mutations.desk import Desk, copied, in_words, renamed_in, reordered
 
 
 def _ids_of(desk: Desk, message: Data) -> list[str]:

@@ -1,20 +1,16 @@
 """Specs with one change, or with odd text in every place: `check` may accept only good ones."""
 
-from __future__ import annotations
-
 import json
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tests.factories import BUSSERVO, DEMO, Data, Steps, data_of, kiln
 from tests.mutations.kinds import anything
 from tests.mutations.odd_text import TEXTS
 from tests.mutations.places import at, differs, dotted, nodes, renamed, swaps, texts, with_
 from tests.mutations.prose import HARMLESS, with_prose
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 
 @dataclass(frozen=True)

@@ -3,17 +3,16 @@
 `editions("busservo")` is a strategy; `after(spec, names, seed)` is one of its results, made again.
 """
 
-from __future__ import annotations
-
 import json
 import random
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING
 
+from framegen.comparison.edition import Edition
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, data_of
+from tests.factories import BUSSERVO, Data, data_of
 from tests.mutations.authors import Author, edition_of, marked
 from tests.mutations.desk import Desk, Inapplicable
 from tests.mutations.field_mutations import FIELD_MUTATIONS
@@ -23,13 +22,6 @@ from tests.mutations.message_mutations import MESSAGE_MUTATIONS
 from tests.mutations.value_mutations import VALUE_MUTATIONS
 from tests.mutations.word_mutations import WORD_MUTATIONS
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from framegen.comparison.edition import Edition
-
-    from tests.factories import Data
 
 MUTATIONS: dict[str, Callable[[Desk], None]] = {
     **(FIELD_MUTATIONS | VALUE_MUTATIONS | LIST_MUTATIONS),
@@ -58,7 +50,7 @@ class Editions:
         return self.name
 
     @property
-    def turned(self) -> Editions:
+    def turned(self) -> "Editions":
         return Editions(f"{self.name}, turned", self.new, self.old, self.author.turned)
 
 

@@ -1,7 +1,5 @@
 """Odd and hostile text: each must come out inert, and acceptable to linters."""
 
-from __future__ import annotations
-
 from posixpath import sep
 
 TEXTS: dict[str, str] = {

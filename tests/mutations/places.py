@@ -4,17 +4,13 @@ A place is the steps to it. What else can stand there, by its key, is in `kinds`
 a change say what must become of it.
 """
 
-from __future__ import annotations
-
 import copy
 import json
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-
-    from tests.factories import Data, Steps
+from tests.factories import Data, Steps
 
 GONE = "(gone)"
 

@@ -1,13 +1,9 @@
 """What a spec says in words: where any text may stand, and a spec with one text wherever it may."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
-
+from tests.factories import Data, Steps
 from tests.mutations.places import changed
-
-if TYPE_CHECKING:
-    from tests.factories import Data, Steps
 
 HARMLESS = "Plain words."
 # The keys whose values are prose; endpoints and the commands of look-alikes are prose by place.

@@ -13,15 +13,11 @@ adds the lines so often, with # counting up from 0. What is added can be marked:
 place of a finding, ⟦⟧ around another place. A pair of texts of any size is put in one's place.
 """
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, Any, TypeAlias
+from pathlib import Path
+from typing import Any, TypeAlias
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-Edit: TypeAlias = "dict[str, Any] | tuple[str, str]"
+Edit: TypeAlias = dict[str, Any] | tuple[str, str]
 
 _MARKS = re.compile("[«»⟦⟧]")
 _KEYS = {"under", "replace", "with", "mark", "instead", "before", "after", "remove", "add", "times"}

@@ -4,25 +4,18 @@ Each splice changes the spec on the first desk, and says what it did. Whether th
 is for `framegen check` to say; each is made so that it often is.
 """
 
-from __future__ import annotations
-
 import re
+from collections.abc import Callable
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TypeAlias
 
 from framegen.targets import python
 
-from tests.mutations.desk import Inapplicable, copied, inserted, renamed_in, reordered, varies
+from tests.factories import Data
+from tests.mutations.desk import Desk, Inapplicable, copied, inserted, renamed_in, reordered, varies
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import TypeAlias
-
-    from tests.factories import Data
-    from tests.mutations.desk import Desk
-
-    Splice: TypeAlias = Callable[[Desk, Desk], str]
+Splice: TypeAlias = Callable[[Desk, Desk], str]
 
 # What is said of another message of the spec that a message comes from, or of its documents.
 _OF_OTHERS = {"reply", "refusal", "reports", "echoed", "failure", "acknowledged", "lasts", "pose"}

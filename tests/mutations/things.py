@@ -3,18 +3,13 @@
 It is written apart from `framegen.comparison`, and uses nothing of it.
 """
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from tests.factories import Data
 from tests.mutations.authors import Names, kinds_of, names_of, parts_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from tests.factories import Data
-    from tests.mutations.mutations import Editions
+from tests.mutations.mutations import Editions
 
 
 @dataclass(frozen=True)

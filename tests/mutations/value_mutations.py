@@ -1,17 +1,11 @@
 """What authors do to what numbers mean: units, scales, ranges, named values and bits."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from tests.mutations.desk import Inapplicable, bounds_of, is_whole, renamed_in
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.factories import Data
-    from tests.mutations.desk import Desk
+from tests.factories import Data
+from tests.mutations.desk import Desk, Inapplicable, bounds_of, is_whole, renamed_in
 
 
 def _unit(old: tuple[str, str], new: tuple[str, str], desk: Desk) -> None:

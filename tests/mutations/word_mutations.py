@@ -1,15 +1,10 @@
 """What authors write down without any effect but on documents."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.mutations.desk import Desk
-
+from tests.mutations.desk import Desk
 
 _THINGS: dict[str, Callable[[Desk], Any]] = {
     "field": lambda desk: desk.spot(lambda _: True).field,

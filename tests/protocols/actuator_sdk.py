@@ -1,14 +1,10 @@
 """The maker's own library for DYNAMIXEL actuators, from the package index."""
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from tests.protocols.peer import Narrowed, Peer, Values, with_values
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 def to_one(values: Values) -> Values:

@@ -1,15 +1,10 @@
 """A second opinion: frames of protocols that no package speaks, by hand with `struct` alone."""
 
-from __future__ import annotations
-
 import struct
 from binascii import crc_hqx
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from tests.protocols.peer import Values
+from tests.protocols.peer import Values
 
 
 def _pack(layout: str, values: Values, *names: str) -> bytes:

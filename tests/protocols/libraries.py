@@ -1,26 +1,18 @@
 """The generated library of each protocol, and what it makes of values and of lines."""
 
-from __future__ import annotations
-
 import sys
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from types import ModuleType
+from typing import Any
 
+from framegen.language.values import Direction
+from framegen.model.layout import MessageLayout
 from framegen.model.slots import Items
 
 from tests.factories import library, library_of
+from tests.protocols.peer import Values
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from contextlib import ExitStack
-    from types import ModuleType
-
-    from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout
-
-    from tests.protocols.peer import Values
-
 
 # What was imported of each of them: what a library holds does not change while it is used.
 _KEPT: dict[str, dict[str, ModuleType]] = {}

@@ -1,18 +1,14 @@
 """A peer: what somebody else wrote for a protocol, and what it can say and tell."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, TypeAlias
 
 import pytest
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
 # The values of a message, by name.
-Values: TypeAlias = "dict[str, Any]"
+Values: TypeAlias = dict[str, Any]
 # What narrows the values of messages, by the name of the message.
-Narrowed: TypeAlias = "Mapping[str, Callable[[Values], Values]]"
+Narrowed: TypeAlias = Mapping[str, Callable[[Values], Values]]
 
 MISSING = "{} is not installed: it is in the dependency group `test`"
 

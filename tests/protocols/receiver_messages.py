@@ -1,18 +1,14 @@
 """The messages of `pyubx2`, from the package index, held to the layouts of the same frames."""
 
-from __future__ import annotations
-
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.model.codec import encode
 from framegen.model.slots import Constant, Items, Text
 
 from tests.protocols.peer import Peer, Values, as_is, with_values
 from tests.protocols.specs import messages_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
 
 
 class Pyubx2(Peer):
@@ -61,7 +57,7 @@ class Pyubx2(Peer):
         }
         return {slot.name: _gathered(slot, found) for slot in layout.arguments}
 
-    def _parts(self, read: Any) -> Iterator[_Part]:
+    def _parts(self, read: Any) -> "Iterator[_Part]":
         at = 0
         if not read.payload:
             return

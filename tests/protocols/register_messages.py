@@ -1,18 +1,13 @@
 """The messages of `pymodbus`, from the package index: as client, and as device."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import pytest
+from framegen.model.layout import MessageLayout
 
 from tests.protocols.peer import Peer, Values, as_is, with_values
 from tests.protocols.specs import messages_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from framegen.model.layout import MessageLayout
 
 
 def _bits(values: list[int]) -> list[bool]:

@@ -3,23 +3,19 @@
 They are `lewansoul-lx16a` and `pylx16a`.
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 
 from tests.protocols.peer import Peer, Values, as_is, with_values
 from tests.protocols.specs import messages_of
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
 # What tells a servo something, and what asks it; a client, the servo, and values by their names.
-Tell: TypeAlias = "Callable[[Any, int, Values], object]"
-Ask: TypeAlias = "Callable[[Any, int], Values]"
+Tell: TypeAlias = Callable[[Any, int, Values], object]
+Ask: TypeAlias = Callable[[Any, int], Values]
 
 
 @dataclass

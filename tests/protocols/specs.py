@@ -1,23 +1,17 @@
 """The protocols that are written down here, and what their messages may carry."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from framegen.model.slots import Items, Number, Packed, Text
+from framegen.model.layout import MessageLayout
+from framegen.model.model import Model
+from framegen.model.slots import Field, Items, Number, Packed, Text
 from hypothesis import strategies as st
 
 from tests.factories import compiled_file
 from tests.guide_specs import file_of
-
-if TYPE_CHECKING:
-    from framegen.model.layout import MessageLayout
-    from framegen.model.model import Model
-    from framegen.model.slots import Field
-
-    from tests.protocols.peer import Values
+from tests.protocols.peer import Values
 
 FOLDER = Path(__file__).parent
 FILES = {file.stem: file for file in sorted(FOLDER.glob("*.yaml"))}

@@ -1,22 +1,17 @@
 """Lines of any protocol: its frames, damaged and cut off ones, and noise that looks like them."""
 
-from __future__ import annotations
-
+from collections.abc import Iterable
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from framegen.cases.lengthened import lengthened
+from framegen.language.values import Direction
 from framegen.model.codec import encode
+from framegen.model.layout import MessageLayout
+from framegen.model.stream import ReferenceDecoder
 from hypothesis import strategies as st
 
 from tests.protocols.specs import FILES, messages_of, model_of, values_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout
-    from framegen.model.stream import ReferenceDecoder
 
 # What was found on a line: what it is, its bytes, and why it is no message.
 Told: TypeAlias = tuple[str, bytes, str]

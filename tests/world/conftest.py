@@ -1,19 +1,14 @@
 """A browser for the tests of one file, and visits to the pages in its `folder`."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
+from playwright.sync_api import Browser, BrowserContext
 
 from tests.unit.site.browser import Visit, launched, project_on_disk
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from playwright.sync_api import Browser, BrowserContext
 
 
 @pytest.fixture(scope="session")

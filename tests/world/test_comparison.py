@@ -1,10 +1,7 @@
 """Editions of every spec, one to three mutations apart: the verdict is how the libraries talk."""
 
-from __future__ import annotations
-
 from contextlib import ExitStack
 from itertools import islice
-from typing import TYPE_CHECKING
 
 import pytest
 from framegen.comparison.pair import Pair
@@ -14,13 +11,18 @@ from hypothesis import strategies as st
 from tests.contract.comparison import proof
 from tests.contract.comparison.talks import Talk
 from tests.mutations.authors import marked
-from tests.mutations.mutations import MUTATIONS, SPECS, after, after_data, editions, places
+from tests.mutations.mutations import (
+    MUTATIONS,
+    SPECS,
+    Editions,
+    after,
+    after_data,
+    editions,
+    places,
+)
 from tests.mutations.word_mutations import WORD_MUTATIONS
 from tests.protocols.specs import values_for
 from tests.random_specs import specs
-
-if TYPE_CHECKING:
-    from tests.mutations.mutations import Editions
 
 # Words are changed in so many of the specs in which they have a place.
 SOME = 4

@@ -6,23 +6,24 @@ others for each `--seed`; `--sample all` takes every change, as `make fuzz` does
 whose description holds a text, as a failure shows it.
 """
 
-from __future__ import annotations
-
 import random
 import shutil
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from framegen.compile import Compiled
 from framegen.reading.yamltree import Unusable
 from framegen.targets import python
 from framegen.targets.python.names import names_of
 
-from tests.factories import compiled_of
+from tests.factories import Data, compiled_of
 from tests.lines.every_method import converse
 from tests.mutations.healing import healed
 from tests.mutations.mutants import (
+    Mutant,
     rotations,
     singly,
     specs,
@@ -33,16 +34,7 @@ from tests.mutations.mutants import (
 )
 from tests.side_by_side import Library, imported, library_of, linted, type_checked
 from tests.unit.site.compared import not_inert, pages_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from framegen.compile import Compiled
-
-    from tests.factories import Data
-    from tests.mutations.mutants import Mutant
-    from tests.unit.site.reference import Reference
+from tests.unit.site.reference import Reference
 
 # How many of each are some: specs full of odd text, and specs with one thing changed. Type checkers
 # look at so many of each batch: they take as long for one as all else for twenty.

@@ -1,18 +1,12 @@
 """The drawings of the guides in a real browser: shown from the disk, and readable."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
 from tests.unit.site.browser import Visit, needs_chromium
 from tests.unit.site.test_drawings import DRAWINGS, drawings
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from playwright.sync_api import Browser
 
 pytestmark = needs_chromium
 

@@ -4,28 +4,22 @@ Frames take their time at 9600 baud both ways, and every fifth reply meets a fau
 lost or torn here, so that no call has to wait for its time to be over, on however slow a machine.
 """
 
-from __future__ import annotations
-
 import asyncio
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from random import Random
-from typing import TYPE_CHECKING
 
 import pytest
 from busservo import AsyncController, Controller, open_async_controller, open_controller
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.conversation import SIX, Conversation, repeated
+from tests.contract.independent.conversation import SIX, Conversation, Requested, repeated
+from tests.contract.independent.faults import Script
 from tests.contract.independent.ports import Port, PtyPort, TcpPort
 from tests.lines.at_once import at_once
 from tests.timeouts import GENEROUS, await_that
-
-if TYPE_CHECKING:
-    from tests.contract.independent.conversation import Requested
-    from tests.contract.independent.faults import Script
 
 PORTS = [TcpPort] if sys.platform == "win32" else [PtyPort, TcpPort]
 BAUD = 9600

@@ -1,10 +1,10 @@
 """Boards on the line of a page, in a real browser: what they say, and all that can go wrong."""
 
-from __future__ import annotations
-
 import io
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import busservo
 import pytest
@@ -13,21 +13,14 @@ from busservo._library import CODEC
 from busservo_simulator import Faults, VirtualController
 from framegen.cli import main
 from lxservo_simulator import VirtualBus
+from playwright.sync_api import Browser
 
 from tests.contract.independent import faults
 from tests.contract.independent.board import Board
+from tests.contract.independent.faults import Script
 from tests.unit.site.browser import Visit, needs_chromium
 from tests.unit.site.reference import ROOT
-from tests.unit.site.serial_host import IndependentEnd, LiveTab, SerialHost, VirtualEnd
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from playwright.sync_api import Browser
-
-    from tests.contract.independent.faults import Script
-    from tests.unit.site.serial_host import End
+from tests.unit.site.serial_host import End, IndependentEnd, LiveTab, SerialHost, VirtualEnd
 
 VOLTAGE = BatteryVoltage(7500).encode()
 

@@ -1,11 +1,12 @@
 """The live fields on the pages of messages, in a real browser: used, and looked at after use."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from framegen.cli import main
+from playwright.sync_api import Browser, Locator
+from playwright.sync_api import Page as Tab
 
 from tests.factories import BUSSERVO, compiled_file, vectors_of
 from tests.protocols.specs import FILES
@@ -13,13 +14,6 @@ from tests.unit.site import looks
 from tests.unit.site.browser import Visit, needs_chromium, site_on_disk, texts
 from tests.unit.site.reference import reference
 from tests.world.conftest import visiting
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from playwright.sync_api import Browser, Locator
-    from playwright.sync_api import Page as Tab
 
 SERVO_MOVE = "messages/ServoMove.html"
 MESSAGES = [f"messages/{name}.html" for name in reference("busservo").model.messages]

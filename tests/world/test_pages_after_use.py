@@ -1,12 +1,13 @@
 """Every page of the site, looked at after use: one table of uses, and one of what is looked at."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from busservo_simulator import VirtualController
+from playwright.sync_api import Browser
+from playwright.sync_api import Page as Tab
 
 from tests.unit.site import looks
 from tests.unit.site.browser import MILLISECONDS, Visit, needs_chromium, project_on_disk
@@ -14,12 +15,6 @@ from tests.unit.site.reference import NODE_MODULES
 from tests.unit.site.serial_host import LiveTab, SerialHost, VirtualEnd
 from tests.unit.site.uses import GUIDE, SERVO_MOVE, USES, WORKBENCH
 from tests.world.conftest import visiting
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from playwright.sync_api import Browser
-    from playwright.sync_api import Page as Tab
 
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 KINDS = ["index.html", "search.html", GUIDE, WORKBENCH, SERVO_MOVE]

@@ -3,23 +3,18 @@
 tests/unit/site/test_search.py has what is found; this has what is shown of it.
 """
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
+from playwright.sync_api import BrowserContext
+from playwright.sync_api import Page as Tab
 
 from tests.factories import write_files
 from tests.unit.site.browser import Visit, arrives, needs_chromium, texts
 from tests.unit.site.test_hostile_pages import hostile
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from playwright.sync_api import BrowserContext
-    from playwright.sync_api import Page as Tab
 
 PAGES = [
     "index.html",

@@ -1,7 +1,5 @@
 """The search of the whole site: all that it finds, and that no other page carries the index."""
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cache

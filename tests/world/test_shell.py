@@ -1,10 +1,10 @@
 """The pages of the site in a real browser: what every page has, and the page of a message."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser, BrowserContext
+from playwright.sync_api import Page as Tab
 
 from tests.factories import write_files
 from tests.unit.site.browser import Visit, arrives, decoded, needs_chromium, texts
@@ -12,12 +12,6 @@ from tests.unit.site.looks import faults
 from tests.unit.site.reference import reference
 from tests.unit.site.test_hostile_pages import hostile
 from tests.world.conftest import visiting
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from playwright.sync_api import Browser, BrowserContext
-    from playwright.sync_api import Page as Tab
 
 REFERENCE = "reference/busservo"
 MESSAGE = f"{REFERENCE}/messages/ServoMove.html"

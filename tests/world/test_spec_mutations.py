@@ -14,7 +14,7 @@ from framegen.checks import remarks
 from tests.factories import BUSSERVO, FIRST, Steps, compiled_of, data_of
 from tests.mutations.places import GONE, at, differs, dotted, leaves, nodes, other_way, swaps, with_
 
-Mutation: TypeAlias = "tuple[Steps, Any]"
+Mutation: TypeAlias = tuple[Steps, Any]
 
 TREE: Any = data_of(BUSSERVO)
 MESSAGES: Any = TREE["messages"]

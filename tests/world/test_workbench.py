@@ -1,11 +1,8 @@
 """The workbench in a real browser, after use: noise, files, long captures, links, the encoder."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from busservo import recordings
@@ -14,6 +11,8 @@ from framegen.cli import main
 from framegen.language.values import to_hex
 from framegen.model.codec import encode
 from framewire.command.entries import EntryLines
+from playwright.sync_api import Browser, Locator
+from playwright.sync_api import Page as Tab
 
 from tests.factories import in_larger_unit
 from tests.protocols.specs import FILES, messages_of
@@ -21,10 +20,6 @@ from tests.unit.site.browser import Visit, decoded, needs_chromium, site_on_disk
 from tests.unit.site.looks import WIDTHS, faults
 from tests.unit.site.reference import ROOT, reference
 from tests.world.conftest import visiting
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Locator
-    from playwright.sync_api import Page as Tab
 
 SITE = reference("busservo")
 CUT_OFF = ROOT / "tests" / "captures" / "cut_off.hex"

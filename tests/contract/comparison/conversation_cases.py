@@ -1,16 +1,11 @@
 """Editions that differ in what ends wait for, and what is to be said of each, typed in by hand."""
 
-from __future__ import annotations
+from typing import Any, NamedTuple
 
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-from tests.factories import data_of, first_edition
+from tests.factories import Data, data_of, first_edition
 from tests.mutations.edits import SPECS
 from tests.mutations.places import GONE, with_
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from tests.factories import Data
 
 
 def _some(data: Data, *beginnings: str) -> Data:

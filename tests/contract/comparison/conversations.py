@@ -1,27 +1,21 @@
 """What must hold for the conversations of any two editions."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from framegen.comparison.conversation import conversation_effects
+from framegen.comparison.conversation.device import Kind
 from framegen.comparison.conversation.outcome import OUTCOMES, outcome_of
-from framegen.comparison.conversation.play import OTHER, Table
+from framegen.comparison.conversation.play import OTHER, Play, Table
+from framegen.comparison.effect import Which
+from framegen.comparison.pair import Pair
 from framegen.model.codec import encode
+from framegen.model.exchanges import Exchange
 from hypothesis import strategies as st
 
 from tests.protocols.specs import values_for
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.comparison.conversation.device import Kind
-    from framegen.comparison.conversation.play import Play
-    from framegen.comparison.effect import Which
-    from framegen.comparison.pair import Pair
-    from framegen.model.exchanges import Exchange
 
 SIDES: tuple[Which, Which] = ("old", "new")
 # What is said whatever worked between two ends of the old edition.
@@ -74,11 +68,11 @@ def assert_nothing_ends_worse(pair: Pair, data: st.DataObject) -> None:
         exchanges = [*table.clients[client].exchanges.values()]
         some = data.draw(st.permutations(exchanges))[:_SOME]
         for exchange in some:
-            worst: dict[Kind, int] = {}
+            worst = Counter[Kind]()
             for play in table.plays(client, exchange):
-                worst[play.kind] = max(worst.get(play.kind, 0), _badness(table, play))
+                worst[play.kind] = max(worst[play.kind], _badness(table, play))
             for play in _drawn(table, client, exchange, data):
-                assert _badness(table, play) <= worst.get(play.kind, 0), play
+                assert _badness(table, play) <= worst[play.kind], play
 
 
 def _badness(table: Table, play: Play) -> int:

@@ -1,19 +1,23 @@
 """The ends of a line as they are generated: the client of one edition, the device of another."""
 
-from __future__ import annotations
-
 import importlib
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
-from framegen.comparison.conversation.exchange_effects import verdicts
-from framegen.comparison.conversation.play import OTHER, Table
+from framegen.comparison.conversation.exchange_effects import Verdict, verdicts
+from framegen.comparison.conversation.play import OTHER, Play, Table
 from framegen.comparison.edges import values_to_try
+from framegen.comparison.edition import Edition
+from framegen.comparison.effect import Which
+from framegen.comparison.pair import Pair
 from framegen.compile import Compiled
 from framegen.language.spec import Example
 from framegen.model.codec import encode
+from framegen.model.exchanges import Exchange
 from framegen.model.model import derive
 from framegen.render import render_target
 from framegen.targets import python
@@ -22,17 +26,6 @@ from tests.factories import library
 from tests.handed import handed_by
 from tests.lines.timed_line import DeviceLine, client_on
 from tests.protocols.libraries import made_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
-
-    from framegen.comparison.conversation.exchange_effects import Verdict
-    from framegen.comparison.conversation.play import Play
-    from framegen.comparison.edition import Edition
-    from framegen.comparison.effect import Which
-    from framegen.comparison.pair import Pair
-    from framegen.model.exchanges import Exchange
 
 # Virtual seconds in which all comes that may come.
 LONG = 5.0

@@ -4,15 +4,20 @@ It shares no code with framegen's comparison. What an end makes of a frame is wh
 its edition makes of it; who is who, the author has told.
 """
 
-from __future__ import annotations
-
 import warnings
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
+
+from framegen.language.values import Direction
+from framegen.model.layout import MessageLayout
 
 from tests.contract.comparison.quantities import judge_numbers, said_again
+from tests.factories import Data
 from tests.mutations.authors import parts_of
+from tests.mutations.mutations import Editions
 from tests.mutations.things import (
     Match,
     arguments_of,
@@ -22,16 +27,6 @@ from tests.mutations.things import (
     worked_out,
 )
 from tests.protocols.libraries import direction_of, made_of, values_in
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from types import ModuleType
-
-    from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout
-
-    from tests.factories import Data
-    from tests.mutations.mutations import Editions
 
 ORDER = ("same", "in part", "uncertain", "refused", "misread")
 

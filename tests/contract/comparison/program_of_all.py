@@ -4,23 +4,19 @@ Each statement is an expression by itself, so that one that fails or gives anoth
 is broken. What a statement gives is told in values and names, never in bytes.
 """
 
-from __future__ import annotations
-
 import enum
 import importlib
 import inspect
 import math
+from collections.abc import Callable, Iterator, Mapping
 from itertools import cycle, islice
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 from framegen.model.exchanges import snake_case
 
 from tests.handed import handed_by
 from tests.lines.timed_line import ScriptedLine, client_on
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-    from types import ModuleType
 
 # What goes with any change, and what is there for the library itself.
 _PASSING = {"VENDOR_NAME", "DEPRECATED", "LENGTHS", "FRAME", "IDS", "DEFAULTS", "CONSTANTS"}

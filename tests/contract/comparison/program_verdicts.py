@@ -1,11 +1,11 @@
 """What becomes of a program that uses all of an old library, when it is given the new one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
 
+from framegen.comparison.edition import Edition
+from framegen.comparison.effect import Effect
+from framegen.comparison.pair import Pair
 from framegen.comparison.programs import program_effects
 from framegen.comparison.programs.rendered import NoLibrary, rendered
 from framegen.model.exchanges import method_of, snake_case
@@ -13,11 +13,6 @@ from framegen.targets.python.names import names_of
 
 from tests.contract.comparison.program_of_all import fails, namespace, program, run
 from tests.factories import library
-
-if TYPE_CHECKING:
-    from framegen.comparison.edition import Edition
-    from framegen.comparison.effect import Effect
-    from framegen.comparison.pair import Pair
 
 # What a program notices in a type checker alone, or at a line that is not there.
 _UNSEEN = ("type", "meaning", "raises", "result")

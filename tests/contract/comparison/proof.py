@@ -1,32 +1,23 @@
 """A second opinion on any two editions: the verdict on the wire is how their libraries talk."""
 
-from __future__ import annotations
-
 import ast
+from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
 from itertools import chain, zip_longest
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.comparison.changes import changes
 from framegen.comparison.comparison import Comparison
-from framegen.comparison.effect import OUTCOMES
+from framegen.comparison.edition import Edition
+from framegen.comparison.effect import OUTCOMES, Witness
 from framegen.comparison.explained import is_documentation
-from framegen.comparison.wire import try_out, wire_effects
+from framegen.comparison.pair import Pair
+from framegen.comparison.wire import Trial, Trials, try_out, wire_effects
 
-from tests.contract.comparison.talks import SENDERS
+from tests.contract.comparison.oracle import Oracle
+from tests.contract.comparison.talks import SENDERS, Talk
 from tests.factories import library_files
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
-
-    from framegen.comparison.edition import Edition
-    from framegen.comparison.effect import Witness
-    from framegen.comparison.pair import Pair
-    from framegen.comparison.wire import Trial, Trials
-
-    from tests.contract.comparison.oracle import Oracle
-    from tests.contract.comparison.talks import Talk
-    from tests.protocols.peer import Values
+from tests.protocols.peer import Values
 
 # Of the frames of a message, so many are judged again, and of the rest one of so many.
 _ALL_OF = 60

@@ -1,7 +1,5 @@
 """What raw numbers mean, worked out from what a spec says of them, apart from framegen."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from typing import Any

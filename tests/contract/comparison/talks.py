@@ -1,29 +1,21 @@
 """Both libraries of two editions, and what the ends of a line make of each other's frames."""
 
-from __future__ import annotations
-
 import atexit
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Literal
+from types import ModuleType
+from typing import Literal
 
+from framegen.comparison.edition import Edition
+from framegen.comparison.effect import Witness
 from framegen.comparison.pair import Pair
-from framegen.comparison.wire import trials_of
+from framegen.comparison.wire import Trial, Trials, trials_of
 
 from tests.contract.comparison.oracle import Oracle
-from tests.factories import library, library_files
+from tests.factories import Data, library, library_files
 from tests.mutations.authors import edition_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
-
-    from framegen.comparison.edition import Edition
-    from framegen.comparison.effect import Witness
-    from framegen.comparison.wire import Trial, Trials
-
-    from tests.factories import Data
-    from tests.mutations.mutations import Editions
+from tests.mutations.mutations import Editions
 
 Sender = Literal["old", "new"]
 SENDERS: tuple[Sender, Sender] = ("old", "new")

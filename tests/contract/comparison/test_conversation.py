@@ -1,16 +1,16 @@
 """What ends of two editions say to each other: the verdicts, held against ends that talk."""
 
-from __future__ import annotations
-
 from functools import cache
 from itertools import islice, product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.comparison.conversation import conversation_effects
 from framegen.comparison.conversation.client import Client
 from framegen.comparison.conversation.play import OTHER, Table
 from framegen.comparison.conversation.report_effects import acknowledges
+from framegen.comparison.effect import Effect, Which
+from framegen.comparison.pair import Pair
 from framegen.reading.yamltree import dotted
 
 from tests.contract.comparison import conversations
@@ -22,10 +22,6 @@ from tests.in_turn import in_turn
 from tests.mutations.edits import pair_of
 from tests.mutations.mutations import SPECS
 from tests.mutations.places import with_
-
-if TYPE_CHECKING:
-    from framegen.comparison.effect import Effect, Which
-    from framegen.comparison.pair import Pair
 
 WHICH: tuple[Which, Which] = ("old", "new")
 

@@ -1,7 +1,5 @@
 """What breaks in programs: told from the two libraries, and seen in a program that uses them."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

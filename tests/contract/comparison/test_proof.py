@@ -3,10 +3,8 @@
 All mutations of all specs are in tests/world/test_comparison.py.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from contextlib import ExitStack
-from typing import TYPE_CHECKING
 
 import pytest
 from framegen.comparison.pair import Pair
@@ -16,14 +14,9 @@ from hypothesis import strategies as st
 from tests.contract.comparison import proof
 from tests.contract.comparison.talks import Talk
 from tests.in_turn import in_turn
-from tests.mutations.mutations import after
+from tests.mutations.mutations import Editions, after
 from tests.mutations.word_mutations import WORD_MUTATIONS
 from tests.protocols.specs import values_for
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.mutations.mutations import Editions
 
 # Small specs, and a mutation or two of each kind.
 SAMPLE = (

@@ -1,13 +1,8 @@
 """A second opinion: a serial line bit by bit, and what a receiver makes of the levels on it."""
 
-from __future__ import annotations
+from collections.abc import Iterator
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framegen.language.spec import Link
+from framegen.language.spec import Link
 
 # The clocks of both ends are off by so much, one this way and one that.
 DRIFT = 0.0125

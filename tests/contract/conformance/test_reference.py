@@ -69,7 +69,7 @@ def test_the_reference_reports_as_early_as_the_oracle(
 # --- The libraries and the reference -------------------------------------------------------------
 
 # By spec, a library as a function from questions to answers.
-Answers: TypeAlias = "dict[str, Callable[[str], list[str]]]"
+Answers: TypeAlias = dict[str, Callable[[str], list[str]]]
 
 OTHERS = ["demo", "blinds", "lamp", "weather"]
 

@@ -3,50 +3,43 @@
 What is wrong is returned in words, one text for each fault; nothing is raised.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import random
 import traceback
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 from framegen.conformance.comparison import compare
 from framegen.conformance.dice import Dice, random_values
 from framegen.conformance.further import further
-from framegen.conformance.language import Stream
+from framegen.conformance.language import Question, Stream
 from framegen.conformance.program import Reply
 from framegen.conformance.questions import questions
 from framegen.explain import explain
+from framegen.language.values import Direction
 from framegen.model.apart import begun
 from framegen.model.codec import encode, values_of
+from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 from framegen.model.verdict import weigh_whole
 from framegen.targets.python.names import names_of
 from hypothesis import given
 
+from tests.contract.crossed.scripts import Scripts
 from tests.factories import library, library_files
 from tests.handed import answers_of, explanations_of
 from tests.lines.every_method import converse
+from tests.mutations.crossed import Crossed
 from tests.protocols.libraries import direction_of, values_in
 from tests.unit.runtime.tables.rows import places_of_reference, rows_in_tables, rows_of_decoder
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-    from types import ModuleType
-
-    from framegen.conformance.language import Question
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
-
-    from tests.contract.crossed.scripts import Scripts
-    from tests.mutations.crossed import Crossed
-
-    Asked = list[tuple[str, Question]]
+Asked = list[tuple[str, Question]]
 
 # Of the published questions of a spec so many are asked, and so many that nobody published: most
 # are like those of others. So many lines are read as tables, with one of these sizes of a block.

@@ -1,11 +1,11 @@
 """The codec of the pages under Node.js: one process for all protocols, one after the other."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 from framegen.conformance.program import Program
+from framegen.model.model import Model
 from framegen.site.policy import script
 from framegen.site.scripts.codec_scripts import codec_scripts
 from framegen.site.scripts.protocol_data import protocol_data
@@ -13,12 +13,6 @@ from framegen.site.scripts.protocol_data import protocol_data
 from tests.contract.conformance.answerers import ANSWER
 from tests.protocols.specs import model_of
 from tests.unit.site.reference import NODE
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from framegen.model.model import Model
 
 # How long an answer may take: long, on a machine that does much else.
 SECONDS = 60.0

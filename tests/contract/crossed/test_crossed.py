@@ -8,9 +8,7 @@ and the command that repeats it alone.
 These are the first few; tests/world/test_crossed.py has others.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import pytest
 
@@ -18,9 +16,6 @@ from tests.contract.crossed.held import faults
 from tests.contract.crossed.scripts import Scripts
 from tests.mutations.crossed import crossed
 from tests.unit.site.reference import NODE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 SEEDS = range(1, 7)
 

@@ -1,9 +1,7 @@
 """Frames of every kind explained: by the reference and by the libraries alike, byte by byte."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import pytest
 from framegen.explain import explain
@@ -11,22 +9,16 @@ from framegen.model.checksums import CHECK_DATA, CHECKSUMS
 from framegen.model.codec import decode
 from framegen.model.protocol import method_terms
 from framewire.explain.checksum import checksum
+from framewire.explain.explanation import Row
 from framewire.explain.text import as_json, as_text
 
 from tests.factories import compiled_of, data_in, library, library_files
 from tests.handed import explanations_of
 from tests.in_turn import in_turn
+from tests.protocols.libraries import Libraries
 from tests.protocols.specs import FILES, messages_of, model_of
 from tests.rows import each_protocol
 from tests.unit.site.peers import noisy_lines
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from framewire.explain.explanation import Row
-
-    from tests.protocols.libraries import Libraries
-
 
 METHODS = [(name, width) for name, method in CHECKSUMS.items() for width in method.widths]
 EXAMPLES = [

@@ -1,13 +1,13 @@
 """The generated libraries: the same frames, values and refusals as the reference."""
 
-from __future__ import annotations
-
 import doctest
+from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.cases.lengthened import lengthened
+from framegen.language.values import Direction
 from framegen.model.apart import begun
 from framegen.model.codec import NotAFrame, decode, encode
 from framegen.model.stream import ReferenceDecoder
@@ -17,16 +17,10 @@ from hypothesis import strategies as st
 from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.libraries import Libraries, direction_of, made_of, values_in
+from tests.protocols.peer import Values
 from tests.protocols.specs import FILES, messages_of, model_of, values_of
 from tests.protocols.streams import LARGE, all_ways, lines
 from tests.rows import each_protocol
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from framegen.language.values import Direction
-
-    from tests.protocols.peer import Values
 
 # No checksum ends their frames.
 UNPROVEN = {"everything", "gauges", "sbus", "visca"}

@@ -1,24 +1,19 @@
 """The programs of others on one end of a line, and a generated device or client on the other."""
 
-from __future__ import annotations
-
 import asyncio
 import importlib
 import sys
 import threading
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 import serial
 
+from tests.protocols.libraries import Libraries
 from tests.protocols.peer import MISSING
 from tests.timeouts import GENEROUS, LIVE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.protocols.libraries import Libraries
 
 if sys.platform == "win32":
     pytest.skip("Windows has no pty", allow_module_level=True)

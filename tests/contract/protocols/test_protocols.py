@@ -1,8 +1,7 @@
 """Protocols that others made: each spec holds what they read and write, and uses the language."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from framegen.language import spec
@@ -16,16 +15,11 @@ from tests.few_each import few_each
 from tests.in_turn import in_turn
 from tests.protocols.actuator_sdk import DynamixelSdk
 from tests.protocols.by_hand import BY_HAND
+from tests.protocols.peer import Peer
 from tests.protocols.receiver_messages import Pyubx2
 from tests.protocols.register_messages import Pymodbus
 from tests.protocols.servo_clients import LewansoulLx16a, Pylx16a
 from tests.protocols.specs import FILES, SPOKEN, messages_of, model_of, values_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.protocols.peer import Peer
-
 
 # What others wrote for the same protocols, from the package index. A peer is asked for as many
 # messages as it knows, on a line that ends in this process; what it cannot say is narrowed.

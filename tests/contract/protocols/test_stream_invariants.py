@@ -1,12 +1,13 @@
 """The stream decoders of libraries: what they promise, also against lines made to cost much."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from copy import copy
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
+from framegen.language.values import Direction
+from framegen.model.layout import MessageLayout
 from framegen.model.slots import Constant, Number
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
@@ -20,12 +21,6 @@ from tests.protocols.streams import all_ways, lines, read_by_reference, told
 from tests.rows import each_protocol, some
 from tests.strategies import pieces
 from tests.unit.runtime.codec.test_stream import calls
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from framegen.language.values import Direction
-    from framegen.model.layout import MessageLayout
 
 EACH_WAY = [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
 each_name = pytest.mark.parametrize("name", each_protocol(FILES))

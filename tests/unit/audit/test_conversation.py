@@ -18,7 +18,7 @@ HOST, BOARD = "host", "controller"
 GATHER, ONE, TWO = "55 55 FE 03 0E F0", "55 55 01 04 0E 01 EB", "55 55 02 04 0E 02 E9"
 ASK_TWO = "55 55 02 03 0E EC"
 # Lines as (time, sender, frame); then requests, answered, unanswered, unsolicited, and times.
-Line: TypeAlias = "tuple[float, str, str]"
+Line: TypeAlias = tuple[float, str, str]
 CASES: dict[str, list[tuple[list[Line], tuple[int, int, int, int], list[float]]]] = {
     "BatteryVoltageRead": [
         ([(0, HOST, ASK), (0.5, BOARD, TELL)], (1, 1, 0, 0), [0.5]),

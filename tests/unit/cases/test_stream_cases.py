@@ -1,28 +1,20 @@
 """The stream vectors: each shows one thing, all reasons are there, and few change at once."""
 
-from __future__ import annotations
-
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
-from framegen.cases.stream_case import chunks, single_bytes
+from framegen.cases.stream_case import StreamCase, chunks, single_bytes
 from framegen.cases.streams import senders_of, streams
 from framegen.cases.unknown_id import unknown_id
 from framegen.compile import compile_spec
-from framegen.model.stream import ReferenceDecoder
+from framegen.language.values import Direction
+from framegen.model.model import Model
+from framegen.model.stream import Event, ReferenceDecoder
 from framewire.explain import refusals
 
 from tests.factories import BUSSERVO, DEMO, compiled_file, compiled_of, data_of, layout_of
 from tests.unit.runtime.codec.test_linear import many
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from framegen.cases.stream_case import StreamCase
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
-    from framegen.model.stream import Event
 
 OTHERS = [DEMO.with_name(f"{name}.yaml") for name in ("blinds", "lamp", "weather")]
 SPECS = [BUSSERVO, DEMO, *OTHERS]

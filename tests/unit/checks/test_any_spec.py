@@ -1,10 +1,9 @@
 """Any spec, however wrong, is checked without a crash, and refused in plain words."""
 
-from __future__ import annotations
-
 import copy
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from framegen.compile import compile_spec
 from framegen.language import misfit
@@ -15,14 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from tests.factories import BUSSERVO, data_of, kiln
+from tests.factories import BUSSERVO, Steps, data_of, kiln
 from tests.in_turn import in_turn
 from tests.mutations.places import at, nodes, with_
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.factories import Steps
 
 words = st.sampled_from(
     [

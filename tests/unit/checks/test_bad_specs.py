@@ -1,14 +1,14 @@
 """`framegen check`: every rule finds what it is for, at its place, and nothing else."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.checks import REMARKS, RULES, remarks
+from framegen.checks.rule import AnyRule
 from framegen.compile import compile_spec
+from framegen.reading.findings import Finding
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable
 
@@ -17,11 +17,6 @@ from tests.bad_specs import bad_spec
 from tests.in_turn import in_turn
 from tests.mutations.spec_edits import EditError, edited
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from framegen.checks.rule import AnyRule
-    from framegen.reading.findings import Finding
-
 
 REMARKED = {rule.id for rule in REMARKS}
 

@@ -4,27 +4,21 @@ One of the specs has every kind of part and field. What the frames of a spec do 
 is listed in BLIND, each with the reason, and held to be unseen.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 from pydantic import ValidationError
 
 from tests.bad_specs import BASES
-from tests.factories import DEMO, compiled_of, compiled_values, data_of
+from tests.factories import DEMO, Data, Steps, compiled_of, compiled_values, data_of
 from tests.in_turn import in_turn
 from tests.mutations.kinds import OTHER_FACTS, keys_of_the_language, other_facts
 from tests.mutations.places import dotted, facts, with_
 from tests.rows import Rows
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tests.factories import Data, Steps
-
-Mutation: TypeAlias = "tuple[Steps, Any]"
+Mutation: TypeAlias = tuple[Steps, Any]
 
 SPECS = {name: data_of(BASES / f"{name}.yaml") for name in ("bus", "scales")}
 SPECS["everything"] = data_of(DEMO.with_name("everything.yaml"))

@@ -1,15 +1,13 @@
 """The rules of `framegen check`: their descriptions, and findings that no bad spec shows."""
 
-from __future__ import annotations
-
 import re
 import textwrap
-from typing import TYPE_CHECKING
 
 import pytest
 from framegen import checks
 from framegen.checks import RULES
 from framegen.checks.reading import READING_RULES
+from framegen.checks.rule import AnyRule
 from framegen.compile import compile_spec
 from framegen.reading.source import Source
 
@@ -17,12 +15,7 @@ from tests import bad_specs
 from tests.factories import BUSSERVO, DEMO, ROOT, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.mutations.places import having
-from tests.mutations.spec_edits import edited
-
-if TYPE_CHECKING:
-    from framegen.checks.rule import AnyRule
-
-    from tests.mutations.spec_edits import Edit
+from tests.mutations.spec_edits import Edit, edited
 
 FILED = [rule for rule in RULES if rule not in READING_RULES]
 

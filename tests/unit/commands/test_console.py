@@ -29,7 +29,7 @@ from tests.programs import ran
 from tests.rows import Rows
 from tests.timeouts import GENEROUS
 
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
+Capture: TypeAlias = pytest.CaptureFixture[str]
 
 not_windows = pytest.mark.skipif(sys.platform == "win32", reason="its streams close otherwise")
 SPEC = str(ROOT / "spec" / "busservo.yaml")

@@ -15,7 +15,7 @@ from tests.in_turn import in_turn
 from tests.mutations.spec_edits import change
 
 # Kind, file and subject.
-Missing: TypeAlias = "tuple[str, str, str]"
+Missing: TypeAlias = tuple[str, str, str]
 
 CASES, ORACLE = "tests/cases.py", "tests/oracle.py"
 CONTRACT = "tests/contract/test_client_contract.py"

@@ -1,21 +1,15 @@
 """The examples of the rules of change, built into a small spec: both editions, as data."""
 
-from __future__ import annotations
-
 import copy
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from framegen.comparison.changes.change import ChangeRule
 from framegen.language.spec import Spec
 from framegen.model.model import derive
 
 from tests.bad_specs import BASES
-from tests.factories import data_in, data_of
-
-if TYPE_CHECKING:
-    from framegen.comparison.changes.change import ChangeRule
-
-    from tests.factories import Data
+from tests.factories import Data, data_in, data_of
 
 # What an example leaves out, as it does not matter to it.
 _MESSAGE = {"direction": "host -> lamp", "summary": "A message.", "cite": "manual", "length": 0}

@@ -1,23 +1,17 @@
 """The page of the rules of change: each with its example, and what that really breaks."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 from framegen.comparison.changes import CHANGE_RULES
+from framegen.comparison.changes.change import ChangeRule
 from framegen.comparison.comparison import Comparison
+from framegen.comparison.effect import Effect
 from framegen.comparison.report.ends import all_ends, ends_of
 from framegen.comparison.report.verdict import standing
 
 from tests.documents import ROOT
 from tests.mutations.edits import edition
 from tests.unit.comparison.rule_examples import example
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from framegen.comparison.changes.change import ChangeRule
-    from framegen.comparison.effect import Effect
 
 PAGE = ROOT / "docs" / "what-changes-break.md"
 

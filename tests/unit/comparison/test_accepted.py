@@ -1,25 +1,18 @@
 """Accepted breaks: what one covers, and what it does not: ids and names that are used again."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from framegen.comparison.accepted import accepted_breaks, ignored_breaks
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.due import due
+from framegen.comparison.effect import Effect
 from framegen.comparison.report import FORMATS
 from framegen.comparison.report.verdict import UNCERTAIN, USUAL_FAILURES, exit_status
 from framegen.comparison.report.view import View
 
+from tests.factories import Data
 from tests.in_turn import in_turn
 from tests.mutations.edits import edition
 from tests.mutations.houses import DATA, DOOR, LIMIT, REASON, WINDOW, house
-
-if TYPE_CHECKING:
-    from framegen.comparison.effect import Effect
-
-    from tests.factories import Data
 
 
 def effects(old: Data, new: Data) -> list[Effect]:

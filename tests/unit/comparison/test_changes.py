@@ -1,30 +1,24 @@
 """What became of what between two editions: each change is told, once, and both ways alike."""
 
-from __future__ import annotations
-
 import copy
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.checks import RULES
 from framegen.comparison import changes as rules
 from framegen.comparison.changes import CHANGE_RULES, changes
+from framegen.comparison.changes.change import Change, ChangeRule
 from framegen.comparison.edition import Edition
 from framegen.comparison.pair import Pair
 
-from tests.factories import ROOT, compiled_of, data_of
+from tests.factories import ROOT, Data, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.mutations.edits import EDITS, SERVO, SPECS, edition, pair_of
 from tests.mutations.kinds import keys_of_the_language
 from tests.mutations.leaves import mirrored, told_at_their_places, turned
 from tests.mutations.places import GONE, having, leaves, renamed, with_
 from tests.unit.comparison.rule_examples import example
-
-if TYPE_CHECKING:
-    from framegen.comparison.changes.change import Change, ChangeRule
-
-    from tests.factories import Data
 
 EXPECTED = data_of(ROOT / "tests" / "unit" / "comparison" / "changes.yaml")
 BY_ID = in_turn("rule", lambda: CHANGE_RULES)

@@ -1,8 +1,9 @@
 """`framegen diff`: what it prints, and the exit code that it gives to what breaks."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import pytest
 from framegen.cli import main
@@ -19,11 +20,8 @@ from tests.mutations.edits import SPECS
 from tests.mutations.places import renamed, with_
 from tests.repository import commit, start
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
-Writes: TypeAlias = "Callable[..., list[str]]"
+Capture: TypeAlias = pytest.CaptureFixture[str]
+Writes: TypeAlias = Callable[..., list[str]]
 
 LAMP = (ROOT / "tests" / "specs" / "lamp.yaml").read_text(encoding="utf-8")
 HOUSE = SPECS["greenhouse"]

@@ -1,21 +1,15 @@
 """Which bump of the version is due, and what is said of a version that does not have it."""
 
-from __future__ import annotations
-
 from itertools import product
-from typing import TYPE_CHECKING
 
 from framegen.comparison.changes.change import Change
-from framegen.comparison.due import due, next_version, version_finding
+from framegen.comparison.due import Bump, due, next_version, version_finding
 from framegen.comparison.effect import Effect
 from framegen.language.version import STAGES, Version
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from framegen.comparison.due import Bump
 
 HERE = ("messages", "LampFade")
 BREAKS = Effect("wire", "refused", HERE, HERE, "it is refused")

@@ -1,20 +1,13 @@
 """The entry of a version in the history: what users notice first, of words no more than a few."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from framegen.comparison.comparison import Comparison
 from framegen.comparison.entry import sentences
 
 from tests.bad_specs import BASES
-from tests.factories import DEMO, data_of
+from tests.factories import DEMO, Data, data_of
 from tests.mutations.edits import edition
 from tests.mutations.places import having, renamed
-
-if TYPE_CHECKING:
-    from tests.factories import Data
 
 OLD = data_of(DEMO)
 

@@ -1,7 +1,5 @@
 """Which changes explain an effect."""
 
-from __future__ import annotations
-
 from functools import reduce
 
 from framegen.comparison.changes import changes

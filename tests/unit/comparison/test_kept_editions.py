@@ -1,13 +1,14 @@
 """Every kept edition counts: what an older one misreads is told once, with the way out."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import pytest
 from framegen.comparison import kept
 from framegen.comparison.comparison import Comparison
+from framegen.comparison.edition import Edition
+from framegen.comparison.effect import Effect
 from framegen.comparison.kept import look_at_kept
 from framegen.comparison.pair import Pair
 from framegen.comparison.partners import Listed
@@ -16,19 +17,12 @@ from framegen.comparison.report.view import View
 from framegen.comparison.wire import Trial
 from framegen.reading.yamltree import Unusable
 
+from tests.factories import Data
 from tests.in_turn import in_turn
 from tests.mutations.edits import edition
 from tests.mutations.houses import DOOR, LIMIT, REASON, WAY, WINDOW, house
 from tests.mutations.mutations import after
 from tests.second_reader import Reader
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from framegen.comparison.edition import Edition
-    from framegen.comparison.effect import Effect
-
-    from tests.factories import Data
 
 GATE = {**DOOR, "summary": "A gate is open."}
 OTHER = {**GATE, "fields": {"gate": {"type": "i8", "about": "Which gate."}}}

@@ -1,14 +1,12 @@
 """`framegen release`: the version that is due, what the spec then says, and the edition kept."""
 
-from __future__ import annotations
-
 import io
 import json
 from contextlib import redirect_stdout
 from functools import partial
 from pathlib import Path
 from shutil import copytree
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 from framegen.cli import main
@@ -24,10 +22,7 @@ from tests.factories import data_of, write_files
 from tests.mutations.spec_edits import change as change_file
 from tests.mutations.spec_edits import edited
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
+Capture: TypeAlias = pytest.CaptureFixture[str]
 
 SPEC = Path("spec/lamps.yaml")
 change = partial(change_file, SPEC)
@@ -365,7 +360,7 @@ def test_a_run_that_the_disk_stops_is_finished_by_the_next(
     change(NEW)
     before = files()
     left = iter(range(moves))
-    move: Callable[[Path, Path], None] = disk.move
+    move = disk.move
 
     def fail(old: Path, new: Path) -> None:
         if next(left, None) is None:

@@ -1,7 +1,5 @@
 """The page of the rules of change says what the rules say, and what their examples break."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

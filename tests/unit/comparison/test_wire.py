@@ -1,25 +1,17 @@
 """What one end makes of a frame of the other: single frames, by hand."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from framegen.comparison.edges import values_to_try
-from framegen.comparison.effect import OUTCOMES
+from framegen.comparison.effect import OUTCOMES, Which
 from framegen.comparison.meaning import translated
+from framegen.comparison.pair import Pair
 from framegen.comparison.wire import trials_of, try_out, wire_effects
+from framegen.model.layout import MessageLayout
 
+from tests.factories import Data, Steps
 from tests.mutations.edits import ALL, LISTS, SPECS, pair_of
 from tests.mutations.houses import DOOR, WAY, house
 from tests.mutations.places import GONE, with_
-
-if TYPE_CHECKING:
-    from framegen.comparison.effect import Which
-    from framegen.comparison.pair import Pair
-    from framegen.model.layout import MessageLayout
-
-    from tests.factories import Data, Steps
 
 SERVO = SPECS["busservo"]
 LIST = ("quantity", "bytes_left", "readings")

@@ -3,8 +3,6 @@
 The specs in `specs/editions/N` were right in edition N, and are never edited.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

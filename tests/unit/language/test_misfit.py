@@ -1,9 +1,7 @@
 """Errors of values that do not fit the language, in the language's words."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 import pytest
 from framegen.language.misfit import _keys
@@ -17,15 +15,11 @@ from framegen.language.other_words import (
     other_kind,
     other_type,
 )
+from pydantic import BaseModel
 
 from tests.factories import DEMO, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.mutations.places import having
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from pydantic import BaseModel
 
 VENTS, FIRST = "messages.VentsOpen.fields.vents", "messages.VentsOpen.examples.0"
 NO_TEXT = "text is expected here, not"

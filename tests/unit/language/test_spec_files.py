@@ -1,7 +1,5 @@
 """Spec files: how they are read, and what is refused."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,10 +1,8 @@
 """Versions of specs, paths into them, and former names, which change nothing that is generated."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from shutil import which
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.checks.named import families, former_names
@@ -16,13 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.bad_specs import BASES
-from tests.factories import BUSSERVO, DEMO, ROOT, compiled_file, compiled_of, data_of
+from tests.factories import BUSSERVO, DEMO, ROOT, Data, compiled_file, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.mutations.places import nodes
 from tests.programs import ran
-
-if TYPE_CHECKING:
-    from tests.factories import Data
 
 # In the order of semver.org, section 11.
 ORDERED = [

@@ -1,7 +1,5 @@
 """Decimal digits, two in a byte, are packed numbers: what documents call BCD."""
 
-from __future__ import annotations
-
 import pytest
 from framegen.language.spec import Spec
 from framegen.model.codec import decode, encode

@@ -1,7 +1,5 @@
 """A question whose reply repeats nothing of it is sent whole, by the model and by a client."""
 
-from __future__ import annotations
-
 import importlib
 from typing import Any
 

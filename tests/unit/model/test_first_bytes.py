@@ -1,21 +1,16 @@
 """Where no header begins a frame, the bytes that its first part may begin with."""
 
-from __future__ import annotations
-
 from functools import partial, reduce
 from operator import xor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from framegen.language.spec import Spec
 from framegen.language.values import Direction
 from framegen.model.model import derive
 from framegen.model.stream import ReferenceDecoder
 
-from tests.factories import files_of, library, small_spec
+from tests.factories import Data, files_of, library, small_spec
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from tests.factories import Data
 
 NAMED = {"all": {"value": 0xFF00}}
 # An address in front, and the bytes that can begin it, by hand: 300 is 01 2C, 1000 is 03 E8.

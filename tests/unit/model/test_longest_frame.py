@@ -1,8 +1,7 @@
 """Of the frames that some bytes may begin, the longest counts: a message reads as itself."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import Any
 
 import pytest
 from framegen.language.spec import Spec
@@ -11,13 +10,8 @@ from framegen.model.codec import NotAFrame, decode
 from framegen.model.model import derive
 from framegen.model.stream import Event, ReferenceDecoder
 
-from tests.factories import small_spec
+from tests.factories import Data, small_spec
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from tests.factories import Data
 
 
 def message(length: int, fields: str, **said: Any) -> Data:

@@ -3,26 +3,20 @@
 A frame that is legal in several directions is read in the client's, where none is given.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from framegen.cases.valid import valid_frames
+from framegen.language.values import Direction
 from framegen.model.codec import NotAFrame, decode
+from framegen.model.model import Model
 from framegen.model.stream import ReferenceDecoder
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.factories import BUSSERVO, DEMO, compiled_of, data_of, library, library_files
+from tests.factories import BUSSERVO, DEMO, Data, compiled_of, data_of, library, library_files
 from tests.few_each import few_each
 from tests.protocols.specs import FILES
-
-if TYPE_CHECKING:
-    from framegen.language.values import Direction
-    from framegen.model.model import Model
-
-    from tests.factories import Data
 
 # Of the simplest kind and of others; with frames that are legal both ways, and without.
 SPECS: dict[str, Data] = {

@@ -1,19 +1,13 @@
 """Checksums are worked out in turn: one that another covers comes first, wherever they stand."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from framegen.language.spec import Frame
-from framegen.model.envelope import derive_envelope
+from framegen.model.envelope import Envelope, derive_envelope
 from pydantic import TypeAdapter
 
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from framegen.model.envelope import Envelope
 
 PARTS: Mapping[str, Any] = {"start": {"is": "constant", "bytes": "55"}, "body": {"is": "body"}}
 INNER = {"is": "checksum", "type": "u8", "method": "xor", "covers": ["body"]}

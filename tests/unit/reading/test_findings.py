@@ -1,8 +1,6 @@
 """Findings: their text, their number, and their suggestions."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable
 
 import pytest
 from framegen import checks
@@ -13,14 +11,9 @@ from framegen.reading.findings import MOST_FINDINGS, Finding, did_you_mean, slip
 from framegen.reading.source import Source, Span
 
 from tests.bad_specs import bad_spec
-from tests.factories import BUSSERVO, DEMO, compiled_of, data_of
+from tests.factories import BUSSERVO, DEMO, Data, compiled_of, data_of
 from tests.in_turn import in_turn
 from tests.mutations.places import having
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from tests.factories import Data
 
 
 def test_a_finding_is_shown_with_its_line_and_a_caret() -> None:

@@ -1,21 +1,15 @@
 """Text that is no YAML: what is wrong, where, and what to do, whichever parser stopped."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 import yaml
 from framegen.reading import yamltree
+from framegen.reading.findings import Finding
 from framegen.reading.source import Source
 from framegen.reading.yamltree import Unusable, read_tree
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.in_turn import in_turn
-
-if TYPE_CHECKING:
-    from framegen.reading.findings import Finding
 
 PARSERS = [yaml.SafeLoader, *([yaml.CSafeLoader] if hasattr(yaml, "CSafeLoader") else [])]
 QUOTED = "a text with a colon and a blank in it needs quotes"

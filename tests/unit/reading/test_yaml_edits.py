@@ -1,7 +1,5 @@
 """Edits of YAML text: what is written is read back, and nothing else changes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

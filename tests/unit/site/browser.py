@@ -1,25 +1,19 @@
 """A browser for tests of the pages: headless Chromium, from the disk, with no network."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from framegen.cli import main
+from playwright.sync_api import Browser, BrowserContext, Locator, sync_playwright
+from playwright.sync_api import Page as Tab
 
 from tests.timeouts import GENEROUS
 from tests.unit.site.reference import ROOT, SPECS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from playwright.sync_api import Browser, BrowserContext, Locator
-    from playwright.sync_api import Page as Tab
 
 CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium")
 ARGUMENTS = [
@@ -34,9 +28,8 @@ needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not in
 
 @contextmanager
 def launched() -> Iterator[Browser]:
-    """Start a browser; skip the test where there is no driver for one."""
-    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    with playwright.sync_playwright() as started:
+    """Start a browser."""
+    with sync_playwright() as started:
         running = started.chromium.launch(
             executable_path=CHROMIUM, args=ARGUMENTS, timeout=MILLISECONDS
         )

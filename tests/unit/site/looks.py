@@ -1,12 +1,9 @@
 """What is wrong with a page as it stands in a browser, whatever was done with it before."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Page as Tab
+from playwright.sync_api import Page as Tab
 
 # Widths of a phone at 200 %, a phone, a tablet and a desk.
 WIDTHS = (320, 380, 768, 1440)

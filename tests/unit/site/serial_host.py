@@ -1,20 +1,16 @@
 """A navigator.serial for a page under test, whose ports lead to boards in this process."""
 
-from __future__ import annotations
-
 import time
 from collections import deque
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
+from framewire.simulator.virtual_line import VirtualLine
+from playwright.sync_api import BrowserContext
+from playwright.sync_api import Page as Tab
+
+from tests.contract.independent.board import Board
 from tests.timeouts import GENEROUS
-
-if TYPE_CHECKING:
-    from framewire.simulator.virtual_line import VirtualLine
-    from playwright.sync_api import BrowserContext
-    from playwright.sync_api import Page as Tab
-
-    from tests.contract.independent.board import Board
 
 FAKE_SERIAL = Path(__file__).parent / "fake_serial.js"
 _HOST = """

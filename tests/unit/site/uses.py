@@ -1,17 +1,12 @@
 """What readers do with the pages of the site: a table of pages, and of uses."""
 
-from __future__ import annotations
-
 import random
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+
+from playwright.sync_api import Page as Tab
 
 from tests.unit.site.reference import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from playwright.sync_api import Page as Tab
 
 CAPTURE = (ROOT / "tests" / "captures" / "cut_off.hex").read_text("utf-8")
 MOVE = "55 55 08 03 01 E8 03 01 20 03"

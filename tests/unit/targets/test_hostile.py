@@ -117,7 +117,7 @@ def imports(text: str) -> list[str]:
     return [ast.dump(node) for node in nodes if isinstance(node, ast.Import | ast.ImportFrom)]
 
 
-Traits: TypeAlias = "tuple[str, list[str], list[str]]"
+Traits: TypeAlias = tuple[str, list[str], list[str]]
 
 
 @cache

@@ -17,7 +17,7 @@ from tests.unit.writing.made_once import make_once, the_same_is_made_once
 
 __all__ = ["the_same_is_made_once"]
 
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
+Capture: TypeAlias = pytest.CaptureFixture[str]
 
 WITH_IT = (*table.TARGETS, toy_target.TARGET)
 FOLDER = "generated/greenhouse_toy"

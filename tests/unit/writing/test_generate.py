@@ -29,7 +29,7 @@ from tests.unit.writing.trees import Snapshot, put, snapshot, times
 
 __all__ = ["the_same_is_made_once"]
 
-Capture: TypeAlias = "pytest.CaptureFixture[str]"
+Capture: TypeAlias = pytest.CaptureFixture[str]
 
 DEMO = ROOT / "tests" / "specs" / "demo.yaml"
 TEXT = DEMO.read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ from framegen.output import Output, banner
 from framegen.vendored import RECORD, record
 from framegen.writing.workshop import NAME
 
-Snapshot: TypeAlias = "dict[str, bytes | None]"
+Snapshot: TypeAlias = dict[str, bytes | None]
 
 SPEC = "spec/kiln.yaml"
 BANNER = f"# {banner(SPEC)}\n"

@@ -1,9 +1,5 @@
 """Errors of a device are found, and named; variations that it may have are no fault."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import pytest
 from framegen.conformance.device.judgement import judge
 from framegen.conformance.device.permission import permit
@@ -15,16 +11,13 @@ from hypothesis import strategies as st
 
 from tests.contract.independent import faults, firmware
 from tests.contract.independent.board import Board
-from tests.contract.independent.faults import Piece
+from tests.contract.independent.faults import Piece, Script
 from tests.contract.independent.ports import VirtualPort
 from tests.in_turn import in_turn
 from tests.lines.at_board import end_of, virtual_board
+from tests.lines.devices import Answer
 from tests.lines.timed_line import TimedLine
 from tests.unit.conformance.device.runs import Run, model_of, run
-
-if TYPE_CHECKING:
-    from tests.contract.independent.faults import Script
-    from tests.lines.devices import Answer
 
 MODEL = model_of()
 BATTERY = "BatteryVoltageRead, example 1"
