@@ -1,8 +1,10 @@
 """Editions of the language: old ones are read for ever, newer ones refused before all else.
 
-The specs in `specs/editions/N` were right in edition N, and are never edited.
+The specs in `specs/editions/N` were right in edition N, and are never edited; nor are those in
+`spec/released`, of which none needs more than the first edition.
 """
 
+import re
 from pathlib import Path
 
 import pytest
@@ -12,24 +14,29 @@ from framegen.language.load import read_source
 from framegen.reading.source import Source
 from framegen.reading.yamltree import read_tree
 
-from tests.factories import BUSSERVO, DEMO, data_of
+from tests.factories import BUSSERVO, DEMO, ROOT, data_of
 from tests.in_turn import in_turn
 from tests.mutations.spec_edits import edited
 
 FOLDER = Path(__file__).parents[2] / "specs" / "editions"
 OLD = sorted(FOLDER.glob("*/*.yaml"))
+RELEASED = sorted((ROOT / "spec" / "released").glob("*.yaml"))
 
 
-@pytest.mark.parametrize("file", OLD, ids=lambda file: f"{file.parent.name}-{file.stem}")
+@pytest.mark.parametrize(
+    ("file", "number"),
+    [*((file, int(file.parent.name)) for file in OLD), *((file, 1) for file in RELEASED)],
+    ids=lambda value: getattr(value, "stem", value),
+)
 def test_a_spec_of_an_old_edition_is_read_as_ever_and_says_the_same_in_the_latest(
-    file: Path,
+    file: Path, number: int
 ) -> None:
-    source, number = read_source(file), f"framegen: {file.parent.name}\n"
-    old = compile_spec(source)
+    text = re.sub(r"(?m)^framegen: \d+$", f"framegen: {number}", read_source(file).text)
+    old = compile_spec(Source(file.name, text))
     assert old.findings == []
-    assert old.spec.framegen == int(file.parent.name)
-    text = edited(source.text, (number, f"framegen: {LATEST}\n"))
-    new = compile_spec(Source(source.name, text))
+    assert old.spec.framegen == number
+    text = edited(text, (f"framegen: {number}\n", f"framegen: {LATEST}\n"))
+    new = compile_spec(Source(file.name, text))
     assert new.findings == []
     assert (new.model.roles, new.model.messages) == (old.model.roles, old.model.messages)
 
