@@ -4,8 +4,7 @@ The library is held to this module, so this module shares nothing with it: no im
 table, no arithmetic.  It is slow and says everything once.  In particular no length rule and
 no greatest count is written here.  A frame is *laid out*, construct measures it, and both
 follow: `servos * 3 + 5` is simply what the bytes of a move add up to, and an 84th servo is
-refused because the length byte cannot hold the result.  tests/contract/test_oracle.py then compares
-those consequences with the rules and limits that the documents print.
+refused because the length byte cannot hold the result.
 
 Decided where the documents are silent: a request names at least one servo; a position reply
 may hold none; ids, groups and 16-bit values are limited by their width alone.
