@@ -54,9 +54,6 @@ def oracles_verdict(frame: bytes, direction: Direction | None) -> object:
         return None
 
 
-# --- Single frames -------------------------------------------------------------------------------
-
-
 def test_the_table_has_each_message_and_the_fourteen_examples_of_the_document() -> None:
     named = {(case.direction.value, type(case.message).__name__) for case in CASES}
     assert named == {(way, name) for way, names in oracle.MESSAGES.items() for name in names}
@@ -112,9 +109,6 @@ def test_they_agree_on_every_length_and_command(direction: Direction | None) -> 
                 assert verdict(frame, direction) == oracles_verdict(frame, direction), frame.hex()
 
 
-# --- Streams -------------------------------------------------------------------------------------
-
-
 @given(lines, directions, st.data())
 @example(make_noisy_line.recording(), None, None)
 def test_they_find_the_same_in_any_stream(
@@ -146,9 +140,6 @@ def test_they_agree_on_all_tables_in_one_line(direction: Direction | None) -> No
     assert scanned(read(direction, [line])) == oracle.scan(line, oracles(direction))
 
 
-# --- The noisy line ------------------------------------------------------------------------------
-
-
 def test_the_noisy_line_is_what_its_script_writes() -> None:
     assert (CAPTURES / "noisy_line.bin").read_bytes() == make_noisy_line.recording()
     assert (CAPTURES / "noisy_line.md").read_text(encoding="utf-8") == make_noisy_line.description()
@@ -173,9 +164,6 @@ def test_the_noisy_line_reads_as_its_script_says() -> None:
         assert (offset, event.hex, ", ".join(names)) == (offset, event.hex, event.reads_as)
         offset += len(event.data)
     assert len(owners) == offset
-
-
-# --- Independence --------------------------------------------------------------------------------
 
 
 def test_the_oracle_imports_nothing_but_construct_and_the_standard_library() -> None:

@@ -78,9 +78,6 @@ def plain(values: Any) -> str:
     return json.dumps(values, sort_keys=True)
 
 
-# ------------------------------------------------------------------ streams
-
-
 @st.composite
 def lines_of(draw: st.DrawFn, spec: Data, model: Model, ways: Sequence[str]) -> bytes:
     """Draw a line of some directions."""
@@ -155,9 +152,6 @@ def split(events: Sequence[Event]) -> list[tuple[str, bytes]]:
             else [(event.kind, event.data)]
         )
     ]
-
-
-# ------------------------------------------------------------------ vectors
 
 
 @given(specs())

@@ -52,9 +52,6 @@ def judged(tab: Tab) -> list[tuple[str, str]]:
     return found
 
 
-# ---------------------------------------------------------------------------- all pages
-
-
 @pytest.mark.parametrize("group", GROUPS)
 def test_every_page_is_whole_at_every_width_and_on_paper(visit: Visit, group: str) -> None:
     found = {}
@@ -89,9 +86,6 @@ def test_the_code_of_the_landing_page_is_cut_at_no_width(visit: Visit) -> None:
         assert [box.evaluate(_CUT_AND_LINES) for box in boxes.all()] == [
             [0, each] for each in lines
         ], width
-
-
-# ---------------------------------------------------------------------------- each use
 
 
 @pytest.mark.parametrize("use", USES)
@@ -146,9 +140,6 @@ def test_live_traffic_leaves_the_page_whole(browser: Browser, folder: Path, widt
             assert judged(live.tab) == []
         visit.end()
     context.close()
-
-
-# ---------------------------------------------------------------------------- other circumstances
 
 
 @pytest.mark.parametrize("page", [*KINDS, "404.html", "reference/busservo/changelog.html"])

@@ -204,9 +204,6 @@ def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
     assert "Traceback" not in errors
 
 
-# ---------------------------------------------------------------------------- motion
-
-
 # A key that comes just before a program reads is seen when it has read.
 @pytest.mark.parametrize(
     ("key", "status"), [(CTRL_C + b"\n", 130), (b"\x04", 0), (b"q\nn\n", 0), (b"Q\nyes\n", 0)]

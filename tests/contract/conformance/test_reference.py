@@ -25,8 +25,6 @@ from tests.strategies import directions, lines, oracles
 
 SERVO = compiled_file(BUSSERVO).model
 
-# --- The reference and the oracle ----------------------------------------------------------------
-
 
 def line(direction: Direction | None) -> ReferenceDecoder:
     ways = SERVO.directions
@@ -65,8 +63,6 @@ def test_the_reference_reports_as_early_as_the_oracle(
     early = oracle.scan(data, oracles(direction), quiet=False)
     assert reported == [event for event in early if not isinstance(event, bytes)]
 
-
-# --- The libraries and the reference -------------------------------------------------------------
 
 # By spec, a library as a function from questions to answers.
 Answers: TypeAlias = dict[str, Callable[[str], list[str]]]

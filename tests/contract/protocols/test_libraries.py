@@ -109,8 +109,6 @@ def test_the_examples_of_a_library_are_true(libraries: Libraries, name: str) -> 
     assert found.attempted >= len(messages_of(name))
 
 
-# --- Round trips, also where a frame begins as a whole one of another ----------------------------
-
 # The protocols with messages that only a checksum tells from the beginning of a longer one.
 BY_CHANCE = ["roboclaw", "gauges"]
 

@@ -31,9 +31,6 @@ def _device_end(made: Any) -> Any:
     return importlib.import_module(f"{made.__name__}.device").Device
 
 
-# --- DYNAMIXEL 1.0 -------------------------------------------------------------------------------
-
-
 def actuators(made: Any, *numbers: int) -> Any:
     """Return the device end of some actuators, each with a table of bytes."""
     tables = {number: bytearray(range(64)) for number in numbers}
@@ -80,9 +77,6 @@ def test_the_makers_library_talks_to_a_generated_actuator(libraries: Libraries) 
         finally:
             line.closePort()
     assert device.rejects.total == 0
-
-
-# --- Modbus --------------------------------------------------------------------------------------
 
 
 def memory(made: Any, unit: int, registers: list[int]) -> Any:
@@ -169,9 +163,6 @@ def test_a_generated_client_talks_to_a_device_of_others(libraries: Libraries) ->
         assert list(client.read_holding(17, 0, 4)) == [10, 7, 8, 9]
         with pytest.raises(made.RefusedError, match="reason=2"):
             client.read_holding(17, 100, 3)
-
-
-# --- LX-16A --------------------------------------------------------------------------------------
 
 
 def servos(made: Any, *numbers: int) -> Any:

@@ -72,8 +72,6 @@ def test_every_message_is_held_to_what_others_write_or_read() -> None:
     assert held == spoken
 
 
-# --- The keys of the language: used by a protocol that somebody has, or standing here -------------
-
 # A part that is more than a byte or has notes, a citation, and what only a later version has.
 UNUSED = {
     ("LengthPart", "byte_order"),

@@ -88,8 +88,6 @@ def test_a_copy_goes_on_by_itself(
     assert told(made, events) == told(made, expected)
 
 
-# --- Work ----------------------------------------------------------------------------------------
-
 # So many calls of functions does a byte cost at most, whatever it is. Where nothing tells a frame
 # but its checksum, each byte may be the first of several messages, and costs as much for each.
 CALLS_PER_BYTE = 400

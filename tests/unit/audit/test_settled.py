@@ -134,8 +134,6 @@ def test_an_example_of_the_same_frame_is_confirmed_and_keeps_its_source(
     assert "BatteryVoltageRead" not in raised_after
 
 
-# ------------------------------------------------------------------ the count of facts
-
 SMALL = """\
 framegen: 2
 protocol: {name: lamp, title: Lamp, version: "1.0.0", authority: paper, summary: A lamp.}

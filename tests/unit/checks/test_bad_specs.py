@@ -88,8 +88,6 @@ def test_an_unknown_bad_spec_gets_a_suggestion(capsys: pytest.CaptureFixture[str
     assert "no bad spec `emty-element`: did you mean `empty-element`?" in capsys.readouterr().err
 
 
-# ------------------------------------------------------------------ what is changed
-
 LINES = """\
 lamps:
   one:
@@ -157,9 +155,6 @@ def test_an_incomplete_case_is_reported(case: dict[str, Any], why: str) -> None:
     with pytest.raises(EditError) as refused:
         bad_specs.made("some-rule", {"name": "some-rule", **case})
     assert str(refused.value) == why
-
-
-# ------------------------------------------------------------------ what is not read further
 
 
 def test_a_spec_that_yaml_readers_disagree_on_is_not_read_further() -> None:

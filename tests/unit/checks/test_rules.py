@@ -71,8 +71,6 @@ def test_the_guide_shows_a_case_as_it_is() -> None:
     assert textwrap.dedent(shown) in table
 
 
-# ------------------------------------------------------------------ what tells frames apart
-
 LAMPS = bad_specs.base("lamps")
 
 
@@ -115,8 +113,6 @@ def test_fields_that_have_no_byte_in_common_tell_messages_apart(
     assert ("duplicate-id" not in {finding.rule for finding in found}) == are_told
     assert {finding.rule for finding in found} <= {"duplicate-id", "no-example"}
 
-
-# ------------------------------------------------------------------ hints at a wrong checksum
 
 BUS = bad_specs.base("bus")
 COVERS = "covers: [station, length, family, code, serial, payload, seed]"

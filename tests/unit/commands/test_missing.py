@@ -78,8 +78,6 @@ def test_nothing_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert status == 0, f"{said}(in a run of all tests, no other test was run)"
 
 
-# ------------------------------------------------------------------ what a change needs
-
 # The changes of the spec, what is missing after them, and what has to be written.
 CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[str, str]]]] = {
     "a command": (
@@ -146,8 +144,6 @@ def test_the_report_says_where_to_write_what_and_why(
     assert errors.startswith(f"spec/busservo.yaml: {messages} messages, ")
     assert (status, errors.endswith(" files: 3 missing\n")) == (1, True)
 
-
-# ------------------------------------------------------------------ how it is looked for
 
 LAYOUT = """\
 busservo:
@@ -234,9 +230,6 @@ def test_what_every_frame_has_is_no_field(everything: Project) -> None:
     assert "Numbers.a_u8 has no case" in printed
     assert "station" not in printed
     assert "sequence" not in printed
-
-
-# ------------------------------------------------------------------ what is no use
 
 
 @pytest.mark.parametrize("declared", [None, "kiln: {}\n"])

@@ -111,8 +111,6 @@ def text(comparison: Comparison) -> str:
     return FORMATS["text"](View(comparison))
 
 
-# ------------------------------------------------------------------ what was reserved
-
 WITHOUT_NAME = {key: value for key, value in LIMIT.items() if key != "name"}
 WITHOUT_WAY = {key: value for key, value in LIMIT.items() if key != "direction"}
 OTHER_WAY = {**LIMIT, "direction": "gateway -> station"}

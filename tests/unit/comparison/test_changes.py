@@ -82,8 +82,6 @@ def test_the_example_of_a_rule_is_what_it_tells_of(rule: ChangeRule) -> None:
     assert told <= {rule.id, "length-changed"}
 
 
-# ------------------------------------------------------------------ nothing is passed over
-
 # So many leaves are one that is changed in every run; all of them are in tests/world.
 _EACH = 24
 
@@ -102,9 +100,6 @@ def test_every_key_of_the_language_is_among_the_examples() -> None:
     for data in specs:
         said |= {str(step) for path, _ in leaves(data) for step in path}
     assert keys_of_the_language() <= said
-
-
-# ------------------------------------------------------------------ names
 
 
 def test_what_names_a_thing_by_its_new_name_is_no_change() -> None:

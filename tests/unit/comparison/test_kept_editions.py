@@ -123,9 +123,6 @@ def test_a_reuse_is_accepted_at_the_message_that_takes_the_id_and_by_nothing_els
         assert {each.accepted for each in found if each.editions} == {accepted}
 
 
-# ------------------------------------------------------------------ what is read and tried
-
-
 def refuse() -> Edition:
     raise Unusable("it is no spec", hint="nothing")
 
@@ -179,8 +176,6 @@ def test_what_is_not_tried_again_would_show_nothing(
     monkeypatch.setattr(kept, "_same", lambda *_: frozenset())
     assert told(look_at_kept(pair, [before]).effects) == found
 
-
-# ------------------------------------------------------------------ one telling, three renderings
 
 DO = "If it is the same, write `was: DoorOpened` below `messages.GateOpened`; "
 

@@ -209,9 +209,6 @@ def test_checksums_of_all_beginnings_are_those_of_the_catalogue(
     assert checksum(method, width, b"") == row.of(b"", width)
 
 
-# ---------------------------------------------------------------------------- the command
-
-
 def test_the_command_prints_a_spec_to_go_on_with(tmp_path: Path, capsys: Capsys) -> None:
     line = tmp_path / "line.bin"
     frames = [*traffic(model_of("lxservo"), Random(7))]  # noqa: S311

@@ -59,9 +59,6 @@ def test_a_key_that_is_no_number_is_reported_once_whatever_its_value() -> None:
     assert {each for each, _ in found} == {path}
 
 
-# ------------------------------------------------------------------ other words
-
-
 def _each(table: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     return ((word, meant) for words, meant in table.items() for word in words.split())
 

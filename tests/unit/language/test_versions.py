@@ -63,9 +63,6 @@ def test_what_is_no_version_is_refused_with_what_to_write(text: str, hint: str) 
     assert Version.parse_or_none(text) is None
 
 
-# ------------------------------------------------------------------ paths
-
-
 @pytest.mark.parametrize(
     "file",
     [BUSSERVO, DEMO, ROOT / "tests" / "specs" / "everything.yaml", BASES / "bus.yaml"],
@@ -111,9 +108,6 @@ def test_what_leads_nowhere_is_refused(text: str, message: str) -> None:
     with pytest.raises(NoPath) as refused:
         expect_place(read_path(text))
     assert str(refused.value) == message
-
-
-# ------------------------------------------------------------------ former names
 
 
 def with_former_names(data: Data) -> Data:

@@ -148,9 +148,6 @@ def test_any_text_has_a_meaning_or_a_hint(text: str) -> None:
     agreed(text.strip())
 
 
-# ------------------------------------------------------------------ characters
-
-
 UNSEEN = words(
     "\x00 \x07 \t \r \x0b \x1b \x1f \x7f \x80 \x85 \x9f \xad \u061c \u180e \u200b \u200d \u200e "
     "\u2028 \u202a \u202e \u2060 \u2066 \u2069 \ud800 \udfff \ufe00 \ufe0f \ufeff \ufff9 "

@@ -66,9 +66,6 @@ def test_a_spec_with_findings_has_no_reference(tmp_path: Path) -> None:
     assert not (tmp_path / "site").exists()
 
 
-# ------------------------------------------------------------------ what is wrong with the rest
-
-
 RELEASED = "spec/released/stage_lamp-0.4.0.yaml"
 
 
@@ -133,9 +130,6 @@ def test_a_release_that_only_rules_dislike_is_shown(project: Path) -> None:
 
 def test_a_base_must_be_an_address(project: Path) -> None:
     assert "--base example.org: no address" in refused("--base", "example.org")
-
-
-# ------------------------------------------------------------------ which guides it took
 
 
 def test_it_says_which_guides_it_took(project: Path) -> None:

@@ -82,9 +82,6 @@ def test_sizes_are_said_as_people_say_them() -> None:
     assert {size: size_in_words(size) for size in sizes} == sizes
 
 
-# ------------------------------------------------------------------ files that guides link to
-
-
 @pytest.fixture
 def docs(tmp_path: Path) -> Path:
     """Return the folder of the guides in a project with some other files."""

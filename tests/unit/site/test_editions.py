@@ -178,8 +178,6 @@ def test_the_same_editions_give_the_same_bytes() -> None:
         assert again.page(path).text == three().page(path).text
 
 
-# ------------------------------------------------------------------ from page to page, and bounded
-
 # A length of four bytes, so that lists may be as long as they say.
 WIDE = FIRST.replace("length, type: u8", "length, type: u32").replace(
     "lamp_count: {type: u8", "lamp_count: {type: u32"

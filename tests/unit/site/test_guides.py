@@ -72,9 +72,6 @@ def test_files_outside_the_guides_are_pages_where_the_plan_lists_them(tmp_path: 
     assert read_project({}, docs).version == "1.2.3"
 
 
-# ------------------------------------------------------------------ in any folder, with any letters
-
-
 def built(docs: Path, guides: dict[str, str]) -> dict[str, str]:
     """Return the site of these guides as files, and of no others that were there."""
     shutil.rmtree(docs, ignore_errors=True)

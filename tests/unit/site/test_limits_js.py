@@ -71,9 +71,6 @@ def said_by_the_client(made: ModuleType, frame: bytes, bounds: Any) -> str | Non
     return None
 
 
-# ---------------------------------------------------------------------------- the protocol itself
-
-
 def moved(*positions: int) -> bytes:
     return busservo.ServoMove(100, [*enumerate(positions, 1)]).encode()
 
@@ -107,8 +104,6 @@ def test_there_is_the_same_choice_as_the_client_has() -> None:
     assert found["choices"] == [[[0, 1000], usual], [[500, 2500], pwm], [None, "None: anything"]]
     assert asked_of_the_page(reference("greenhouse").model, [])["choices"] == []
 
-
-# ---------------------------------------------------------------------------- any protocol
 
 LIMITS = {"usual": "0..300", "others": {"tall blinds": "5..900", "7": "0..60000"}}
 LEVEL = {"type": "u16", "about": "A level.", "limits": LIMITS}
@@ -202,8 +197,6 @@ def test_a_question_that_no_reply_has_room_for_is_not_sent(
     assert found == [said_by_the_client(made, frame, bounds) for frame, bounds in frames]
     assert found[-1] == ("blind_ids: 200 items are requested at once, and a reply has room for 84")
 
-
-# ---------------------------------------------------------------------------- where one begins
 
 # The message that the encoder begins with: it asks, and with as little as possible.
 FIRST = {

@@ -59,9 +59,6 @@ def site(text: str, base: str = BASE) -> dict[str, Page]:
     return pages_of(render_site(Project([greenhouse()], GUIDES, base=base, look=look), snippets()))
 
 
-# ------------------------------------------------------------------ what it wears
-
-
 def test_every_page_wears_what_the_settings_say() -> None:
     pages = {path: page for path, page in site(OWN).items() if path != "404.html"}
     assert title(pages["index.html"]) == "<b>Lamps</b> & more"
@@ -126,8 +123,6 @@ def test_a_reference_alone_wears_it_too(project: Path, named: list[str]) -> None
     assert Path("built/images/our logo.svg").read_text("utf-8") == SVG
 
 
-# ------------------------------------------------------------------ what is refused
-
 REFUSED = [
     ("title: 2026", "1:8: wrong-value: a text is written as text", 'in quotes: "2026"'),
     ('title: " "', "1:8: wrong-value: there are no words here", ""),
@@ -191,9 +186,6 @@ def test_every_key_may_be_left_out() -> None:
     for text in ("", "# title: x\n", "---\n"):
         assert settings(text) == SiteSettings()
     assert settings("title: x\n") == SiteSettings(title="x")
-
-
-# ------------------------------------------------------------------ colours
 
 
 def test_contrast_is_that_of_the_guidelines() -> None:

@@ -197,8 +197,6 @@ def test_what_is_not_told_is_on_the_page(built: Built, guide: str) -> None:
             assert unquote(anchor) in page_in(built.site, where).ids, case
 
 
-# ------------------------------------------------------------------ the README
-
 # What stands in the README below a list of guides, and how the finding about it goes on after the
 # column; nothing where nothing gets lost.
 PLANS = {
@@ -246,9 +244,6 @@ def test_a_readme_has_its_title_anywhere(tmp_path: Path, readme: str, title: str
     assert f"<title>{title}</title>" in home.text
     assert home.lacks(re.findall(r"^\w.*\.$", readme, re.MULTILINE)) == []
     assert "====" not in home.words
-
-
-# ------------------------------------------------------------------ the command
 
 
 def test_what_is_lost_is_an_error_if_that_is_wanted(tmp_path: Path) -> None:

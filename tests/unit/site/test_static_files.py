@@ -70,9 +70,6 @@ def test_every_template_is_part_of_a_page() -> None:
     assert sorted(TEMPLATES.keys() - set(named) - {f"{each}.html.jinja" for each in rendered}) == []
 
 
-# ---------------------------------------------------------------------------- scripts
-
-
 def declared(script: str) -> list[str]:
     """Return the names that a script gives to all others of its page."""
     found = re.findall(r"^(?:async )?(?:function\*?|class) (\w+)", script, re.MULTILINE)

@@ -188,9 +188,6 @@ def test_a_copy_of_the_whole_runtime_works_below_any_name(name: str, tmp_path: P
     assert_runs(others + COPY.replace("NAME", name), tmp_path)
 
 
-# ------------------------------------------------------------------ what is rendered
-
-
 def test_all_of_the_runtime_is_in_the_library_as_it_is() -> None:
     files = render(replace(compiled_file(DEMO), carries_runtime=True)).files
     below = "generated/greenhouse/_runtime/"

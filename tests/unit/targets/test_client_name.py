@@ -109,9 +109,6 @@ def test_what_the_runtime_says_names_no_client_of_another_name() -> None:
     assert [SAID.findall(each) for each in said] == [[], []]
 
 
-# ------------------------------------------------------------------ what is shown
-
-
 def test_nothing_that_is_made_says_the_usual_names() -> None:
     for name in FILES:
         output = render(compiled(name)).files
@@ -134,9 +131,6 @@ def test_the_command_shows_how_a_message_is_sent(capsys: pytest.CaptureFixture[s
     shown = capsys.readouterr().out
     assert 'with open_arm("COM5") as arm:' in shown
     assert "arm.move_servos(" in shown
-
-
-# ------------------------------------------------------------------ what is taken
 
 
 BENT = [("", "Controller", "ControllerMessage"), ("", "Arm", "Arm"), ("Arm", *["Controller"] * 2)]

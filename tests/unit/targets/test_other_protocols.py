@@ -119,9 +119,6 @@ def test_the_words_of_a_protocol_are_found_in_its_own_library() -> None:
         assert any(word in line for line in found), word
 
 
-# ------------------------------------------------------------------ verbs
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """Return where the libraries of the others stand side by side; they are imported as well."""
@@ -210,9 +207,6 @@ def test_a_simulator_that_is_installed_takes_the_place_of_the_derived_one(folder
         shutil.rmtree(package)
 
 
-# ------------------------------------------------------------------ versions
-
-
 def install(folder: Path, version: str, origin: str = "") -> None:
     """Write the metadata of an installed distribution of the greenhouse to a folder."""
     info = folder / f"greenhouse-{version}.dist-info"
@@ -256,9 +250,6 @@ def test_a_copy_beside_what_is_installed_has_the_version_of_its_spec(
     install(tmp_path, "7.8.9", origin)
     assert version_of(folder, tmp_path) == "1.1.0"
     assert command(folder, "greenhouse", "--version") == (0, "greenhouse 1.1.0, spec 1.1.0\n", "")
-
-
-# ------------------------------------------------------------------ what is generated
 
 
 def test_no_module_is_the_same_in_another_library() -> None:

@@ -73,9 +73,6 @@ def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
     return {path for path in paths if before.get(path) != after.get(path)}
 
 
-# ------------------------------------------------------------------ what nothing shows
-
-
 def commented(text: str) -> str:
     """Return the same spec with comments and blank lines wherever they can be."""
     for line, comment in (
@@ -121,9 +118,6 @@ def test_no_file_knows_the_digest_of_the_spec_or_who_generated_it_when(name: str
     for path, text in (files(source.text) | pages).items():
         assert source.digest not in text, path
         assert path.endswith(".html") or f"framegen {framegen.__version__}" not in text, path
-
-
-# ------------------------------------------------------------------ words
 
 
 @cache
@@ -225,9 +219,6 @@ def test_other_words_leave_the_code_and_the_vectors_as_they_are(name: str) -> No
         for each in (before, after)
     )
     assert one == other
-
-
-# ------------------------------------------------------------------ facts
 
 
 def test_a_new_message_changes_what_shows_it_and_few_vectors_of_others() -> None:

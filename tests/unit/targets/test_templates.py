@@ -155,9 +155,6 @@ def test_what_is_emitted_for_every_protocol_names_none() -> None:
     assert [path for path, text in texts.items() if words.search(text)] == []
 
 
-# ------------------------------------------------------------------ what is kept of them
-
-
 PAGES = sorted(
     template
     for folder in ("targets/docs/templates", "site/templates")

@@ -28,9 +28,6 @@ def _link(at: Path, to: Path, *, folder: bool = False) -> None:
         pytest.skip("this system makes no symbolic links")
 
 
-# ------------------------------------------------------------------ links
-
-
 @pytest.mark.parametrize("name", ["generated", LIBRARY, "docs", f"{LIBRARY}/old"])
 def test_a_link_that_leads_out_is_refused_and_named(root: Path, tmp_path: Path, name: str) -> None:
     away = tmp_path / "away"
@@ -98,9 +95,6 @@ def test_a_link_in_place_of_a_file_is_somebodys(root: Path) -> None:
     assert changes(root, [BEFORE]) == []
 
 
-# ------------------------------------------------------------------ what is no file
-
-
 def _folder(place: Path) -> None:
     place.mkdir()
     (place / "inner.py").write_bytes(b"mine\n")
@@ -134,9 +128,6 @@ def test_an_orphan_that_is_no_file_any_more_is_left(root: Path) -> None:
     write(root, [AFTER])
     assert (root / LIBRARY / "gone.py").is_dir()
     assert changes(root, [AFTER]) == []
-
-
-# ------------------------------------------------------------------ what may not be written
 
 
 @pytest.fixture
@@ -174,9 +165,6 @@ def test_a_read_only_folder_is_reported_and_left_alone(read_only: Path) -> None:
 def test_nothing_is_written_where_nothing_differs(read_only: Path) -> None:
     """Not even to keep other runs out."""
     assert write(read_only, [BEFORE]).changes == []
-
-
-# ------------------------------------------------------------------ two runs at once
 
 
 def test_a_second_run_waits_and_says_who_is_at_work(root: Path) -> None:
