@@ -55,9 +55,7 @@ def test_values_become_a_frame_that_has_them_again(spec: Data, data: st.DataObje
 
 
 @given(specs(), st.data())
-def test_what_is_no_frame_is_explained_as_what_it_was_refused_as(
-    spec: Data, data: st.DataObject
-) -> None:
+def test_what_is_no_frame_is_explained_as_it_was_refused(spec: Data, data: st.DataObject) -> None:
     """The explanation knows the reason and the offset alone, and the verdict much more."""
     model = model_of(spec)
     way = Direction.parse(data.draw(directions_of(spec))[0])

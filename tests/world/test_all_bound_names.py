@@ -19,9 +19,7 @@ def test_a_library_works_whatever_its_names_are(kind: str, plain: bool) -> None:
 
 
 @pytest.mark.parametrize(("kind", "plain"), KINDS)
-def test_linters_and_type_checkers_have_nothing_to_say(
-    kind: str, plain: bool, tmp_path: Path
-) -> None:
+def test_linters_and_type_checkers_say_nothing(kind: str, plain: bool, tmp_path: Path) -> None:
     write_files(library_files(compiled_of(crowd_of(kind, plain=plain))), tmp_path)
     config, untyped = ROOT / "pyproject.toml", ROOT / "tests" / "untyped.ini"
     for words in (

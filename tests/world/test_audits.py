@@ -20,9 +20,7 @@ from tests.random_specs import lines, specs, values_of, with_examples
 
 
 @given(specs(), st.data())
-def test_nothing_is_lost_and_every_message_is_the_reference_s(
-    spec: Data, data: st.DataObject
-) -> None:
+def test_nothing_is_lost_and_messages_are_the_reference_s(spec: Data, data: st.DataObject) -> None:
     model = model_of(spec)
     named = data.draw(st.lists(st.sampled_from([*model.messages]), min_size=1, max_size=4))
     frames = [encode(model.messages[name], data.draw(values_of(spec, name))) for name in named]

@@ -55,7 +55,7 @@ def test_several_at_once_are_judged_right(data: st.DataObject) -> None:
 
 
 @given(st.data())
-def test_no_frame_becomes_worse_than_the_worst_that_was_tried(data: st.DataObject) -> None:
+def test_no_frame_becomes_worse_than_the_worst_one_tried(data: st.DataObject) -> None:
     spec = data.draw(st.sampled_from([*SPECS]))
     with ExitStack() as until:
         talk = Talk(data.draw(editions(spec)), until)

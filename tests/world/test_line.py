@@ -182,7 +182,7 @@ def test_what_is_beyond_the_limits_is_not_sent(made: Desk, live: LiveTab) -> Non
 
 @pytest.mark.parametrize("one_by_one", [False, True])
 @pytest.mark.parametrize("seed", range(3))
-def test_nothing_on_a_bad_line_is_lost(
+def test_a_bad_line_loses_nothing(
     browser: Browser, site: Path, seed: int, one_by_one: bool
 ) -> None:
     """All bytes are shown, in order; and what was whole is recorded as Python decodes it."""

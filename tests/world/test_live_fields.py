@@ -164,9 +164,7 @@ def test_a_frame_is_kept_while_browsing_and_opened_from_an_address(visit: Visit)
 
 
 @pytest.mark.parametrize("path", MESSAGES)
-def test_every_message_begins_with_a_frame_and_keeps_its_place_in_the_page(
-    visit: Visit, path: str
-) -> None:
+def test_every_message_begins_with_a_frame_and_keeps_its_place(visit: Visit, path: str) -> None:
     tab = visit.open(path)
     assert status_of(tab).endswith(("byte.", "bytes."))
     for each in tab.locator("#live-fields input").all():

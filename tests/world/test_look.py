@@ -13,7 +13,7 @@ __all__ = ["project"]
 
 
 @needs_chromium
-def test_a_site_of_ones_own_fits_every_width_and_loads_nothing_from_elsewhere(
+def test_a_site_of_ones_own_fits_each_width_and_loads_nothing_from_elsewhere(
     project: Path,
 ) -> None:
     (project / "docs" / "site.yaml").write_text(OWN, encoding="utf-8")

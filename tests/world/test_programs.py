@@ -58,9 +58,7 @@ def test_a_program_sees_what_is_told_of_an_edit(name: str, pytestconfig: pytest.
 
 
 @pytest.mark.parametrize("mutation", CHECKED)
-def test_a_program_is_of_the_right_types_where_nothing_is_told(
-    mutation: str, tmp_path: Path
-) -> None:
+def test_a_program_has_the_right_types_where_nothing_is_told(mutation: str, tmp_path: Path) -> None:
     made = after("busservo", [mutation])
     assert made is not None
     verdict = verdict_on(Pair(made.old, made.new))

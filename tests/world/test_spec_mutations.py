@@ -409,8 +409,6 @@ def test_a_changed_fact_of_the_spec_is_reported(mutation: Mutation) -> None:
     ("steps", "value", "why"),
     [pytest.param(*each, id=named(each[:2])) for each in HIDDEN],
 )
-def test_the_changes_that_check_cannot_detect_are_listed(
-    steps: Steps, value: Any, why: str
-) -> None:
+def test_the_changes_that_check_cannot_see_are_listed(steps: Steps, value: Any, why: str) -> None:
     """Once this fails, `check` sees more than it did: move the line to the facts that are seen."""
     assert rules_broken(mutated(steps, value)) == set(), why

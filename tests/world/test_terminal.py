@@ -190,7 +190,7 @@ def test_ctrl_c_ends_a_measurement_with_what_was_measured(board: VirtualControll
     assert (values["errors"], rest) == ("none", "")
 
 
-def test_a_measurement_ends_with_the_line_and_keeps_what_was_measured(
+def test_a_measurement_ends_with_the_line_and_keeps_what_it_measured(
     board: VirtualController,
 ) -> None:
     words = ("bench-line", "--port", board.port, "-n", "1000000", "--timeout", str(GENEROUS))

@@ -200,9 +200,7 @@ def copied_link(tab: Tab) -> str:
         ("55 # 0.5 s, nobody: x", "Line 1, column 13: “nobody”", "nobody"),
     ],
 )
-def test_what_cannot_be_read_is_named_and_shown(
-    bench: Tab, text: str, said: str, selected: str
-) -> None:
+def test_what_cannot_be_read_is_shown(bench: Tab, text: str, said: str, selected: str) -> None:
     fill(bench, text)
     assert said in bench.locator("#problem").inner_text()
     assert bench.locator("#hex").get_attribute("aria-invalid") == "true"
@@ -255,9 +253,7 @@ def test_a_file_that_windows_wrote_is_text(bench: Tab, tmp_path: Path) -> None:
     assert len(decoded(bench)) == 6
 
 
-def test_a_long_file_that_is_neither_is_read_as_raw_bytes_when_asked(
-    bench: Tab, tmp_path: Path
-) -> None:
+def test_a_long_file_that_is_neither_is_read_raw_when_asked(bench: Tab, tmp_path: Path) -> None:
     file = tmp_path / "notes.txt"
     file.write_text("These are no bytes.\n" * 2000)
     bench.locator("#file").set_input_files(file)
@@ -287,9 +283,7 @@ def test_only_what_is_seen_of_a_long_capture_is_drawn(bench: Tab) -> None:
     assert rows(bench).count() < 60
 
 
-def test_a_list_longer_than_a_browser_draws_is_reached_to_its_end(
-    bench: Tab, tmp_path: Path
-) -> None:
+def test_a_list_longer_than_a_browser_draws_is_there_to_its_end(bench: Tab, tmp_path: Path) -> None:
     file = tmp_path / "long.bin"
     file.write_bytes(bytes.fromhex("55 55 02 0F") * 400_000)
     bench.locator("#file").set_input_files(file)
@@ -309,9 +303,7 @@ def test_a_list_longer_than_a_browser_draws_is_reached_to_its_end(
     assert box["y"] <= row["y"] <= box["y"] + box["height"]
 
 
-def test_what_was_begun_is_given_up_when_something_else_is_typed(
-    bench: Tab, tmp_path: Path
-) -> None:
+def test_what_was_begun_is_given_up_if_something_else_is_typed(bench: Tab, tmp_path: Path) -> None:
     file = tmp_path / "long.bin"
     file.write_bytes(bytes.fromhex("55 55 02 0F") * 2_000_000)
     bench.locator("#file").set_input_files(file)

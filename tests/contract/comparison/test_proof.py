@@ -54,9 +54,7 @@ def test_each_witness_shows_what_it_claims(talk: Talk) -> None:
 
 @given(data=st.data())
 @settings(max_examples=3)
-def test_no_frame_becomes_worse_than_the_worst_that_was_tried(
-    talk: Talk, data: st.DataObject
-) -> None:
+def test_no_frame_becomes_worse_than_the_worst_one_tried(talk: Talk, data: st.DataObject) -> None:
     drawn = (
         (oracle, trial, tried, [data.draw(values_for(trial.message, few=True))])
         for oracle, trial, tried in talk.trials()

@@ -47,9 +47,7 @@ def scanned(events: list[Event]) -> list[object]:
 
 
 @given(lines, directions)
-def test_the_reference_finds_what_the_oracle_finds(
-    data: bytes, direction: Direction | None
-) -> None:
+def test_the_reference_finds_what_the_oracle_does(data: bytes, direction: Direction | None) -> None:
     assert scanned(line(direction).decode(data)) == oracle.scan(data, oracles(direction))
 
 

@@ -37,7 +37,7 @@ def test_a_checksum_is_worked_out_from_the_terms_of_its_method(name: str, width:
 
 
 @in_turn("name, message, data", lambda: EXAMPLES)
-def test_every_byte_and_every_value_of_an_example_is_explained(
+def test_each_byte_and_value_of_an_example_is_explained(
     name: str, message: str, data: bytes
 ) -> None:
     model = model_of(name)
@@ -225,9 +225,7 @@ messages:
         ("7E 03 02 00 02 00 00", "trailing bytes", "a size of 3 makes 6 bytes"),
     ],
 )
-def test_what_nothing_tells_apart_is_explained_as_each_of_them(
-    data: str, reason: str, due: str
-) -> None:
+def test_what_nothing_tells_apart_is_explained_as_each(data: str, reason: str, due: str) -> None:
     compiled = compiled_of(data_in(LIKE_EACH_OTHER))
     assert compiled.findings == []
     frame = bytes.fromhex(data)

@@ -56,9 +56,7 @@ def test_a_peer_reads_the_same_values(kind: type[Peer], message: str, data: st.D
 @in_turn("message", lambda name: BY_HAND[name])
 @few_each
 @given(data=st.data())
-def test_a_frame_written_by_hand_has_the_same_bytes(
-    name: str, message: str, data: st.DataObject
-) -> None:
+def test_a_frame_made_by_hand_has_these_bytes(name: str, message: str, data: st.DataObject) -> None:
     values, layout = data.draw(values_of(name, message)), messages_of(name)[message]
     frame = BY_HAND[name][message](values)
     assert frame == encode(layout, values)

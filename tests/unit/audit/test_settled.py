@@ -87,9 +87,7 @@ def asking(concerns: str) -> Model:
 
 
 @in_turn("concerns, expected, sender", lambda: CONCERNS)
-def test_what_was_seen_of_an_open_question(
-    concerns: str, expected: str | None, sender: str
-) -> None:
+def test_what_is_seen_of_an_open_question(concerns: str, expected: str | None, sender: str) -> None:
     found = audited(asking(concerns), MOVED + ANSWERED)
     if expected is None:
         assert found.questions == []
@@ -115,7 +113,7 @@ def test_a_question_about_a_request_stays_open_until_it_is_answered() -> None:
 
 
 @pytest.mark.parametrize("origin", [{"cite": "vendor, section 1.5"}, {"constructed": "By hand."}])
-def test_an_example_of_the_same_frame_is_confirmed_and_keeps_its_source(
+def test_an_example_of_the_frame_is_confirmed_and_keeps_its_source(
     origin: dict[str, Any],
 ) -> None:
     example = {"title": "Ask", "hex": ASK, "values": {}, **origin}
@@ -195,9 +193,7 @@ def test_the_guide_counts_facts_and_questions() -> None:
 
 
 @pytest.mark.parametrize(("value", "written"), [(1e30, True), (-2.5e-7, True), (math.inf, False)])
-def test_a_number_is_written_as_a_spec_has_it_or_is_no_example(
-    value: float, *, written: bool
-) -> None:
+def test_a_number_is_written_as_in_a_spec_or_is_no_example(value: float, *, written: bool) -> None:
     model = compiled_file(FILES["mavlink1"]).model
     message = model.messages["Parameter"]
     values = {"sender": 257, "value": value, "count": 1, "index": 1, "name": "A", "type": 9}

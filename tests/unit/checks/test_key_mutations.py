@@ -98,7 +98,7 @@ def found(name: str) -> set[str]:
 
 @pytest.mark.parametrize("name", Rows(["bus", "scales"], others=["everything"]))
 @in_turn("mutation", mutations, ids=named)
-def test_another_value_of_a_key_is_refused_unless_no_frame_shows_it(
+def test_another_value_of_a_key_is_refused_or_no_frame_shows_it(
     name: str, mutation: Mutation
 ) -> None:
     blind = [end for names, seen in BLIND.items() if name in names for end in seen]

@@ -57,9 +57,7 @@ def test_an_example_that_would_be_encoded_otherwise_is_found(
         ("time_ms", [1000], "the frame has 1000, not a list"),
     ],
 )
-def test_a_value_of_another_kind_is_reported_by_its_kind(
-    key: str, said: object, expected: str
-) -> None:
+def test_a_value_of_another_kind_is_told_by_its_kind(key: str, said: object, expected: str) -> None:
     data = having(data_of(BUSSERVO), {f"messages.ServoMove.examples.0.values.{key}": said})
     assert [finding.message for finding in compiled_of(data).findings][:1] == [expected]
 

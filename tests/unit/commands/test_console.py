@@ -256,9 +256,7 @@ def _hostile_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("_hostile_files")
 @in_turn("program, words", calls, ids=ascii)
-def test_a_hostile_call_is_refused_in_visible_text(
-    capsys: Capture, program: str, words: list[str]
-) -> None:
+def test_a_hostile_call_is_refused_visibly(capsys: Capture, program: str, words: list[str]) -> None:
     assert MAINS[program](words) in (1, 2)
     output, errors = capsys.readouterr()
     assert hidden_in(output) == hidden_in(errors) == ""

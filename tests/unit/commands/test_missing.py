@@ -233,9 +233,7 @@ def test_what_every_frame_has_is_no_field(everything: Project) -> None:
 
 
 @pytest.mark.parametrize("declared", [None, "kiln: {}\n"])
-def test_without_declarations_nothing_is_reported_complete(
-    declared: str | None, project: Project
-) -> None:
+def test_without_declarations_nothing_is_complete(declared: str | None, project: Project) -> None:
     (project.folder / DECLARATION).unlink()
     if declared:
         project.write(DECLARATION, declared)
@@ -281,9 +279,7 @@ def test_an_invalid_declaration_is_reported_with_its_place(
 @in_turn(
     "data, why", lambda: [(None, "No such file or directory"), (b"\xff", "it is not UTF-8 text")]
 )
-def test_a_file_that_cannot_be_read_is_reported(
-    data: bytes | None, why: str, project: Project
-) -> None:
+def test_a_file_that_cannot_be_read_is_told(data: bytes | None, why: str, project: Project) -> None:
     project.declare("messages", "Case({message}(")
     (project.folder / "made_up.txt").unlink()
     if data:

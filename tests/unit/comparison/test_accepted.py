@@ -145,9 +145,7 @@ def reuses(reserved: Data, new: Data) -> list[Effect]:
         (LIMIT, "DoorOpened", []),
     ],
 )
-def test_what_was_reserved_is_not_used_again_unawares(
-    reserved: Data, name: str, axes: list[str]
-) -> None:
+def test_what_was_reserved_is_not_used_unawares(reserved: Data, name: str, axes: list[str]) -> None:
     found = reuses(reserved, house({name: WINDOW}))
     assert [each.axis for each in found] == axes
     for each in found:

@@ -121,9 +121,7 @@ def test_what_only_may_be_renamed_is_told_under_the_name_that_it_had() -> None:
 
 
 @pytest.mark.parametrize(("key", "at", "words"), [("errata", 2, "title"), ("unknowns", 2, "what")])
-def test_what_is_said_otherwise_of_the_same_message_is_the_same(
-    key: str, at: int, words: str
-) -> None:
+def test_what_is_said_otherwise_of_one_message_is_the_same(key: str, at: int, words: str) -> None:
     message = SERVO[key][at]["concerns"]["message"]
     new = with_(SERVO, key, at, words, "Other words.")
     new = with_(new, key, at, "concerns", {"message": message})

@@ -100,9 +100,7 @@ def test_the_exit_code_says_what_breaks(
         (["--json"], "unrecognized arguments: --json"),
     ],
 )
-def test_options_that_mean_nothing_are_refused(
-    words: list[str], said: str, capsys: Capture
-) -> None:
+def test_options_without_meaning_are_refused(words: list[str], said: str, capsys: Capture) -> None:
     assert main(["diff", DEMO.as_posix(), *words]) == 2
     printed = capsys.readouterr()
     assert said in printed.err
@@ -116,9 +114,7 @@ def test_the_command_knows_the_formats_and_the_axes_of_the_comparison() -> None:
     assert {*diff.USUAL} == USUAL_FAILURES
 
 
-def test_the_text_shows_the_verdict_and_the_frame_of_each_break(
-    written: Writes, capsys: Capture
-) -> None:
+def test_the_text_has_a_verdict_and_a_frame_of_each_break(written: Writes, capsys: Capture) -> None:
     old, new = written(BARE, NUMBERED)
     main(["diff", old, new, "--fail-on", "never"])
     shown = capsys.readouterr().out
@@ -196,9 +192,7 @@ def test_a_spec_that_is_gone_breaks_in_every_format(
     assert main(["diff"]) == 1
 
 
-def test_the_json_of_what_is_gone_has_the_keys_of_every_report(
-    project: Path, capsys: Capture
-) -> None:
+def test_json_of_what_is_gone_has_the_keys_of_every_report(project: Path, capsys: Capture) -> None:
     (project / "spec" / "a.yaml").unlink()
     (project / "spec" / "b.yaml").rename(project / "spec" / "c.yaml")
     main(["diff", "--format", "json"])
@@ -211,9 +205,7 @@ def test_the_json_of_what_is_gone_has_the_keys_of_every_report(
     assert effects == [("wire", "breaks"), ("programs", "breaks")]
 
 
-def test_a_spec_that_contradicts_itself_too_much_is_an_error(
-    written: Writes, capsys: Capture
-) -> None:
+def test_a_spec_that_contradicts_itself_much_is_an_error(written: Writes, capsys: Capture) -> None:
     old, new = written(HOUSE, with_(HOUSE, *READ, "reply", "Nobody"))
     assert main(["diff", old, new]) == 2
     printed = capsys.readouterr()

@@ -342,9 +342,7 @@ BOTH_AT_ONCE = "both ends at once: each breaks with the old edition of the other
         ([HOST, BOARD], BOTH_AT_ONCE),
     ],
 )
-def test_the_end_that_breaks_while_it_is_old_is_upgraded_first(
-    broken: list[Ends], said: str
-) -> None:
+def test_the_end_that_breaks_while_old_is_upgraded_first(broken: list[Ends], said: str) -> None:
     assert upgrade_order(broken) == said
 
 

@@ -42,16 +42,12 @@ def field(unit: str) -> NumberField:
 
 
 @in_turn("one, other, alike", lambda: [*((*a, True) for a in SAME), *((*a, False) for a in OTHER)])
-def test_one_unit_has_two_spellings_and_two_units_are_not_one(
-    one: str, other: str, alike: bool
-) -> None:
+def test_one_unit_has_two_spellings_and_two_are_not_one(one: str, other: str, alike: bool) -> None:
     assert (meant(unit=one) == meant(unit=other)) is alike
 
 
 @in_turn("unit, number, other, there", lambda: TEMPERATURES)
-def test_temperatures_have_a_zero_of_their_own(
-    unit: str, number: int, other: str, there: int
-) -> None:
+def test_temperatures_have_their_own_zero(unit: str, number: int, other: str, there: int) -> None:
     one, another = meant(unit=unit), meant(unit=other)
     assert (one.unit, one.value(number)) == (another.unit, another.value(there))
 

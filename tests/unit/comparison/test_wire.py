@@ -79,9 +79,7 @@ def with_field(direction: str, size: int, name: str, field: Data) -> Data:
 @pytest.mark.parametrize(
     ("direction", "outcomes"), [("gateway -> station", set()), (WAY, {"refused"})]
 )
-def test_a_value_that_is_free_now_was_never_asked_of_an_old_end(
-    direction: str, outcomes: set[str]
-) -> None:
+def test_a_value_free_now_was_never_asked_of_an_old_end(direction: str, outcomes: set[str]) -> None:
     old, new = (with_field(direction, 1, "kind", each) for each in ({**KIND, "always": 4}, KIND))
     # A device that sends what no old end reads is another matter: nobody there chose that.
     assert broken(old, new) == outcomes

@@ -87,7 +87,7 @@ def test_a_file_of_the_largest_size_is_read(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("start", [b"", b"\xef\xbb\xbf"], ids=["plain", "byte order mark"])
 @pytest.mark.parametrize("end", [b"\n", b"\r\n"], ids=["lf", "crlf"])
-def test_line_ends_and_a_byte_order_mark_change_nothing(
+def test_line_ends_and_a_first_mark_change_nothing(
     tmp_path: Path, start: bytes, end: bytes
 ) -> None:
     bad = bad_spec("duplicate-id")

@@ -170,9 +170,7 @@ SCAN = (
         ("word xor", bytes.fromhex("CD AB 00 00 00 00"), 0xABCD),
     ],
 )
-def test_a_method_gives_the_checksum_of_a_published_example(
-    method: str, data: bytes, value: int
-) -> None:
+def test_a_method_gives_a_published_checksum(method: str, data: bytes, value: int) -> None:
     [width] = CHECKSUMS[method].widths
     assert CHECKSUMS[method].of(data, width) == value
 

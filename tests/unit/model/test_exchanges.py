@@ -27,7 +27,7 @@ def test_a_method_that_is_not_declared_takes_the_list_first() -> None:
 
 
 @pytest.mark.parametrize(("echoed", "most", "split"), [(True, 84, True), (False, 0, False)])
-def test_only_a_query_whose_reply_repeats_its_list_is_split(
+def test_a_query_whose_reply_repeats_its_list_is_split(
     echoed: bool, most: int, split: bool
 ) -> None:
     data = long_question(echoed=echoed)

@@ -47,9 +47,7 @@ def spec_of(front: dict[str, Any]) -> Data:
 
 
 @in_turn("front, begins", lambda: FRONTS)
-def test_a_frame_begins_with_the_first_byte_of_its_address(
-    front: dict[str, Any], begins: set[int]
-) -> None:
+def test_a_frame_begins_with_its_address(front: dict[str, Any], begins: set[int]) -> None:
     data = spec_of(front)
     model = derive(Spec.model_validate(data))
     assert model.first_bytes == begins

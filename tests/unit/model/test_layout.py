@@ -190,7 +190,7 @@ def every_message() -> list[Any]:
 
 
 @in_turn("message", every_message)
-def test_the_slots_of_every_legal_frame_fill_it_without_gap_or_overlap(
+def test_the_slots_of_each_legal_frame_fill_it_with_no_gap_or_overlap(
     message: MessageLayout,
 ) -> None:
     for count in message.counts:

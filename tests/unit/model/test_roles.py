@@ -52,7 +52,7 @@ def test_swapped_endpoints_are_reported_where_a_client_has_methods() -> None:
     [(lambda data: data, []), (report_first, ["endpoints"]), (turned_round, ["endpoints"])],
     ids=["as it was", "a report first", "turned round"],
 )
-def test_a_spec_whose_roles_differ_in_an_older_edition_is_reported(
+def test_a_spec_whose_roles_differ_in_an_older_edition_is_told(
     change: Any, found: list[str]
 ) -> None:
     """Edition 1 took whoever sends first for the library's user."""

@@ -147,7 +147,7 @@ def test_a_frame_of_unknown_id_claims_what_its_length_says(
 
 
 @given(st.sampled_from([(SERVO, HOST), (SERVO, CONTROLLER), (HOUSE, GATEWAY)]), st.data())
-def test_a_verdict_stands_whatever_comes_behind(
+def test_a_verdict_stands_whatever_comes(
     where: tuple[Model, Direction], data: st.DataObject
 ) -> None:
     model, way = where

@@ -186,7 +186,7 @@ def test_any_field_with_limits_is_kept_within_them(blinds: tuple[Model, ModuleTy
     assert {None} < {*found}
 
 
-def test_a_question_that_no_reply_has_room_for_is_not_sent(
+def test_a_question_that_no_reply_can_hold_is_not_sent(
     blinds: tuple[Model, ModuleType],
 ) -> None:
     model, made = blinds

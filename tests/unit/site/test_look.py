@@ -160,9 +160,7 @@ REFUSED = [
 
 
 @in_turn("text, why, hint", lambda: REFUSED)
-def test_what_is_wrong_is_told_with_its_place(
-    text: str, why: str, hint: str, project: Path
-) -> None:
+def test_what_is_wrong_is_told_at_its_place(text: str, why: str, hint: str, project: Path) -> None:
     err = refused(project, f"{text}\n")
     assert f"framegen: error: {Path('docs')}/site.yaml " in err
     assert why in err

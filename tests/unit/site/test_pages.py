@@ -176,7 +176,7 @@ def test_the_links_to_the_spec_land_where_it_speaks_of_the_message(shown: Shown)
 
 
 @in_turn("name", lambda: SPECS)
-def test_the_spec_page_holds_the_spec_to_the_letter_and_a_link_can_lead_to_every_key(
+def test_the_spec_page_is_the_spec_to_the_letter_and_a_link_can_lead_to_each_key(
     name: str,
 ) -> None:
     """By the path that a finding of `framegen check` names, on the line where it says."""

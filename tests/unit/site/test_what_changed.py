@@ -49,9 +49,7 @@ def test_the_words_of_the_author_come_first() -> None:
 
 
 @in_turn("version, old, new", lambda: [("v3.0.0", SECOND, THIRD), ("v2.0.0", FIRST, SECOND)])
-def test_every_change_and_effect_of_the_comparison_is_told(
-    version: str, old: str, new: str
-) -> None:
+def test_each_change_and_effect_of_the_comparison_is_told(version: str, old: str, new: str) -> None:
     told = words(sections(three().page("changelog.html"))[version]).replace(" → ", " -> ")
     expected = view(old, new)
     assert expected.effects

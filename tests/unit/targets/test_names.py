@@ -216,9 +216,7 @@ def test_no_suffix_makes_another_reserved_word() -> None:
         ("method", "vents_open", "open", "open"),
     ],
 )
-def test_a_name_is_bent_where_it_is_taken_and_only_there(
-    kind: str, old: str, name: str, bent: str
-) -> None:
+def test_a_name_is_bent_only_where_it_is_taken(kind: str, old: str, name: str, bent: str) -> None:
     data = data_of(DEMO)
     if kind == "method":
         data["messages"]["VentsOpen"]["method"] = "vents_open(vents, ramp_s)"

@@ -150,9 +150,7 @@ def test_a_renamed_library_leaves_nothing_behind(project: Path, capsys: Capture)
     assert [path for path in snapshot(project) if "greenhouse" in path] == []
 
 
-def test_a_comment_in_the_spec_is_noted_in_the_manifest_alone(
-    project: Path, capsys: Capture
-) -> None:
+def test_a_comment_in_a_spec_is_noted_in_the_manifest_alone(project: Path, capsys: Capture) -> None:
     put(project, "spec/demo.yaml", f"{TEXT}# a comment\n")
     assert main(["generate"]) == 0
     assert capsys.readouterr().out == f"wrote {OUTPUT.manifest}\n"
@@ -171,7 +169,7 @@ SPOILT: dict[str, tuple[Callable[[Path], object], str]] = {
 
 @pytest.mark.parametrize("path", [CODEC, f"{LIBRARY}/vectors.json", f"{LIBRARY}/py.typed", SCHEMA])
 @pytest.mark.parametrize("how", SPOILT)
-def test_differences_are_reported_and_repaired(
+def test_differences_are_told_and_mended(
     project: Path, capsys: Capture, path: str, how: str
 ) -> None:
     before = snapshot(project)
@@ -233,9 +231,7 @@ def test_a_lost_manifest_is_made_anew_with_a_notice(project: Path, capsys: Captu
 
 
 @pytest.mark.parametrize("words", [[], ["--check"], ["--diff"], ["--force"]])
-def test_a_spec_with_findings_changes_nothing(
-    project: Path, capsys: Capture, words: list[str]
-) -> None:
+def test_with_findings_nothing_changes(project: Path, capsys: Capture, words: list[str]) -> None:
     put(project, "spec/demo.yaml", changed("type: u32", "type: v33"))
     before = snapshot(project)
     assert main(["generate", *words]) == 1

@@ -322,7 +322,7 @@ def test_what_nobody_answers_is_not_asked() -> None:
         ("pumps", "0", "0 is no device's own address: nobody answers what is sent there", "at the"),
     ],
 )
-def test_an_address_that_no_device_has_is_refused(
+def test_an_address_of_no_device_is_refused(
     name: str, address: str, problem: str, hint: str
 ) -> None:
     with pytest.raises(Unusable) as caught:
@@ -426,7 +426,7 @@ def listening(name: str, frames: list[bytes]) -> Run:
 
 
 @in_turn("name", lambda: REPORTING)
-def test_a_device_that_only_reports_is_listened_to_and_a_report_that_is_none_is_found(
+def test_a_device_that_only_reports_is_listened_to_and_what_is_no_report_found(
     name: str,
 ) -> None:
     done = listening(name, [*reports(name)])

@@ -33,7 +33,7 @@ def test_every_byte_both_ways_is_recorded_in_its_order_with_its_time(tmp_path: P
     assert 0.3 <= times[0] < times[1] < times[-1]
 
 
-def test_it_says_what_is_tried_and_where_the_line_fell_silent_within_a_frame(
+def test_it_says_what_is_tried_and_where_the_line_fell_silent_in_a_frame(
     tmp_path: Path,
 ) -> None:
     log = tmp_path / "run.hex"

@@ -214,9 +214,7 @@ LOOKING_LIKE = [
 
 
 @in_turn("ids, why", lambda: LOOKING_LIKE)
-def test_a_query_that_holds_a_command_is_not_sent_and_the_others_are(
-    ids: list[int], why: str
-) -> None:
+def test_a_query_that_holds_a_command_is_not_sent_and_others_are(ids: list[int], why: str) -> None:
     model = with_example(ids, at=1)
     done = run(model, TimedLine(by_the_reference(model)))
     assert why in done.step("ServoPositionsRead, example 2")["not_sent"]
