@@ -28,6 +28,12 @@ def taken_names() -> Data:
         crowd.report(f"Received{at}", words)
     for at, words in enumerate(in_parts(taken("field of an element"))):
         crowd.command(f"Listed{at}", [], listed=f"list{at}", element=f"Listed{at}Each", of=words)
+    # A field of an element may be called as one of its message, as its list, or as what counts it.
+    crowd.command("AsField", ["angle"], listed="vents", element="Vent", of=["angle"])
+    crowd.command("AsList", [], listed="angle", element="Angle", of=["angle"])
+    crowd.command("AsCount", [], listed="vents", counter="angle", element="Slat", of=["angle"])
+    for name in ("X", "HTTP", "A1B2", "Struct2", "NoisyStreams"):
+        crowd.command(name, [])
     for at, word in enumerate(["class", "latest", "reply", "replies", "self", "kind", "each"]):
         crowd.report(f"Answer{at}", [word])
         crowd.command(f"Ask{at}", [word], reply=f"Answer{at}", method=f"ask{at}({word}) -> {word}")

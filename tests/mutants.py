@@ -35,7 +35,6 @@ JUDGES = {
     },
     "framegen": {
         "unit/model": "verdict layout",
-        "contract": "reference_stream",
         "unit/runtime/explain": "explain",
         "unit/checks": "bad_specs",
         "unit/reading": "findings scalars",
@@ -46,7 +45,7 @@ JUDGES = {
     "busservo": {
         "unit/runtime/codec": "decode edges stream",
         "unit/runtime/frame": "messages narrow_ranges",
-        "contract": "oracle_agrees stream_machine",
+        "contract": "oracle",
         "contract/conformance": "answerers",
     },
 }

@@ -28,16 +28,10 @@ TOLD = Change("history", None, ("history", 0), "1.1.0 is told of")
 @in_turn(
     "effects, changes, bump",
     lambda: [
-        ([], [], None),
-        ([], [VERSION, TOLD], None),
-        ([], [VERSION, WORDS], "patch"),
-        ([], [DEPRECATED, WORDS], "minor"),
-        ([BREAKS], [DEPRECATED], "major"),
-        ([ADDS], [], "minor"),
-        ([ADDS], [WORDS], "minor"),
-        ([ADDS, BREAKS], [WORDS], "major"),
-        ([ACCEPTED], [], "major"),
-        ([UNCERTAIN, ADDS], [], "major"),
+        *(([], [], None), ([], [VERSION, TOLD], None), ([], [VERSION, WORDS], "patch")),
+        *(([], [DEPRECATED, WORDS], "minor"), ([BREAKS], [DEPRECATED], "major")),
+        *(([ADDS], [], "minor"), ([ADDS], [WORDS], "minor"), ([ADDS, BREAKS], [WORDS], "major")),
+        *(([ACCEPTED], [], "major"), ([UNCERTAIN, ADDS], [], "major")),
     ],
 )
 def test_the_worst_decides(effects: list[Effect], changes: list[Change], bump: Bump | None) -> None:

@@ -11,22 +11,13 @@ from tests.in_turn import in_turn
 @in_turn(
     "text, formula",
     lambda: [
-        ("5", Formula(5)),
-        ("0", Formula(0)),
-        ("  7 ", Formula(7)),
-        ("2 + 3", Formula(5)),
-        ("n", Formula(0, 1, "n")),
-        ("n + 3", Formula(3, 1, "n")),
-        ("3 + n", Formula(3, 1, "n")),
+        *(("5", Formula(5)), ("0", Formula(0)), ("  7 ", Formula(7)), ("2 + 3", Formula(5))),
+        *(("n", Formula(0, 1, "n")), ("n + 3", Formula(3, 1, "n")), ("3 + n", Formula(3, 1, "n"))),
         ("3 * servo_count + 5", Formula(5, 3, "servo_count")),
-        ("servo_count * 3 + 5", Formula(5, 3, "servo_count")),
-        ("3·n+5", Formula(5, 3, "n")),
-        ("n·3 + 5", Formula(5, 3, "n")),
-        ("5+3*n", Formula(5, 3, "n")),
-        ("n + n + 1 + 2 * n", Formula(1, 4, "n")),
-        ("2 * n + 1 + 1", Formula(2, 2, "n")),
-        ("999999", Formula(999999)),
-        ("_n1 + 1", Formula(1, 1, "_n1")),
+        *(("servo_count * 3 + 5", Formula(5, 3, "servo_count")), ("3·n+5", Formula(5, 3, "n"))),
+        *(("n·3 + 5", Formula(5, 3, "n")), ("5+3*n", Formula(5, 3, "n"))),
+        *(("n + n + 1 + 2 * n", Formula(1, 4, "n")), ("2 * n + 1 + 1", Formula(2, 2, "n"))),
+        *(("999999", Formula(999999)), ("_n1 + 1", Formula(1, 1, "_n1"))),
     ],
 )
 def test_a_rule_is_read(text: str, formula: Formula) -> None:

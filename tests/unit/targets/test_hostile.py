@@ -25,7 +25,6 @@ from framegen.targets.python.escape import Text, assigned, literal
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tests.bound_crowds import Makes, elements, fields, messages, results
 from tests.crowd import Crowd
 from tests.factories import (
     BUSSERVO,
@@ -46,7 +45,6 @@ from tests.factories import (
 from tests.in_turn import in_turn
 from tests.mutations.places import changed, renamed, texts
 from tests.mutations.prose import HARMLESS, PROSE, is_prose, with_prose
-from tests.names_at_work import at_work
 from tests.programs import ran
 from tests.rows import some
 
@@ -362,34 +360,6 @@ def test_what_is_no_plain_name_is_a_finding(kind: str) -> None:
     for name in NO_NAMES:
         data = renamed(SPECS["greenhouse"], NAMED[kind], name)
         assert usable(data) is None, name
-
-
-ODD_CLASSES = sorted(
-    words(
-        "Print Import Return Class Lambda Is St NoisyStreams Filter Struct2 X HTTP A1B2 Int Object "
-        "Partial Chain Listed Flat Table Octets Main Fields Codec Test"
-    )
-)
-ODD_FIELDS = sorted(
-    words(
-        "columns flat listed numbers values message frame head struct shape kind data chain "
-        "partial starmap iter_unpack item items element path value code name result command "
-        "direction lengths st case match a l"
-    )
-)
-
-
-@pytest.mark.parametrize("classes", [messages, elements])
-def test_messages_and_fields_of_odd_names_work(classes: Makes) -> None:
-    crowd = Crowd("crowded", "host", "device")
-    classes(crowd, ODD_CLASSES)
-    fields(crowd, ODD_FIELDS)
-    results(crowd, ODD_FIELDS)
-    # A field of an element may be called as one of its message, as its list, or as what counts it.
-    crowd.command("AsField", ["angle"], listed="vents", element="Vent", of=["angle"])
-    crowd.command("AsList", [], listed="angle", element="Angle", of=["angle"])
-    crowd.command("AsCount", [], listed="vents", counter="angle", element="Slat", of=["angle"])
-    at_work(compiled_of(crowd.data))
 
 
 # ------------------------------------------------------------------ the filters alone
