@@ -200,15 +200,6 @@ def test_the_first_of_many_files_in_the_way_are_named(root: Path) -> None:
     assert str(caught.value).endswith("  and 10 more files")
 
 
-@pytest.mark.parametrize("name", ["notes.md", "mine.py", "sub/deep.py", "data.bin"])
-def test_a_foreign_file_in_nobodys_way_is_reported_and_left_alone(root: Path, name: str) -> None:
-    put(root, f"{LIBRARY}/{name}", "mine\n")
-    assert changes(root, [BEFORE]) == []
-    done = write(root, [AFTER])
-    assert done.strangers == [f"{LIBRARY}/{name}"]
-    assert (root / LIBRARY / name).read_bytes() == b"mine\n"
-
-
 LITTER = ["__pycache__/same.cpython-311.pyc", ".DS_Store", "Thumbs.db"]
 
 
