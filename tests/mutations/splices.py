@@ -7,12 +7,9 @@ is for `framegen check` to say; each is made so that it often is.
 import re
 from collections.abc import Callable
 from functools import cache, partial
-from pathlib import Path
 from typing import TypeAlias
 
-from framegen.targets import python
-
-from tests.factories import Data
+from tests.factories import ROOT, Data
 from tests.mutations.desk import Desk, Inapplicable, copied, inserted, renamed_in, reordered, varies
 
 Splice: TypeAlias = Callable[[Desk, Desk], str]
@@ -219,7 +216,7 @@ def _element_field(host: Desk, donor: Desk) -> str:
 
 # ---------------------------------------------------------------------------- names
 
-_RUNTIME = Path(python.__file__).parent / "runtime"
+_RUNTIME = ROOT / "runtime" / "framewire"
 _CLASS = re.compile(r"^class ([A-Z]\w+)", re.MULTILINE)
 # Whatever a spec may call something, and what is called something in a library.
 _WORDS = (
