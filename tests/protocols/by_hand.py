@@ -3,6 +3,7 @@
 import struct
 from binascii import crc_hqx
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from tests.protocols.peer import Values
 
@@ -191,19 +192,13 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
         ),
     },
     "visca": {
-        "PowerSet": lambda values: _camera("81 01 04 00", values),
-        "ZoomTo": lambda values: _camera("81 01 04 47", values),
-        "Turn": lambda values: _camera("81 01 06 01", values),
-        "PowerRead": lambda values: _camera("81 09 04 00", values),
-        "ZoomRead": lambda values: _camera("81 09 04 47", values),
-        "AimRead": lambda values: _camera("81 09 06 12", values),
-        "AddressSet": lambda values: _camera("88 30", values),
-        "Accepted": lambda values: _camera("90 41", values),
-        "Completed": lambda values: _camera("90 51", values),
-        "Refused": lambda values: _camera("90 60", values),
-        "Power": lambda values: _camera("90 50", values),
-        "Zoom": lambda values: _camera("90 50", values),
-        "Aim": lambda values: _camera("90 50", values),
+        name: partial(_camera, opening)
+        for name, opening in {
+            "PowerSet": "81 01 04 00", "ZoomTo": "81 01 04 47", "Turn": "81 01 06 01",
+            "PowerRead": "81 09 04 00", "ZoomRead": "81 09 04 47", "AimRead": "81 09 06 12",
+            "AddressSet": "88 30", "Accepted": "90 41", "Completed": "90 51",
+            "Refused": "90 60", **dict.fromkeys(("Power", "Zoom", "Aim"), "90 50"),
+        }.items()
     },
     "roboclaw": {
         "EncoderOneRead": lambda _: _motor_question(16),

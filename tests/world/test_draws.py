@@ -7,8 +7,8 @@ from subprocess import run
 
 import pytest
 
-from tests.unit.project.test_draws_of_kinds import drawn as drawn_of_kinds
-from tests.unit.project.test_draws_of_kinds import folder
+from tests.unit.project.test_draws import drawn as drawn_of_kinds
+from tests.unit.project.test_draws import folder
 
 __all__ = ["folder"]
 

@@ -24,7 +24,6 @@ from tests.unit.runtime.codec.test_stream import calls
 
 EACH_WAY = [pytest.param(*each, id=f"{each[0]}-{each[1].sender}") for each in all_ways()]
 each_name = pytest.mark.parametrize("name", each_protocol(FILES))
-each_way = pytest.mark.parametrize(("name", "way"), each_protocol(EACH_WAY))
 # What costs most is counted in every run where lengths are claimed, and where nothing but a sum
 # tells frames: these are searched in the ways that there are.
 COUNTED = {"everything", "gauges", "lxservo", "modbus"}
@@ -67,25 +66,6 @@ def test_messages_come_as_soon_as_they_are_certain(
         events += decoder.flush()
         assert told(made, events) == read_by_reference(reference, stretch)
         assert decoder.pending == 0
-
-
-@each_way
-@few_each
-@given(data=st.data())
-def test_a_copy_goes_on_by_itself(
-    libraries: Libraries, name: str, way: Direction, data: st.DataObject
-) -> None:
-    made, line = libraries[name], data.draw(lines(name, way))
-    decoder = made.StreamDecoder(direction_of(made, way))
-    at = data.draw(st.integers(0, len(line)))
-    before = decoder.feed(line[:at])
-    other = copy(decoder)
-    other.feed(line[::-1] * 3)
-    other.flush()
-    events = before + decoder.feed(line[at:]) + decoder.flush()
-    whole = made.StreamDecoder(direction_of(made, way))
-    expected = whole.feed(line) + whole.flush()
-    assert told(made, events) == told(made, expected)
 
 
 # So many calls of functions does a byte cost at most, whatever it is. Where nothing tells a frame

@@ -2,6 +2,7 @@
 
 import copy
 import re
+from functools import reduce
 from typing import Any
 
 import pytest
@@ -10,6 +11,8 @@ from framegen.comparison import changes as rules
 from framegen.comparison.changes import CHANGE_RULES, changes
 from framegen.comparison.changes.change import Change, ChangeRule
 from framegen.comparison.edition import Edition
+from framegen.comparison.effect import Effect
+from framegen.comparison.explained import explain
 from framegen.comparison.pair import Pair
 
 from tests.factories import ROOT, Data, compiled_of, data_of
@@ -140,3 +143,45 @@ def test_changes_come_in_the_order_of_the_new_edition_and_what_is_gone_last() ->
         editions.append(Edition("spec.yaml", compiled, made.spec, made.model))
     told = [each.rule for each in changes(Pair(*editions))]
     assert told == ["baud", "message-id", "count", "pose-removed"]
+
+
+MOVE = ("messages", "ServoMove")
+
+
+def explained(effect: Effect, *edits: tuple[object, ...]) -> list[str]:
+    """Return the rules of what explains an effect on the servos, which are edited so."""
+    new = reduce(lambda data, edit: with_(data, *edit), edits, SERVO)
+    return [each.rule for each in explain(effect, changes(pair_of(SERVO, new)))]
+
+
+WIDER = (*MOVE, "fields", "time_ms", "type", "u32")
+WORDS = (*MOVE, "summary", "Move.")
+HEADER = ("frame", "header", "bytes", "55 AA")
+METHOD = (*MOVE, "method", "move(targets, time_ms)")
+ELSEWHERE = ("messages", "ServoUnload", "id", 99)
+
+
+@in_turn(
+    "edits, axis, path, expected",
+    lambda: [
+        ([WIDER, WORDS, ELSEWHERE], "wire", MOVE, ["field-type"]),
+        ([HEADER, WORDS, ELSEWHERE], "wire", MOVE, ["part-bytes"]),
+        ([HEADER, METHOD], "wire", MOVE, ["part-bytes"]),
+        ([HEADER, METHOD], "programs", MOVE, ["method-changed"]),
+        ([WIDER, METHOD], "programs", (*MOVE, "fields", "time_ms"), ["field-type"]),
+        ([WORDS], "wire", MOVE, ["words"]),
+        ([("protocol", "name", "servos")], "programs", ("protocol", "name"), ["library-renamed"]),
+    ],
+)
+def test_the_nearest_changes_explain(
+    edits: list[tuple[object, ...]], axis: str, path: tuple[str, ...], expected: list[str]
+) -> None:
+    effect = Effect(axis, "refused", path, path, "It differs.")  # type: ignore[arg-type]
+    assert explained(effect, *edits) == expected
+
+
+def test_what_an_effect_names_explains_it_too() -> None:
+    path = ("messages", "BatteryVoltageRead")
+    effect = Effect("conversation", "no reply", path, path, "BatteryVoltage is refused.")
+    longer = ("messages", "BatteryVoltage", "fields", "voltage_mv", "type", "u32")
+    assert explained(effect, longer, ELSEWHERE) == ["field-type"]

@@ -1,7 +1,5 @@
 """The catalogue of checksums agrees with what others have written and published."""
 
-from dataclasses import replace
-from typing import Any
 from zlib import adler32
 
 from crccheck.checksum import Checksum8, Checksum16, Checksum32, ChecksumXor8, ChecksumXor16
@@ -14,9 +12,6 @@ from framegen.model.checksums import (
     CHECKSUMS,
     Checksum,
     Crc,
-    Fletcher,
-    Sum,
-    Xor,
     suggest,
 )
 from hypothesis import given
@@ -65,16 +60,6 @@ def test_a_crc_is_what_crccheck_makes_of_the_same_data(data: bytes) -> None:
 def _peer(method: Crc) -> Peer:
     last = method.reflected and not method.mixed
     return Peer(method.width, method.poly, method.init, method.reflected, last, method.xor_out)
-
-
-@in_turn("method", lambda: CRCS, ids=named)
-def test_a_crc_with_any_number_changed_misses_its_check_value(method: Crc) -> None:
-    changes: dict[str, Any] = {n: getattr(method, n) ^ 8 for n in ("poly", "init", "xor_out")}
-    for name in ("reflected", "mixed") if method.reflected else ("reflected",):
-        changes[name] = not getattr(method, name)
-    for number, value in changes.items():
-        changed = replace(method, **{number: value})
-        assert changed.of(CHECK_DATA, method.width) != method.checks[method.width], number
 
 
 @given(data=st.binary(max_size=300))
@@ -184,10 +169,6 @@ def test_any_bit_that_changes_changes_any_checksum(data: bytes, at: int, bit: in
             continue
         for width in method.widths:
             assert method.of(bytes(changed), width) != method.of(data, width), method.name
-
-
-def test_every_kind_of_method_is_in_the_catalogue() -> None:
-    assert {type(method) for method in CHECKSUMS.values()} == {Sum, Xor, Fletcher, Crc}
 
 
 SAME = [

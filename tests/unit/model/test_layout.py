@@ -67,14 +67,6 @@ def test_a_message_lies_as_the_document_has_it(name: str) -> None:
     assert found == DOCUMENT[name]
 
 
-def test_how_many_servos_a_frame_has_room_for() -> None:
-    listed = {name: each for name, each in SERVO.messages.items() if each.items is not None}
-    counts = {name: (each.counts[0], each.counts[-1]) for name, each in listed.items()}
-    ids = {"ServoUnload": (1, 252), "ServoPositionsRead": (1, 252)}
-    assert counts == {"ServoMove": (1, 83), **ids, "ServoPositions": (0, 84)}
-    assert SERVO.messages["ActionGroupStop"].counts == range(1)
-
-
 def test_a_list_ends_where_the_number_of_its_bytes_does() -> None:
     data = data_of(DEMO)
     readings = data["messages"]["StationState"]["fields"]["readings"]

@@ -4,10 +4,8 @@ import json
 import re
 from collections.abc import Iterator
 from html import unescape
-from pathlib import Path
 from typing import Any, NamedTuple
 
-import pytest
 from framegen.language.values import to_hex
 from framegen.model.layout import MessageLayout
 from framegen.model.slots import Items
@@ -437,17 +435,6 @@ def test_a_spec_with_nothing_optional_has_a_reference() -> None:
     assert "No look-alikes are known." in site.pages["lookalikes.html"].words
     assert "Kept free" not in site.pages["index.html"].words
     assert all(text.endswith("\n") for text in site.files.values())
-
-
-def test_rendering_twice_gives_the_same_and_needs_no_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    compiled = reference("greenhouse").compiled
-    once = render(compiled)
-    monkeypatch.chdir(tmp_path)
-    assert render(compiled) == once
-    assert list(tmp_path.iterdir()) == []
-    assert "docs/reference/greenhouse" in once.folders
 
 
 # ---------------------------------------------------------------------------- Markdown

@@ -1,20 +1,30 @@
-"""Only what changed changes: a comment nothing, a word a few files, a message what shows it."""
+"""Only what changed changes: a comment nothing, a word a few files, a message what shows it.
+
+Nothing else than the spec does: tests/world/test_deterministic.py holds that other folders,
+locales, hash orders and Pythons give the same bytes.
+"""
 
 import ast
 import json
+import os
 import re
+import sys
 from functools import cache
+from pathlib import Path
 
 import framegen
 import pytest
 from framegen.compile import Compiled, compile_spec
+from framegen.language.load import read_source
+from framegen.output import Output
 from framegen.reading.source import Source
 from framegen.render import render, render_target, snippets
 from framegen.site.project import Project
 from framegen.site.site import render_site
 from framegen.targets import docs, python
+from framegen.targets.table import TARGETS
 
-from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, Data, Steps, data_of
+from tests.factories import BUSSERVO, DEMO, NEW_MESSAGE, ROOT, Data, Steps, compiled_file, data_of
 from tests.in_turn import in_turn
 from tests.mutations.places import at, texts, with_
 from tests.mutations.places import changed as reworded
@@ -271,3 +281,39 @@ def test_a_new_version_changes_what_states_it() -> None:
         "generated/busservo/_library.py",
         "generated/busservo/vectors.json",
     }
+
+
+@cache
+def rendered(name: str) -> Output:
+    return render(compiled_file(SPECS[name]))
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_rendering_twice_gives_the_same_and_touches_no_disk(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    # The spec is also read once more.
+    assert render(compile_spec(read_source(SPECS[name]))) == rendered(name)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_no_file_holds_where_when_or_by_whom_it_was_made(name: str) -> None:
+    forbidden = [str(ROOT), str(Path.home()) + os.sep, sys.prefix, os.sep + "home" + os.sep]
+    for path, text in rendered(name).files.items():
+        assert [word for word in forbidden if word in text] == [], path
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_every_file_ends_in_one_line_feed_and_holds_nothing_unseen(name: str) -> None:
+    for path, text in rendered(name).files.items():
+        assert text == "" or (text.endswith("\n") and not text.endswith("\n\n")), path
+        assert text.replace("\n", "").isprintable(), path
+        assert [line for line in text.split("\n") if line != line.rstrip()] == [], path
+
+
+def test_no_two_targets_write_the_same_file() -> None:
+    compiled = compiled_file(DEMO)
+    paths = [path for target in TARGETS for path in target.render(compiled, snippets())]
+    assert len(paths) == len(set(paths))
