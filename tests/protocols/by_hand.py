@@ -194,10 +194,17 @@ BY_HAND: dict[str, dict[str, Callable[[Values], bytes]]] = {
     "visca": {
         name: partial(_camera, opening)
         for name, opening in {
-            "PowerSet": "81 01 04 00", "ZoomTo": "81 01 04 47", "Turn": "81 01 06 01",
-            "PowerRead": "81 09 04 00", "ZoomRead": "81 09 04 47", "AimRead": "81 09 06 12",
-            "AddressSet": "88 30", "Accepted": "90 41", "Completed": "90 51",
-            "Refused": "90 60", **dict.fromkeys(("Power", "Zoom", "Aim"), "90 50"),
+            "PowerSet": "81 01 04 00",
+            "ZoomTo": "81 01 04 47",
+            "Turn": "81 01 06 01",
+            "PowerRead": "81 09 04 00",
+            "ZoomRead": "81 09 04 47",
+            "AimRead": "81 09 06 12",
+            "AddressSet": "88 30",
+            "Accepted": "90 41",
+            "Completed": "90 51",
+            "Refused": "90 60",
+            **dict.fromkeys(("Power", "Zoom", "Aim"), "90 50"),
         }.items()
     },
     "roboclaw": {
