@@ -44,7 +44,6 @@ class Case(NamedTuple):
 
     @property
     def frame(self) -> bytes:
-        """The bytes of the frame."""
         return bytes.fromhex(self.hex)
 
 
@@ -180,7 +179,6 @@ class BadFrame(NamedTuple):
 
     @property
     def frame(self) -> bytes:
-        """The bytes."""
         return bytes.fromhex(self.hex)
 
 

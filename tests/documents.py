@@ -173,7 +173,6 @@ class _Bench(contextlib.ExitStack):
 
     @cached_property
     def bus(self) -> VirtualBus:
-        """A bus of servos."""
         return self.enter_context(VirtualBus(via="tcp", servos=SERVOS, clock=self._clock))
 
     def settle(self) -> None:

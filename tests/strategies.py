@@ -69,7 +69,6 @@ def pieces(draw: st.DrawFn, line: bytes) -> list[bytes]:
 
 
 def single_bytes(line: bytes) -> list[bytes]:
-    """Return `line`, byte by byte."""
     return [line[at : at + 1] for at in range(len(line))]
 
 
@@ -151,5 +150,4 @@ def _plain(value: Any) -> Any:
 
 
 def noise(hex_data: str, reason: Reason) -> Noise:
-    """Return noise, from its hex."""
     return Noise(bytes.fromhex(hex_data), reason)

@@ -93,7 +93,6 @@ def events(recording: bytes, sender: str | None = None) -> list[Any]:
 
 
 def data_of(found: list[Any]) -> bytes:
-    """Return the bytes of events."""
     return b"".join(
         event.encode() if isinstance(event, busservo.Message) else event.data for event in found
     )

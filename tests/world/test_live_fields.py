@@ -45,7 +45,6 @@ def status_of(tab: Tab) -> str:
 
 
 def shown(tab: Tab) -> list[str]:
-    """Return the bytes of the strip."""
     return texts(tab.locator("#live-strip .bytes"))
 
 

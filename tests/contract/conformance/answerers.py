@@ -55,7 +55,6 @@ def decoder_page(compiled: Compiled) -> str:
 
 
 def module_of(compiled: Compiled) -> str:
-    """Return the JavaScript module."""
     return javascript_module(compiled.model)[f"{compiled.spec.protocol.name}.mjs"]
 
 

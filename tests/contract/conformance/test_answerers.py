@@ -41,7 +41,6 @@ ROWS = Rows(
 
 @cache
 def published(name: str) -> dict[str, Any]:
-    """Return the vectors of a spec."""
     return vectors_of(compiled_file(SPECS[name]))
 
 

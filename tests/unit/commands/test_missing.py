@@ -39,7 +39,6 @@ class Project(NamedTuple):
     spec: Path
 
     def write(self, file: str, text: str) -> None:
-        """Write a file."""
         (self.folder / file).write_text(text, encoding="utf-8")
 
     def declare(self, of: str, text: str, written: str = "") -> None:

@@ -37,7 +37,6 @@ def meant(**said: str) -> Quantity:
 
 
 def field(unit: str) -> NumberField:
-    """Return a number with a unit."""
     return NumberField.model_validate({"type": "u16", "about": "A number.", "unit": unit})
 
 

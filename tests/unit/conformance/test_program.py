@@ -23,7 +23,6 @@ SILENT = (
 
 
 def python(source: str, timeout: float = GENEROUS) -> Program:
-    """Return a program in Python."""
     return Program([sys.executable, "-c", textwrap.dedent(source)], timeout)
 
 

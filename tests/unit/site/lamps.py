@@ -67,7 +67,6 @@ GUIDES = {
 
 
 def greenhouse() -> Compiled:
-    """Return the spec of its reference."""
     return reference("greenhouse").compiled
 
 
@@ -91,7 +90,6 @@ def metas(page: Page) -> dict[str, str]:
 
 
 def title(page: Page) -> str:
-    """Return the title in the head of a page."""
     (found,) = re.findall("<title>(.*?)</title>", page.text)
     return html.unescape(found)
 

@@ -133,12 +133,10 @@ class Reference:
 
     @property
     def source(self) -> Source:
-        """The text of its spec."""
         return self.compiled.source
 
     @property
     def model(self) -> Model:
-        """The model of its spec."""
         return self.compiled.model
 
     @cached_property
@@ -215,5 +213,4 @@ def respelled(data: dict[str, Any]) -> Source:
 
 @cache
 def reference(name: str) -> Reference:
-    """Return the reference of one of SPECS."""
     return reference_of(read_source(SPECS[name]))

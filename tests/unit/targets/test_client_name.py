@@ -47,7 +47,6 @@ SAID = re.compile(
 
 @cache
 def compiled(name: str) -> Compiled:
-    """Compile one of FILES, with a client called `Arm`."""
     return compiled_of(having(data_of(FILES[name]), {"protocol.client": "Arm"}))
 
 

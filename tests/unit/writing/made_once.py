@@ -44,6 +44,5 @@ def the_same_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def make_once(patch: pytest.MonkeyPatch) -> None:
-    """Have the commands make the same once."""
     patch.setattr("framegen.commands.spec_argument.compile_spec", compiled_once)
     patch.setattr("framegen.render.render_target", rendered_once)

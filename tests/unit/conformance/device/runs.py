@@ -29,7 +29,6 @@ class Run(NamedTuple):
         return found
 
     def step(self, title: str) -> dict[str, Any]:
-        """Return one step of it."""
         return next(step for step in self.report["steps"] if step["title"] == title)
 
     @property
