@@ -11,7 +11,6 @@ DIRECTIONS = (Direction.HOST_TO_CONTROLLER, Direction.CONTROLLER_TO_HOST, None)
 
 Event: TypeAlias = Message | Noise
 
-# --- Lines ---------------------------------------------------------------------------------------
 
 # Beginnings that cost a decoder most: legal as far as they go, claiming much, or nearly a header.
 HEADS = (
@@ -72,9 +71,6 @@ def single_bytes(line: bytes) -> list[bytes]:
     return [line[at : at + 1] for at in range(len(line))]
 
 
-# --- What was read -------------------------------------------------------------------------------
-
-
 def read(
     direction: Direction | None, chunks: Iterable[bytes], *, quiet: bool = True
 ) -> list[Event]:
@@ -111,9 +107,6 @@ def joined(events: Iterable[Event]) -> list[Event]:
         else:
             whole.append(event)
     return whole
-
-
-# --- As the oracle writes it ---------------------------------------------------------------------
 
 
 def said(message: Message) -> tuple[str, dict[str, Any]]:

@@ -56,9 +56,6 @@ def _motor_question(command: int) -> bytes:
     return question + struct.pack(">H", crc_hqx(question, 0))
 
 
-# --- Frames --------------------------------------------------------------------------------------
-
-
 def _msp(direction: bytes, command: int, payload: bytes) -> bytes:
     checked = bytes([len(payload), command]) + payload
     total = 0

@@ -72,8 +72,6 @@ _TORQUE = with_values(torque=lambda value: value & 1)
 _LED = with_values(led=lambda value: value & 1)
 
 
-# --- lewansoul-lx16a -----------------------------------------------------------------------------
-
 # A method by its name, and the values that it takes.
 _TELLS: dict[str, Tell] = {
     "Move": _tell("move", "position", "time_ms"),
@@ -155,9 +153,6 @@ class LewansoulLx16a(Peer):
     def read(self, message: str, frame: bytes) -> Values:
         self.wire.reply = frame
         return {"servo_id": frame[2], **_ASKS[message](self.servos, frame[2])}
-
-
-# --- pylx16a -------------------------------------------------------------------------------------
 
 
 def _steps(degrees: float) -> int:

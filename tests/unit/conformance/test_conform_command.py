@@ -62,8 +62,6 @@ def tried(source: str, *words: str) -> Ended:
 
 AS_JSON = ["--format", "json", "--more", "5", "--seed", "7"]
 
-# -- What conforms -------------------------------------------------------------------------------
-
 
 def test_our_own_library_conforms() -> None:
     status, out, err = conform(SPEC, "--more", "300", "--seed", "1", "--", *LIBRARY)
@@ -97,9 +95,6 @@ def test_a_malformed_question_is_answered_by_an_error_and_the_next_one_is_read()
 def test_without_a_seed_every_run_asks_something_else() -> None:
     first, second = (conform(SPEC, "--questions", "--more", "20").out for _ in range(2))
     assert first != second
-
-
-# -- What differs --------------------------------------------------------------------------------
 
 
 def test_a_difference_is_shown_byte_by_byte() -> None:
@@ -193,8 +188,6 @@ def test_what_is_unsupported_is_reported_and_no_difference() -> None:
     assert re.search(r"\n  not supported, and not counted as wrong: \d+ stream\n$", out)
 
 
-# -- The badge -----------------------------------------------------------------------------------
-
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -220,8 +213,6 @@ def test_a_badge_says_it_in_a_word(source: str, status: int, text: str) -> None:
     assert re.findall(r"\w+://[^\"]*", out) == ["http://www.w3.org/2000/svg"]
     assert not re.search("href|@import|url", out)
 
-
-# -- What is of no use ---------------------------------------------------------------------------
 
 UNUSABLE = {
     "no program": ([SPEC], "no program is named"),
@@ -255,8 +246,6 @@ def test_words_behind_the_dashes_belong_to_the_program() -> None:
     _, out, _ = conform(SPEC, *python(source), "--help", "--more", "1", "--", "x")
     assert "    ['--help', '--more', '1', '--', 'x']\n" in out
 
-
-# -- What the guide shows ------------------------------------------------------------------------
 
 GUIDE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
 

@@ -154,8 +154,6 @@ def test_generated_code_silences_no_checker() -> None:
     assert [name for name in generated if silenced.search(texts()[name])] == []
 
 
-# -- Packages, commands and machines ---------------------------------------------------------------
-
 PROJECTS = ("pyproject.toml", "codegen/pyproject.toml")
 BASH = shutil.which("bash")
 
