@@ -8,17 +8,19 @@ EDITION = 1
 """What libraries are generated for today."""
 OLDEST = 1
 """The oldest that this still serves."""
+# As others import it: a library that carries it knows no `framewire`.
+_NAME = __name__.rpartition(".")[0]
 
 
 def refuse_others(edition: int, library: str) -> None:
     """Raise ImportError for a library of an edition that this does not serve."""
     if edition > EDITION:
         raise ImportError(
-            f"{library} was generated for edition {edition} of framewire, and this is {EDITION}: "
-            "install a newer version of what brings framewire"
+            f"{library} was generated for edition {edition} of {_NAME}, and this is {EDITION}: "
+            f"install a newer version of what brings {_NAME}"
         )
     if edition < OLDEST:
         raise ImportError(
-            f"{library} was generated for edition {edition} of framewire, and this serves "
-            f"{OLDEST} to {EDITION}: generate it again, with the framegen of this framewire"
+            f"{library} was generated for edition {edition} of {_NAME}, and this serves "
+            f"{OLDEST} to {EDITION}: generate it again, with the framegen of this {_NAME}"
         )

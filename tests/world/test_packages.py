@@ -339,6 +339,8 @@ def test_the_generator_alone_begins_a_project(
     run(programs / "framegen", "new", "kiln", cwd=tmp_path)
     run(programs / "framegen", "generate", "kiln/spec/kiln.yaml", cwd=tmp_path)
     run(programs / "framegen", "generate", "--check", cwd=tmp_path / "kiln")
+    carried = tmp_path / "kiln" / "generated" / "kiln" / "_runtime"
+    assert "# licence: MIT License\n" in (carried / "VENDORED.txt").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("ending", [".whl", ".tar.gz"])
