@@ -28,14 +28,15 @@ from tests.characterised.surface import surface_rows
 from tests.characterised.talks import client_rows, device_rows, session_rows
 from tests.characterised.texts import lines, normalised
 from tests.characterised.values import error_rows, event_rows, message_rows
-from tests.factories import BUSSERVO, compiled_file, library, library_of, vectors_of
+from tests.factories import FROZEN, compiled_file, library, library_of, vectors_of
 from tests.protocols.specs import FILES
 
 DIGESTS = Path(__file__).parent / "characterised" / "digests.txt"
 # What somebody speaks, and what has names and features that nobody has.
 SPECS = {
-    "busservo": BUSSERVO,
+    "busservo": FROZEN / "busservo.yaml",
     **FILES,
+    "lxservo": FROZEN / "lxservo.yaml",
     **{each.stem: each for each in sorted((Path(__file__).parent / "specs").glob("*.yaml"))},
 }
 

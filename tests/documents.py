@@ -13,6 +13,8 @@ until then, as its entry point does: for most pages, starting it would be most o
 Whatever port a command or a program opens, a virtual board is there: one for the whole page, which
 finds every motion over when the next block begins, as reading takes longer than moving.
 Output may leave lines out with `...`; all else must agree to the letter.
+Pages are played with the specs of tests/specs/frozen, and with libraries of these, so that a new
+message rewrites none. Where they are to show today's, copy spec/*.yaml and spec/released there.
 
     python -m tests.documents
 
@@ -29,28 +31,23 @@ import shutil
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import cached_property, partial
+from importlib import import_module
 from pathlib import Path
 from subprocess import PIPE, STDOUT
+from types import ModuleType
 from typing import Any
 from unittest import mock
 
-import busservo
-import busservo.__main__
 import framegen.cli
-import lxservo
-import lxservo.__main__
-from busservo import open_async_controller, open_controller
-from busservo_simulator import ActionGroup, Step, VirtualController
 from framewire.simulator.clock import RealClock
-from lxservo import open_controller as open_servos
-from lxservo_simulator import VirtualBus
 
+from tests.factories import FROZEN, imported, library_of
 from tests.programs import ran
 from tests.timeouts import GENEROUS, undoubted
 
-ROOT = Path(__file__).parents[1]
+ROOT: Path = Path(__file__).parents[1]
 # tests/unit/simulator/test_guide.py plays the guide to testing, which needs files of its own.
 _GUIDE = ROOT / "docs" / "test-your-robot.md"
 _GUIDES = sorted({*(ROOT / "docs").glob("*.md")} - {_GUIDE})
@@ -61,9 +58,6 @@ TIMEOUTS = {"reply_timeout": GENEROUS, "settle": 0}
 TIMEOUT_OPTIONS = {
     verb: ["--timeout", str(GENEROUS)] for verb in ("bench-line", "conform", "doctor", "send")
 }
-
-# What a page runs is to take no longer than it must.
-GROUPS = {8: ActionGroup([Step(20, {2: 500})])}
 
 # The servos of a bus without a controller, the charge of the board's battery, and the seconds that
 # no motion or group of a page outlasts.
@@ -77,11 +71,9 @@ _CHANGED = (
     *("generated", "runtime", "codegen", "simulator", "tests/witnesses.yaml", "tests/cases.py"),
     *("tests/oracle.py", "tests/contract/test_client_contract.py"),
 )
-_COMMANDS: dict[str, Callable[[Sequence[str]], object]] = {
-    "busservo": busservo.__main__.main,
-    "framegen": framegen.cli.main,
-    "lxservo": lxservo.__main__.main,
-}
+# The libraries that pages use, by the names of their specs, and the commands.
+_LIBRARIES = ("busservo", "lxservo")
+_COMMANDS = ("framegen", *_LIBRARIES)
 _GIT_PROGRAM = shutil.which("git") or "git"
 # Output and errors as a terminal shows them.
 _SCREEN: dict[str, Any] = {"capture_output": False, "stdout": PIPE, "stderr": STDOUT}
@@ -107,7 +99,7 @@ _COMMAND = re.compile(r"^\$ (.*)\n", re.MULTILINE)
 
 def played(page: str, folder: Path, *, slow: bool = False) -> str:
     """Return the page with what its examples really print in `folder`, which they may change."""
-    with _Bench() as bench:
+    with _frozen_libraries(), _Bench() as bench:
         player = _Player(folder, bench)
 
         def really(block: re.Match[str]) -> str:
@@ -123,14 +115,48 @@ def copy_project(folder: Path, page: str) -> Path:
     litter = shutil.ignore_patterns("__pycache__")
     kinds = {kind for kind, _, _ in _BLOCK.findall(page)}
     for name in (*(_READ if kinds else ()), *(_CHANGED if "diff" in kinds else ())):
-        if (ROOT / name).is_dir():
+        if name == "spec":
+            shutil.copytree(FROZEN, folder / name)
+            for file in (ROOT / name).glob("framegen.*"):
+                shutil.copy(file, folder / name)
+        elif (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, folder / name, ignore=litter)
         else:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / name)
+    if "diff" in kinds and _changed():
+        with _at(folder), contextlib.redirect_stdout(None), contextlib.redirect_stderr(None):
+            framegen.cli.main(["generate"])
     if "$ git " in page:
         committed(folder)
     return folder
+
+
+def _changed() -> list[str]:
+    """Return the libraries whose specs are no longer those that pages were written with."""
+    specs = [f"{name}.yaml" for name in _LIBRARIES]
+    same = [(FROZEN / spec).read_bytes() == (ROOT / "spec" / spec).read_bytes() for spec in specs]
+    return [name for name, is_same in zip(_LIBRARIES, same, strict=True) if not is_same]
+
+
+@contextlib.contextmanager
+def _frozen_libraries() -> Iterator[None]:
+    """Have the libraries of these specs in the place of today's, with simulators on top of them."""
+    changed = _changed()
+    with imported(*(library_of(FROZEN / f"{name}.yaml") for name in changed)):
+        packages = {f"{name}_simulator" for name in changed}
+        before = _forgotten(packages)
+        try:
+            yield
+        finally:
+            _forgotten(packages)
+            sys.modules.update(before)
+
+
+def _forgotten(packages: Collection[str]) -> dict[str, ModuleType]:
+    """Have packages imported anew from now on, and return their modules."""
+    names = [name for name in sys.modules if name.partition(".")[0] in packages]
+    return {name: sys.modules.pop(name) for name in names}
 
 
 def committed(folder: Path) -> None:
@@ -167,13 +193,18 @@ class _Bench(contextlib.ExitStack):
         self._clock = _FastClock()
 
     @cached_property
-    def board(self) -> VirtualController:
-        """A board with the stored groups."""
-        return self.enter_context(VirtualController(via="tcp", groups=GROUPS, clock=self._clock))
+    def board(self) -> Any:
+        """A board with a stored group, which takes no longer than it must."""
+        made = import_module("busservo_simulator")
+        groups = {8: made.ActionGroup([made.Step(20, {2: 500})])}
+        board = made.VirtualController(via="tcp", groups=groups, clock=self._clock)
+        return self.enter_context(board)
 
     @cached_property
-    def bus(self) -> VirtualBus:
-        return self.enter_context(VirtualBus(via="tcp", servos=SERVOS, clock=self._clock))
+    def bus(self) -> Any:
+        """A bus of servos."""
+        made = import_module("lxservo_simulator")
+        return self.enter_context(made.VirtualBus(via="tcp", servos=SERVOS, clock=self._clock))
 
     def settle(self) -> None:
         """End all motions, and charge the battery."""
@@ -222,11 +253,12 @@ class _Player:
         def at_board(opened: Callable[..., Any]) -> Callable[..., Any]:
             return lambda _port, **given: opened(self._bench.board.port, **TIMEOUTS | given)
 
+        made = import_module("busservo")
         opening = mock.patch.multiple(
-            busservo,
-            open_controller=at_board(open_controller),
-            open_async_controller=at_board(open_async_controller),
-            Controller=partial(busservo.Controller, reply_timeout=GENEROUS),
+            made,
+            open_controller=at_board(made.open_controller),
+            open_async_controller=at_board(made.open_async_controller),
+            Controller=partial(made.Controller, reply_timeout=GENEROUS),
         )
         with (
             opening,
@@ -250,10 +282,10 @@ class _Player:
         if not self._of_servos:
             return contextlib.nullcontext()
         # At a slow rate: a servo of a busy machine begins to move later, but not as late as that.
-        opened = partial(
-            open_servos, self._bench.bus.port, baud=1200, reply_timeout=GENEROUS, settle=0
-        )
-        return mock.patch.object(lxservo, "open_controller", lambda _port, **given: opened(**given))
+        made = import_module("lxservo")
+        settings = {"baud": 1200, "reply_timeout": GENEROUS, "settle": 0}
+        opened = partial(made.open_controller, self._bench.bus.port, **settings)
+        return mock.patch.object(made, "open_controller", lambda _port, **given: opened(**given))
 
     def _console(self, block: str) -> str:
         before, *parts = _COMMAND.split(block)
@@ -313,7 +345,10 @@ class _Player:
             contextlib.redirect_stdout(screen),
             contextlib.redirect_stderr(screen),
         ):
-            _COMMANDS[name](words)
+            main = (
+                import_module(f"{name}.__main__").main if name in _LIBRARIES else framegen.cli.main
+            )
+            main(words)
         screen.seek(0)
         return screen.read()
 

@@ -9,7 +9,7 @@ from framewire.command.console import visible
 
 from framegen.reading.findings import did_you_mean
 from framegen.reading.yamltree import Unusable
-from framegen.targets.table import TARGETS
+from framegen.targets import table
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -32,23 +32,23 @@ def chosen_targets(root: Path) -> tuple[Target, ...]:
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeError):
-        return TARGETS
+        return table.TARGETS
     if "tool.framegen" not in text:
-        return TARGETS
+        return table.TARGETS
     try:
         names = _names(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
         raise Unusable(f"{visible(str(file))} is not TOML: {error}", hint="correct it") from None
-    return TARGETS if names is None else targets_named(names, _KEY)
+    return table.TARGETS if names is None else targets_named(names, _KEY)
 
 
 def targets_named(names: Iterable[str], where: str) -> tuple[Target, ...]:
     """Return targets in the order of the table. Raises Unusable for a name of none, or no name."""
-    chosen = {named_target(name, TARGETS, where).name for name in names}
+    chosen = {named_target(name, table.TARGETS, where).name for name in names}
     if not chosen:
-        every = ", ".join(target.name for target in TARGETS)
+        every = ", ".join(target.name for target in table.TARGETS)
         raise Unusable(f"{where} names no target", hint=f"name some of {every}")
-    return tuple(target for target in TARGETS if target.name in chosen)
+    return tuple(target for target in table.TARGETS if target.name in chosen)
 
 
 def named_target(name: str, among: Collection[Target], where: str = "") -> Target:
@@ -56,7 +56,7 @@ def named_target(name: str, among: Collection[Target], where: str = "") -> Targe
     targets = {target.name: target for target in among}
     if name in targets:
         return targets[name]
-    if name in {target.name for target in TARGETS}:
+    if name in {target.name for target in table.TARGETS}:
         hint = f"it is not among {_KEY}: add it there"
         raise Unusable(f"this project has no target {name!r}", hint=hint)
     told = f"{where}: " if where else ""

@@ -11,7 +11,7 @@ from framegen.model.codec import encode
 from framegen.model.model import Model
 from framegen.reading.source import Source
 
-from tests.factories import BUSSERVO, ROOT, compiled_file, compiled_of, data_in, data_of
+from tests.factories import BUSSERVO, FROZEN, ROOT, compiled_file, compiled_of, data_in, data_of
 from tests.in_turn import in_turn
 from tests.lines.tallied_line import audited, spoken
 from tests.mutations.places import having
@@ -188,7 +188,7 @@ def test_facts_are_counted_by_what_they_are_known_from(cite: str, seen: set[str]
 
 def test_the_guide_counts_facts_and_questions() -> None:
     guide = (ROOT / "docs" / "audit-a-recording.md").read_text(encoding="utf-8")
-    for file in sorted((ROOT / "spec").glob("*.yaml")):
+    for file in sorted(FROZEN.glob("*.yaml")):
         assert f"\n{evidence(compiled_file(file).model)}\n" in guide
 
 

@@ -94,8 +94,10 @@ CHANGES: dict[str, tuple[list[tuple[str, str]], list[Missing], dict[str, tuple[s
     ),
     "a field": (
         [
-            ("      voltage_mv:\n", f"{FIELD}      voltage_mv:\n"),
-            ("section 1.5\n    length: 4\n", "section 1.5\n    length: 5\n"),
+            (
+                "section 1.5\n    length: 4\n    fields:\n",
+                f"section 1.5\n    length: 5\n    fields:\n{FIELD}",
+            ),
             ("hex: 55 55 04 0F 4C 1D", "hex: 55 55 05 0F 00 4C 1D"),
             ("hex: 55 55 04 0F C9 1E", "hex: 55 55 05 0F 00 C9 1E"),
             ("{voltage_mv: 7500}", "{source: 0, voltage_mv: 7500}"),

@@ -53,7 +53,12 @@ from tests.side_by_side import library_of, linted
 PACKAGE = Path(busservo.__file__).parent
 # Those that import the messages by name; in two, texts have their names.
 TEXTS = {"_command.py", "tables.py"}
-MINE = {kind.__name__ for kind in busservo.MESSAGES} | {"ServoTarget", "ServoPosition"}
+MINE = {kind.__name__ for kind in busservo.MESSAGES}
+MINE |= {
+    items.element.__name__
+    for kind in busservo.MESSAGES
+    if (items := kind.SHAPE.items) is not None and items.element is not None
+}
 MINE |= {"HostMessage", "ControllerMessage"}
 MODULES = sorted(
     path.relative_to(PACKAGE).as_posix()

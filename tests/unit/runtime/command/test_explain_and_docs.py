@@ -157,7 +157,7 @@ def test_a_message_is_found(words: str, names: list[str]) -> None:
 @in_turn(
     "word, hint",
     lambda: [
-        ("ServMove", "similar: ServoMove"),
+        ("ActionGrupStop", "similar: ActionGroupStop, ActionGroupStopped"),
         ("CMD_MULT_SERVO_UNLAOD", "similar: ServoUnload, ServoPositions"),
         ("baterry", "similar: battery"),
         *(
