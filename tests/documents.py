@@ -14,7 +14,7 @@ Whatever port a command or a program opens, a virtual board is there: one for th
 finds every motion over when the next block begins, as reading takes longer than moving.
 Output may leave lines out with `...`; all else must agree to the letter.
 Pages are played with the specs of tests/specs/frozen, and with libraries of these, so that a new
-message rewrites none. Where they are to show today's, copy spec/*.yaml and spec/released there.
+message rewrites none. Where they are to show today's, copy spec/*.yaml there.
 
     python -m tests.documents
 
@@ -34,6 +34,7 @@ import traceback
 from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import cached_property, partial
 from importlib import import_module
+from itertools import product
 from pathlib import Path
 from subprocess import PIPE, STDOUT
 from types import ModuleType
@@ -74,6 +75,8 @@ _CHANGED = (
 # The libraries that pages use, by the names of their specs, and the commands.
 _LIBRARIES = ("busservo", "lxservo")
 _COMMANDS = ("framegen", *_LIBRARIES)
+# The released editions, which never change, of before the specs that pages are played with.
+_EDITIONS = tuple(product(_LIBRARIES, ("1.0.0", "1.0.1")))
 _GIT_PROGRAM = shutil.which("git") or "git"
 # Output and errors as a terminal shows them.
 _SCREEN: dict[str, Any] = {"capture_output": False, "stdout": PIPE, "stderr": STDOUT}
@@ -117,8 +120,10 @@ def copy_project(folder: Path, page: str) -> Path:
     for name in (*(_READ if kinds else ()), *(_CHANGED if "diff" in kinds else ())):
         if name == "spec":
             shutil.copytree(FROZEN, folder / name)
-            for file in (ROOT / name).glob("framegen.*"):
-                shutil.copy(file, folder / name)
+            released = (f"released/{each}-{edition}.yaml" for each, edition in _EDITIONS)
+            for file in ("framegen.schema.json", "framegen.manifest", *released):
+                (folder / name / file).parent.mkdir(exist_ok=True)
+                shutil.copy(ROOT / name / file, folder / name / file)
         elif (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, folder / name, ignore=litter)
         else:
