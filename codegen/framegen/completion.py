@@ -40,6 +40,7 @@ def _candidates(command: str, action: Action) -> Candidates | None:
 
     if command == "framegen rules" and action.metavar == "ID":
         return Words([rule.id for rule in (*RULES, *CHANGE_RULES)])
-    if action.metavar == "NAME" and (command == "framegen targets" or action.dest == "target"):
+    is_target = command == "framegen targets" and action.metavar == "NAME"
+    if is_target or action.dest in {"target", "targets"}:
         return Words([target.name for target in TARGETS])
     return _BY_METAVAR.get(str(action.metavar))

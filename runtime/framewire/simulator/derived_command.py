@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
+from ..client.device import AddressedDevice
 from .command import Simulator
 from .line_faults import LineFaults
 from .line_options import seconds
@@ -32,18 +33,16 @@ def simulator_of(board: type[DerivedDevice]) -> Simulator:
         "its examples, or with those that were set.",
         noun="a device",
         examples=(("--every 0.1", "what it sends unasked, ten messages a second"),),
-        declare=_declare,
+        declare=partial(_declare, board),
         make=partial(_made, board),
     )
 
 
-def _declare(group: Any) -> None:
-    _ADDRESSES.add(
-        group,
-        "addresses",
-        text="the addresses that it answers at, as in 1-3,7, where the protocol has addresses "
-        "(default: all)",
-    )
+def _declare(board: type[DerivedDevice], group: Any) -> None:
+    if issubclass(board, AddressedDevice):
+        _ADDRESSES.add(
+            group, "addresses", text="the addresses that it answers at, as in 1-3,7 (default: all)"
+        )
     group.add_argument(
         "--every",
         type=seconds,
@@ -63,6 +62,6 @@ def _made(
 
     if 0 < arguments.every < _SHORTEST:
         raise ValueError(f"--every {arguments.every:g}: write {_SHORTEST} or more, or 0 for none")
-    device = board(*arguments.addresses)
+    device = board(*getattr(arguments, "addresses", ()))
     device.every = arguments.every
     return VirtualLine(device, via, **line)

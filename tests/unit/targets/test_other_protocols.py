@@ -195,7 +195,7 @@ def test_help_speaks_of_no_verb_and_no_reply_that_there_is_not() -> None:
 
 def test_a_simulator_that_is_installed_takes_the_place_of_the_derived_one(folder: Path) -> None:
     status, shown, _ = command(folder, "greenhouse", "simulate", "--help")
-    assert (status, "--addresses" in shown) == (0, True)
+    assert (status, "--every" in shown) == (0, True)
     package = folder / "greenhouse_simulator"
     package.mkdir()
     (package / "__init__.py").touch()
