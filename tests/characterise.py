@@ -34,9 +34,9 @@ from tests.protocols.specs import FILES
 DIGESTS = Path(__file__).parent / "characterised" / "digests.txt"
 # What somebody speaks, and what has names and features that nobody has.
 SPECS = {
-    "busservo": FROZEN / "busservo.yaml",
+    "busservo": FROZEN["busservo"],
     **FILES,
-    "lxservo": FROZEN / "lxservo.yaml",
+    "lxservo": FROZEN["lxservo"],
     **{each.stem: each for each in sorted((Path(__file__).parent / "specs").glob("*.yaml"))},
 }
 

@@ -13,8 +13,8 @@ until then, as its entry point does: for most pages, starting it would be most o
 Whatever port a command or a program opens, a virtual board is there: one for the whole page, which
 finds every motion over when the next block begins, as reading takes longer than moving.
 Output may leave lines out with `...`; all else must agree to the letter.
-Pages are played with the specs of tests/specs/frozen, and with libraries of these, so that a new
-message rewrites none. Where they are to show today's, copy spec/*.yaml there.
+Pages are played with specs that do not change, `FROZEN`, and with libraries of these, so that a new
+message rewrites none. Where they are to show today's, copy spec/busservo.yaml there.
 
     python -m tests.documents
 
@@ -119,7 +119,9 @@ def copy_project(folder: Path, page: str) -> Path:
     kinds = {kind for kind, _, _ in _BLOCK.findall(page)}
     for name in (*(_READ if kinds else ()), *(_CHANGED if "diff" in kinds else ())):
         if name == "spec":
-            shutil.copytree(FROZEN, folder / name)
+            (folder / name).mkdir()
+            for library, spec in FROZEN.items():
+                shutil.copy(spec, folder / name / f"{library}.yaml")
             released = (f"released/{each}-{edition}.yaml" for each, edition in _EDITIONS)
             for file in ("framegen.schema.json", "framegen.manifest", *released):
                 (folder / name / file).parent.mkdir(exist_ok=True)
@@ -139,16 +141,18 @@ def copy_project(folder: Path, page: str) -> Path:
 
 def _changed() -> list[str]:
     """Return the libraries whose specs are no longer those that pages were written with."""
-    specs = [f"{name}.yaml" for name in _LIBRARIES]
-    same = [(FROZEN / spec).read_bytes() == (ROOT / "spec" / spec).read_bytes() for spec in specs]
-    return [name for name, is_same in zip(_LIBRARIES, same, strict=True) if not is_same]
+    return [
+        name
+        for name, spec in FROZEN.items()
+        if spec.read_bytes() != (ROOT / "spec" / f"{name}.yaml").read_bytes()
+    ]
 
 
 @contextlib.contextmanager
 def _frozen_libraries() -> Iterator[None]:
     """Have the libraries of these specs in the place of today's, with simulators on top of them."""
     changed = _changed()
-    with imported(*(library_of(FROZEN / f"{name}.yaml") for name in changed)):
+    with imported(*(library_of(FROZEN[name]) for name in changed)):
         packages = {f"{name}_simulator" for name in changed}
         before = _forgotten(packages)
         try:
