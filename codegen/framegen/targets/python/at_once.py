@@ -21,7 +21,7 @@ def is_packed_at_once(message: MessageLayout, order: ByteOrder) -> bool:
     numbers, at the end, with its count. No checksum is to be worked out.
     """
     frame, slots = message.frame, [*message.body]
-    if frame.tail or frame.given or not message.arguments:
+    if frame.tail or frame.checksums or frame.given or not message.arguments:
         return False
     if slots and isinstance(slots[-1], Items):
         items = slots.pop()

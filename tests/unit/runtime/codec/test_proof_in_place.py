@@ -147,7 +147,10 @@ VALUES = {"level": 500, "state": 7}
 
 def compiled_frames(**frames: Any) -> Compiled:
     """Compile a spec with these kinds of frames; each message has an example."""
-    data = spec_of(**frames)
+    return exampled(spec_of(**frames))
+
+
+def exampled(data: Any) -> Compiled:
     draft = compiled_values(data).derived
     assert draft is not None
     for name, layout in draft.messages.items():
@@ -198,6 +201,15 @@ def test_a_frame_with_any_byte_changed_is_judged_as_the_reference_judges_it(name
                 events = made.StreamDecoder(direction).feed(frame + bytes(bad))
                 found = [event.encode() for event in events if isinstance(event, made.Message)]
                 assert (bytes(bad) in found) == legal
+
+
+def test_numbers_of_any_value_are_not_packed_without_the_checksum_in_front_of_them() -> None:
+    data = spec_of(one=CASES["in front"][0])
+    del data["messages"]["Level1"]["fields"]["level"]["range"]
+    compiled = exampled(data)
+    with library(render_target(python.TARGET, compiled)) as made:
+        (message,) = compiled.model.messages.values()
+        assert made.Level1(**VALUES).encode() == encode(message, VALUES)
 
 
 def is_legal(compiled: Any, frame: bytes) -> bool:
