@@ -115,6 +115,15 @@ def test_a_servo_is_found_by_asking_all_and_given_a_number(
     assert set(bus.servos) == {1, 3, 9}
 
 
+def test_a_broken_frame_is_met_with_silence(bus: VirtualBus) -> None:
+    frame = lxservo.PositionRead(servo_id=1).encode()
+    bus.transport.write(frame[:-1] + b"\x00")
+    assert bus.transport.read(0.1) == b""
+    assert (bus.accepted, bus.rejected) == (0, 1)
+    bus.transport.write(frame)
+    assert bus.transport.read(0.1) != b""
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pty")
 @pytest.mark.parametrize("echo", [False, True])
 def test_clients_of_others_are_happy_with_it(echo: bool) -> None:

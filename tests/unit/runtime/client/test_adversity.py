@@ -5,6 +5,7 @@ happens, a call ends with the right value or with a declared error, in bounded t
 lives on, so does the client.
 """
 
+import asyncio
 import os
 import socket
 import struct
@@ -30,6 +31,7 @@ from tests.in_turn import in_turn
 from tests.lines.at_board import client_at, virtual_board
 from tests.lines.both_clients import PORT_TALKS, Awaited, Talk, done_at_once, until
 from tests.lines.conversation import again
+from tests.lines.live_line import in_a_loop
 from tests.lines.rfc2217_server import Rfc2217Server
 from tests.timeouts import GENEROUS, LIVE, await_that
 
@@ -216,6 +218,19 @@ def test_close_ends_what_waits_on_a_live_line(board: VirtualController) -> None:
             with pytest.raises(busservo.ClosedError):
                 each.result(GENEROUS)
         assert listening.result(GENEROUS) == []
+
+
+@in_a_loop
+async def test_what_is_cancelled_leaves_a_live_line_usable(board: VirtualController) -> None:
+    async with busservo.open_async_controller(board.port, **LIVE) as controller:
+        for turn in range(20):
+            asking = asyncio.ensure_future(controller.read_servo_positions([1, 2]))
+            moving = asyncio.ensure_future(controller.move_servos([(1, 500)], 0))
+            await asyncio.sleep(0.0005 * turn)
+            asking.cancel()
+            moving.cancel()
+            assert await controller.read_servo_positions([3]) == ((3, 500),)
+            await asyncio.gather(asking, moving, return_exceptions=True)
 
 
 # -------------------------------------------------------------------- ports by other names

@@ -72,6 +72,26 @@ def test_a_motion_is_waited_for_while_others_talk() -> None:
         assert all(motion.remaining == 0.0 for motion in motions)
 
 
+@in_turn("error", lambda: [DisconnectedError, ClosedError])
+@in_turn("latest", lambda: [False, True])
+@in_virtual_time
+async def test_in_a_task_a_line_that_is_lost_or_closed_meanwhile_ends_the_wait(
+    latest: bool, error: type[Exception]
+) -> None:
+    line = VirtualLine()
+    async with client(line, baud=1000) as controller:
+        await controller.move_servos([(1, 500)], 20)
+        motion = await controller.move_servos([(1, 800)], LONG, latest=latest)
+        pending = asyncio.ensure_future(motion.wait())
+        await asyncio.sleep(0)
+        if error is ClosedError:
+            await controller.close()
+        else:
+            line.unplug()
+        with pytest.raises(error):
+            await asyncio.wait_for(pending, GENEROUS)
+
+
 @in_virtual_time
 async def test_a_wait_that_is_cancelled_leaves_the_line_usable() -> None:
     async with client(VirtualLine(answered), **LIVE) as controller:

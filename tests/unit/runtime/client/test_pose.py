@@ -54,6 +54,13 @@ def test_a_position_stays_raw_and_has_its_meaning_beside_it(
             setattr(read, name, 1)
 
 
+def test_silence_while_looking_for_servos_is_an_error() -> None:
+    answered = ServoPositions([(1, 500)])
+    line = VirtualLine(lambda _: [] if line.received[1:] else [answered])
+    with client_of(line) as controller, pytest.raises(busservo.NoReplyError):
+        controller.present_servos(range(1, 100))
+
+
 # ------------------------------------------------------------------ holding, and going back
 def answering(positions: Positions) -> VirtualLine:
     """Return a line to a board that answers every question about positions alike."""

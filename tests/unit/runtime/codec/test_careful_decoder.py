@@ -48,6 +48,15 @@ def test_all_holes_in_all_replies_lose_that_reply_alone() -> None:
                 assert messages_in(careful(line, flushed=True)) == [follows], (torn, follows, lost)
 
 
+@in_turn("follows", lambda: [[ActionGroupStopped()], [REPORT], [ActionGroupStopped(), REPORT]])
+@in_turn("part", lambda: range(8))
+def test_frames_that_fill_a_hole_to_the_byte_are_found(follows: list[Message], part: int) -> None:
+    filling = b"".join(each.encode() for each in follows) + REPORT.encode()[:part]
+    torn = ServoPositions([(servo, 500) for servo in range(1, 7)]).encode()
+    line = torn[: -len(filling)] + filling + REPORT.encode()[part:]
+    assert messages_in(careful(line, flushed=True)) == [*follows, REPORT]
+
+
 def test_a_doubtful_message_is_reported_as_soon_as_possible() -> None:
     decoder = CODEC.careful_decoder(RECEIVED)
     doubtful = BatteryVoltage(0x5555)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from busservo import BatteryVoltage, BatteryVoltageRead
+from busservo import BatteryVoltage, BatteryVoltageRead, ServoUnload
 from busservo.__main__ import main
 from framewire.command import recording
 from framewire.command.progress import Progress
@@ -63,6 +63,14 @@ def test_the_bytes_may_be_words_or_a_file_or_standard_input(tmp_path: Path) -> N
     for words in ways:
         shown = run("decode", "--direction", "host", *words, given=raw.read_bytes())
         assert (shown.status, shown.out) == (0, SHOWN), words
+
+
+def test_long_raw_input_is_read_in_pieces(tmp_path: Path) -> None:
+    recorded = tmp_path / "long.bin"
+    recorded.write_bytes(ServoUnload(range(200)).encode() * 1000)
+    status, output, errors = run("decode", recorded)
+    assert (status, output.count("ServoUnload servo_ids=0,1,2,")) == (0, 1000)
+    assert "1000 messages, 0 bytes of noise" in errors
 
 
 def test_a_pipe_that_pauses_within_a_byte_holds_hex_all_the_same() -> None:

@@ -1,6 +1,7 @@
 """`decode --parquet`, `--arrow`, `--csv-tables`: what the library makes, and nothing by halves."""
 
 import csv
+import io
 import re
 import sys
 from datetime import datetime
@@ -11,6 +12,7 @@ import lxservo
 import lxservo.__main__
 import pytest
 from busservo import ActionGroupStop, Direction, ServoPositions, ServoPositionsRead, tables
+from busservo.__main__ import main
 from framewire.command import csv_tables
 from framewire.command import recording as reading
 from framewire.tables.extra import are_there
@@ -116,6 +118,17 @@ def test_a_csv_table_is_the_same_bytes_everywhere(tmp_path: Path) -> None:
     }
     (row,) = as_rows(folder / "ServoPositionsRead.csv")
     assert datetime.fromisoformat(row["clock"].replace("Z", "+00:00")).timestamp() == 1767344888.75
+
+
+def test_an_arrow_file_of_standard_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Pipe(io.BytesIO):
+        def seekable(self) -> bool:
+            return False
+
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(Pipe(NOISY.read_bytes())))
+    assert main(["decode", "--arrow", str(tmp_path / "a.arrow")]) == 0
+    assert run("decode", NOISY, "--arrow", tmp_path / "b.arrow").status == 0
+    assert (tmp_path / "a.arrow").read_bytes() == (tmp_path / "b.arrow").read_bytes()
 
 
 def test_strict_tells_noise_by_the_exit_status(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """The verbs that send one message, and those that stop and hold what moves."""
 
 import argparse
+import json
 from collections.abc import Mapping
 
 import busservo
@@ -96,6 +97,13 @@ def test_a_move_ends_when_the_motion_is_over_or_is_not_waited_for(board: Virtual
     assert (board.servos[1].position, board.servos[2].position) == (520, 480)
     assert at(board, "move 1:800 --in 60s --no-wait").status == 0
     await_that(lambda: board.servos[1].travelling)
+
+
+def test_positions_of_all_that_answer(board: VirtualController) -> None:
+    status, output, _ = at(board, "positions")
+    assert (status, " ServoPositions positions=1:500,2:500,3:500 |" in output) == (0, True)
+    fields = json.loads(at(board, "positions 2 --json").out)["fields"]
+    assert fields == {"positions": [{"servo_id": 2, "position": 500}]}
 
 
 def test_hold_holds_what_answers_and_names_the_rest(board: VirtualController) -> None:

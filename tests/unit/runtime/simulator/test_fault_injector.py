@@ -6,7 +6,13 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from busservo import ActionGroupCompleted, ActionGroupStarted, ServoPositions, ServoPositionsRead
+from busservo import (
+    ActionGroupCompleted,
+    ActionGroupStarted,
+    BatteryVoltage,
+    ServoPositions,
+    ServoPositionsRead,
+)
 from busservo_simulator import Faults, VirtualController
 from busservo_simulator.faults import CHANCES
 
@@ -114,6 +120,18 @@ def test_a_late_reply_is_overtaken_by_what_is_sent_meanwhile(faulty: Faulty) -> 
     host.say(ServoPositionsRead([1]))
     assert received(host)[:3] == [STOPPED, ServoPositions([(1, 500)]), VOLTAGE]
     assert board.clock.now() >= 1000
+
+
+@in_turn("seconds, reply", lambda: [(0.5, VOLTAGE), (1.5, None)])
+def test_a_late_reply_finds_the_host_that_is_there_by_then(
+    faulty: Faulty, seconds: float, reply: BatteryVoltage | None
+) -> None:
+    board, host = faulty(late=1, late_by=1.0)
+    host.say(ASK)
+    board.unplug()
+    board.advance(seconds)
+    board.plug_in()
+    assert Host(board.open(), board.clock.now, 2).receive() == reply
 
 
 def test_a_cable_that_is_put_back_is_not_cut_by_what_was_due_before(faulty: Faulty) -> None:

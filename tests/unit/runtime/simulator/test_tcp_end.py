@@ -98,6 +98,14 @@ def test_a_host_that_comes_as_another_leaves_is_let_in(size: int) -> None:
     others[0].close()
 
 
+def test_a_host_that_reads_nothing_stops_nobody(board: VirtualController) -> None:
+    host = host_at(board)
+    for _ in range(200):
+        board.send_bytes(bytes(50_000))
+    host.hang_up()
+    assert board.battery.voltage_mv == 7500
+
+
 def test_a_host_that_crashes_makes_room_for_the_next(board: VirtualController) -> None:
     host = connected(board)
     assert_served(host)

@@ -8,10 +8,12 @@ from contextlib import nullcontext
 from typing import Any
 
 import pytest
+from busservo import ServoMove
 from busservo_simulator import VirtualClock, VirtualController
 from framewire.simulator.virtual_loop import VirtualLoop, run_virtual
 
 from tests.in_turn import in_turn
+from tests.lines.hosts import Host
 
 
 def test_a_sleep_moves_the_clock_on_and_takes_no_time() -> None:
@@ -98,3 +100,13 @@ def test_time_does_not_go_back() -> None:
 def test_real_time_cannot_be_moved() -> None:
     with VirtualController() as board, pytest.raises(TypeError, match="VirtualClock"):
         board.advance(1)
+
+
+def test_a_host_that_waits_moves_no_clock_that_is_moved_by_hand() -> None:
+    with VirtualController(clock=VirtualClock()) as board:
+        host = Host(board.transport)
+        host.say(ServoMove(1000, [(1, 900)]))
+        assert host.receive(0.01) is None
+        assert board.servos[1].position == 500
+        board.advance(0.25)
+        assert board.servos[1].position == 600

@@ -100,7 +100,7 @@ CASES = {
     ),
     "never": Case(Faults(dropped=1.0), SILENT),
     "sometimes": Case(
-        Faults(dropped=0.3, seed=6), failed(reply=("not answered", "retries=2 asks"))
+        Faults(dropped=0.5, seed=6), failed(reply=("5 questions 3 not", "retries=2 asks"))
     ),
     "reports": Case(Faults(unsolicited=1.0)),
     "hung up": Case(Faults(hang_up=1.0), LOST | failed(rate=("virtual board: ", "run this again"))),
