@@ -32,6 +32,7 @@ LINE = "55 55 02 07  # 0.5 s, host: ActionGroupStop()\n"
 # The content of a file, and the bytes that it holds, None if it is refused.
 FORMS: dict[str, tuple[bytes, bytes | None]] = {
     "hex": (b"55 55 02 07\n", STOP),
+    "hex that ends in binary digits": (b"55 55 02 0b00000111", STOP),
     "a recording": (LINE.encode(), STOP),
     "hex with a mark": (b"\xef\xbb\xbf55 55 02 07", STOP),
     "hex as PowerShell writes it": ("\ufeff55 55 02 07\r\n".encode("utf-16-le"), STOP),

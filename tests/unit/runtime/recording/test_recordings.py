@@ -188,7 +188,6 @@ def result_of(pieces: list[bytes]) -> tuple[str, list[object], list[Message | No
 
 @given(contents, st.data())
 @example(b"5555020F" * 3, None)
-@example(b"0b01010101 55", None)
 def test_chunking_does_not_change_what_it_holds(content: bytes, data: st.DataObject | None) -> None:
     cuts = [*range(1, len(content))]
     if data is not None:
