@@ -36,7 +36,6 @@ DIGESTS = Path(__file__).parent / "characterised" / "digests.txt"
 SPECS = {
     "busservo": FROZEN["busservo"],
     **FILES,
-    "lxservo": FROZEN["lxservo"],
     **{each.stem: each for each in sorted((Path(__file__).parent / "specs").glob("*.yaml"))},
 }
 

@@ -13,8 +13,8 @@ until then, as its entry point does: for most pages, starting it would be most o
 Whatever port a command or a program opens, a virtual board is there: one for the whole page, which
 finds every motion over when the next block begins, as reading takes longer than moving.
 Output may leave lines out with `...`; all else must agree to the letter.
-Pages are played with specs that do not change, `FROZEN`, and with libraries of these, so that a new
-message rewrites none. Where they are to show today's, copy spec/busservo.yaml there.
+Pages are played with the specs of `FROZEN`, and with libraries of these, so that a new message
+rewrites none. Where they are to show today's, copy spec/busservo.yaml to tests/specs/frozen/spec.
 
     python -m tests.documents
 
@@ -72,11 +72,9 @@ _CHANGED = (
     *("generated", "runtime", "codegen", "simulator", "tests/witnesses.yaml", "tests/cases.py"),
     *("tests/oracle.py", "tests/contract/test_client_contract.py"),
 )
-# The libraries that pages use, by the names of their specs, and the commands.
-_LIBRARIES = ("busservo", "lxservo")
-_COMMANDS = ("framegen", *_LIBRARIES)
+_COMMANDS = ("framegen", *FROZEN)
 # The released editions, which never change, of before the specs that pages are played with.
-_EDITIONS = tuple(product(_LIBRARIES, ("1.0.0", "1.0.1")))
+_EDITIONS = tuple(product(FROZEN, ("1.0.0", "1.0.1")))
 _GIT_PROGRAM = shutil.which("git") or "git"
 # Output and errors as a terminal shows them.
 _SCREEN: dict[str, Any] = {"capture_output": False, "stdout": PIPE, "stderr": STDOUT}
@@ -141,11 +139,8 @@ def copy_project(folder: Path, page: str) -> Path:
 
 def _changed() -> list[str]:
     """Return the libraries whose specs are no longer those that pages were written with."""
-    return [
-        name
-        for name, spec in FROZEN.items()
-        if spec.read_bytes() != (ROOT / "spec" / f"{name}.yaml").read_bytes()
-    ]
+    today = {name: ROOT / "spec" / f"{name}.yaml" for name in FROZEN}
+    return [name for name, file in FROZEN.items() if file.read_bytes() != today[name].read_bytes()]
 
 
 @contextlib.contextmanager
@@ -354,9 +349,7 @@ class _Player:
             contextlib.redirect_stdout(screen),
             contextlib.redirect_stderr(screen),
         ):
-            main = (
-                import_module(f"{name}.__main__").main if name in _LIBRARIES else framegen.cli.main
-            )
+            main = import_module(f"{name}.__main__").main if name in FROZEN else framegen.cli.main
             main(words)
         screen.seek(0)
         return screen.read()

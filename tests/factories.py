@@ -32,8 +32,8 @@ from tests.guide_specs import SPECS
 
 ROOT = Path(__file__).parents[1]
 BUSSERVO = ROOT / "spec" / "busservo.yaml"
-# The specs as they were when guides and what libraries do were last written down: a change of the
-# protocol changes neither. A released edition, which never changes, or else a copy.
+# The specs as they were when guides, and what libraries do, were last written down: a change of the
+# protocol changes neither. A released edition is one, where there is one of that day.
 FROZEN = {
     "busservo": ROOT / "tests" / "specs" / "frozen" / "spec" / "busservo.yaml",
     "lxservo": ROOT / "spec" / "released" / "lxservo-1.0.1.yaml",

@@ -88,7 +88,7 @@ def command_rows(made: ModuleType, vectors: dict[str, Any]) -> Rows:
     messages = {name: those[0] for name, those in by_message(made, vectors).items()}
     noisy = b"\x55".join([*(each.encode() for each in messages.values()), b"\xff"]).hex()
     _write_captures([*messages.values()])
-    yield "command/version", say("--version").replace(made.__version__, "VERSION")
+    yield "command/version", re.sub(r"\d+\.\d+\.\d+", "VERSION", say("--version"))
     yield "command/none", lines([say(), say("nonsense"), say("limits"), say("--nonsense")])
     usage = say("--help")
     yield "command/help", _help(usage)
