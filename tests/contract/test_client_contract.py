@@ -15,15 +15,13 @@ from tests.in_turn import in_turn
 Row: TypeAlias = (
     "tuple[str, tuple[str, ...], str | None, str, tuple[str, ...], tuple[tuple[str, str], ...]]"
 )
-STARTED, COMPLETED = "ActionGroupStarted", "ActionGroupCompleted"
+STARTED, COMPLETED, POSITIONS = "ActionGroupStarted", "ActionGroupCompleted", "ServoPositions"
 ECHO = (("servo_ids", "positions.servo_id"),)
 # The report that says that it was taken; how long it lasts, and how many steps of it make a second.
 RESULTS: dict[str, tuple[str | None, tuple[str, int] | None]] = {
     "ServoMove": (None, ("time_ms", 1000)),
     "ActionGroupRun": (STARTED, None),
 }
-READ_POSITIONS: Row
-READ_POSITIONS = ("read_servo_positions", ("servo_ids",), "ServoPositions", "positions", (), ECHO)
 CONTRACT: dict[str, Row] = {
     "ServoMove": ("move_servos", ("targets", "time_ms"), None, "", (), ()),
     "ActionGroupRun": ("run_action_group", ("group", "times"), None, "", (STARTED, COMPLETED), ()),
@@ -31,7 +29,14 @@ CONTRACT: dict[str, Row] = {
     "ActionGroupSpeed": ("set_action_group_speed", ("group", "percent"), None, "", (), ()),
     "BatteryVoltageRead": ("read_battery_voltage", (), "BatteryVoltage", "voltage_mv", (), ()),
     "ServoUnload": ("unload_servos", ("servo_ids",), None, "", (), ()),
-    "ServoPositionsRead": READ_POSITIONS,
+    "ServoPositionsRead": (
+        "read_servo_positions",
+        ("servo_ids",),
+        POSITIONS,
+        "positions",
+        (),
+        ECHO,
+    ),
 }
 
 
