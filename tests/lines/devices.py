@@ -70,8 +70,19 @@ def is_divided(model: Model) -> bool:
     """Tell whether silence divides frames: they have no header, or a longer one may come."""
     sent = model.sent(model.roles.sent)
     line = ReferenceDecoder(model, [model.roles.sent])
-    frames = (example.hex for message in sent for example in message.message.examples)
+    frames = (frame for message in sent for frame in _any_number(message))
     return not all(each.frame.header for each in sent) or not all(map(line.decode_so_far, frames))
+
+
+def _any_number(message: MessageLayout) -> Iterator[bytes]:
+    """Yield the examples of a message, with each running number that a run may come to."""
+    counter = message.frame.counter
+    for example in message.message.examples:
+        if counter is None:
+            yield example.hex
+        else:
+            numbers = ({**example.values, counter.name: number} for number in range(64))
+            yield from (encode(message, values) for values in numbers)
 
 
 def answers_to(
