@@ -2,7 +2,7 @@
 
     python .ci/release.py [--check] VERSION
 
-The version stands in two places, and this is what changes them. With --check, nothing is changed:
+The version stands in three places, and this is what changes them. With --check, nothing is changed:
 it says whether there can be a release. `make release` does that first, then lints and tests.
 """
 
@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PLACES = (
     ("pyproject.toml", r'^version = "(.*)"$'),
     ("codegen/framegen/__init__.py", r'^__version__ = "(.*)"$'),
+    ("runtime/framewire/edition.py", r'^VERSION = "(.*)"$'),
 )
 CHANGES = "CHANGELOG.md"
 UNRELEASED = re.compile(r"^## \[Unreleased\]\n(.*?)(?=^## \[|\Z)", re.MULTILINE | re.DOTALL)

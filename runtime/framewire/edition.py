@@ -1,9 +1,11 @@
-"""The contract between this and the libraries that are generated for it, as a number.
+"""The version of this, and the contract between it and libraries that are generated, as a number.
 
-It goes up when a library could not work with the runtime of before, or the runtime not with such a
-library: when what one hands to the other changes.
+The number goes up when a library could not work with the runtime of before, or the runtime not with
+such a library: when what one hands to the other changes.
 """
 
+VERSION = "0.1.0"
+"""The version of the release that this is from."""
 EDITION = 1
 """What libraries are generated for today."""
 OLDEST = 1

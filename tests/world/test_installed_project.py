@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from framegen import __version__
 from framegen.cli import main
 
 from tests.programs import ran
@@ -15,6 +16,7 @@ from tests.programs import ran
 # Nothing that is written depends on how long the name is.
 NAMES = ["k", "k" * 30]
 SCRIPTS, EXE = ("Scripts", ".exe") if sys.platform == "win32" else ("bin", "")
+OWN = f"its own runtime {__version__}"
 
 
 def run(*words: object, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -71,7 +73,7 @@ def test_a_project_installs_by_its_readme_and_its_commands_work(tmp_path: Path) 
     kiln = here / f"kiln{EXE}"
     done = run(kiln, "decode", "A5", "5A", "03", "01", "01", "F4", cwd=tmp_path)
     assert done.stdout.endswith("Level level=500 ‰ | A5 5A 03 01 01 F4\n")
-    assert run(kiln, "--version", cwd=tmp_path).stdout == "kiln 0.1.0, spec 0.1.0\n"
+    assert run(kiln, "--version", cwd=tmp_path).stdout == f"kiln 0.1.0, spec 0.1.0, {OWN}\n"
 
     # The version follows the spec.
     spec = project / "spec" / "kiln.yaml"
@@ -81,7 +83,7 @@ def test_a_project_installs_by_its_readme_and_its_commands_work(tmp_path: Path) 
     spec.write_text(text, encoding="utf-8")
     assert main(["generate", str(spec)]) == 0
     run(python, "-m", "pip", "install", "--quiet", "--editable", "./kiln", cwd=tmp_path)
-    assert run(kiln, "--version", cwd=tmp_path).stdout == "kiln 0.2.0, spec 0.2.0\n"
+    assert run(kiln, "--version", cwd=tmp_path).stdout == f"kiln 0.2.0, spec 0.2.0, {OWN}\n"
 
 
 def test_the_wheel_and_the_sdist_of_a_project_need_pyserial_alone(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ GIT = shutil.which("git")
 pytestmark = pytest.mark.skipif(GIT is None, reason="there is no git here")
 FILES = (
     *(".ci/release.py", "CHANGELOG.md", "pyproject.toml", "codegen/pyproject.toml"),
-    "codegen/framegen/__init__.py",
+    *("codegen/framegen/__init__.py", "runtime/framewire/edition.py"),
 )
 
 
@@ -52,6 +52,7 @@ def test_a_release_sets_one_version_and_tags_it(project: Path) -> None:
     assert versions == [
         '__version__ = "7.8.9"',
         'version = "7.8.9"',
+        'VERSION = "7.8.9"',
     ]
     assert "Release 7.8.9" in changed
     assert git(project, "status", "--porcelain") == ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from functools import cached_property
 
-from ..edition import refuse_others
+from ..edition import VERSION, refuse_others
 from ..part import part_of
 
 TYPE_CHECKING = False  # typing alone would double the time that the import takes
@@ -137,6 +137,12 @@ class Library:
 
         file = str(sys.modules[self.package].__file__)
         return version_of(Path(file).absolute().parent, self.protocol_version)
+
+    @property
+    def versions(self) -> str:
+        """Its version, that of the specification, and that of the runtime and how it came."""
+        whose = "its own" if __name__.startswith(f"{self.package}.") else "shared"
+        return f"{self.version}, spec {self.protocol_version}, {whose} runtime {VERSION}"
 
     def protocol(self) -> Protocol:
         """Read all that is known of the protocol, for whoever explains it."""

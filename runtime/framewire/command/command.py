@@ -97,8 +97,7 @@ def _run_none(program: Program, words: Sequence[str]) -> int:
     parser.add_argument("verb", nargs="?", metavar="VERB", help=argparse.SUPPRESS)
     known, _ = parser.parse_known_args(words)
     if known.version:
-        library = program.library
-        print(f"{program.name} {library.version}, spec {library.protocol_version}")
+        print(f"{program.name} {program.library.versions}")
         return DONE
     if known.print_completion is not None:
         module = import_module(".completion", __package__)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from framegen import __version__
 from framegen.language.command_verbs import OF_POSES
 from framegen.render import render_target
 from framegen.targets.vectors import TARGET as VECTORS
@@ -249,7 +250,8 @@ def test_a_copy_beside_what_is_installed_has_the_version_of_its_spec(
 ) -> None:
     install(tmp_path, "7.8.9", origin)
     assert version_of(folder, tmp_path) == "1.1.0"
-    assert command(folder, "greenhouse", "--version") == (0, "greenhouse 1.1.0, spec 1.1.0\n", "")
+    said = f"greenhouse 1.1.0, spec 1.1.0, shared runtime {__version__}\n"
+    assert command(folder, "greenhouse", "--version") == (0, said, "")
 
 
 def test_no_module_is_the_same_in_another_library() -> None:

@@ -55,7 +55,7 @@ def _about(diagnosis: Diagnosis, model: str) -> list[str]:
     library = diagnosis.library
     system = f"{platform.system()} {platform.release()} {platform.machine()}"
     return [
-        f"doctor of {library.package} {library.version}, spec {library.protocol_version}",
+        f"doctor of {library.package} {library.versions}",
         f"device: {model or 'not stated'}",
         f"adapter: {_blinded(diagnosis.adapter, diagnosis) or 'not known'}",
         f"computer: {system}, Python {platform.python_version()}, pyserial {pyserial}",
