@@ -181,10 +181,13 @@ def test_a_missing_extra_is_named(
     monkeypatch.setitem(sys.modules, missing, None)
     # As it is where nothing has imported them yet.
     modules = [f"command.{name}" for name in ("measuring", "drawing", "arrow_tables")]
-    for name in [*sys.modules]:
-        if name.startswith(tuple(f"framewire.{each}" for each in ("tables", *modules))):
-            monkeypatch.delitem(sys.modules, name)
+    forgotten = tuple(f"framewire.{each}" for each in ("tables", *modules))
+    for name in [each for each in sys.modules if each.startswith(forgotten)]:
+        monkeypatch.delitem(sys.modules, name)
     status, output, errors = run(*line.split())
+    # Nor is what was imported meanwhile left beside that of before.
+    for name in [each for each in sys.modules if each.startswith(forgotten)]:
+        del sys.modules[name]
     assert (status, output) == (2, "")
     assert errors.startswith(f"busservo: error: {missing} is needed here, and cannot be imported")
     assert errors.endswith(f"pip install 'busservo[{extra}]'\n")
